@@ -1,0 +1,1 @@
+"""Plans for fleets of mobile robots that go out, work and come home."""

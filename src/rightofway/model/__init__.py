@@ -1,0 +1,43 @@
+"""Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
+
+from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
+from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
+from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
+from rightofway.model.robot import Robot, Stop, TripEnd, Turn
+from rightofway.model.rules import Occupancy, Rules
+from rightofway.model.scenario import Scenario
+from rightofway.model.units import Clock, Tick, VertexId, choose_clock
+
+__all__ = [
+    "Clock",
+    "Decision",
+    "Edge",
+    "Floor",
+    "Grid",
+    "Itinerary",
+    "Obstacle",
+    "Occupancy",
+    "Plan",
+    "PlannerRun",
+    "Reroute",
+    "Roadmap",
+    "Robot",
+    "Rules",
+    "Scenario",
+    "Stage",
+    "Stop",
+    "Tick",
+    "Timing",
+    "Track",
+    "TripEnd",
+    "Turn",
+    "VertexId",
+    "choose_clock",
+    "cluster",
+    "least_dwell",
+    "node_length",
+    "roadmap_of_edges",
+    "roadmap_of_grid",
+    "steps_per_unit",
+]

@@ -1,0 +1,166 @@
+"""The paper's way in: a floor with walls and tables, cut into cells by node clustering.
+
+References
+----------
+Oleiwi, *Optimum path planning for multi mobile robots with speed of work achievement as
+constrain*: "node clustering" makes the cells so small that every robot drives a whole number of
+them in a unit of time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from rightofway.errors import InputError, Problem
+
+__all__ = ["MAX_CELLS", "Floor", "Obstacle", "cluster", "node_length", "steps_per_unit"]
+
+MAX_CELLS = 1_000_000
+"""More cells than this are refused, unless a scenario raises the limit."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Obstacle:
+    """A rectangle that robots cannot enter, sides parallel to the floor's.
+
+    Attributes
+    ----------
+    name
+        For messages; may be empty.
+    x, y
+        Its upper left corner, x to the right and y down [length unit].
+    width, height
+        Its size [length unit], positive.
+    """
+
+    name: str
+    x: Fraction
+    y: Fraction
+    width: Fraction
+    height: Fraction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Floor:
+    """A rectangular floor with obstacles.
+
+    Attributes
+    ----------
+    width, height
+        Its size [length unit], positive.
+    obstacles
+        Walls, tables, machines; may overlap each other and the border.
+
+    Raises
+    ------
+    InputError
+        For a size that is not positive, or an obstacle that lies outside.
+    """
+
+    width: Fraction
+    height: Fraction
+    obstacles: tuple[Obstacle, ...] = ()
+
+    def __post_init__(self) -> None:
+        problems = list(_floor_problems(self))
+        if problems:
+            raise InputError(problems)
+
+
+def _floor_problems(floor: Floor) -> Iterator[Problem]:
+    if floor.width <= 0 or floor.height <= 0:
+        yield Problem("size", f"[{floor.width}, {floor.height}] is not positive (give two lengths)")
+        return
+    for index, obstacle in enumerate(floor.obstacles):
+        place = f"obstacles[{index}].rect"
+        if obstacle.width <= 0 or obstacle.height <= 0:
+            size = f"{obstacle.width} by {obstacle.height}"
+            yield Problem(place, f"is {size}, not positive (give [x, y, width, height])")
+        elif not _reaches(obstacle, floor):
+            yield Problem(place, "lies outside the floor (move it, or take it out)")
+
+
+def _reaches(obstacle: Obstacle, floor: Floor) -> bool:
+    return (
+        -obstacle.width < obstacle.x < floor.width and -obstacle.height < obstacle.y < floor.height
+    )
+
+
+def node_length(speeds: Iterable[Fraction]) -> Fraction:
+    """Return the cell size of node clustering: the least ``1 / v`` of the fleet.
+
+    Examples
+    --------
+    >>> node_length([Fraction(1), Fraction(2)])
+    Fraction(1, 2)
+    """
+    return min(1 / speed for speed in speeds)
+
+
+def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
+    """Return how many cells of that length a robot drives in a unit of time.
+
+    Examples
+    --------
+    >>> [int(steps_per_unit(Fraction(v), Fraction(1, 2))) for v in (1, 2)]
+    [2, 4]
+    """
+    return speed / length
+
+
+def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:
+    """Cut a floor into square cells.
+
+    Parameters
+    ----------
+    floor
+        The floor.
+    cell_size
+        Side of a cell [length unit]; what is left of the floor at its right and lower border is
+        not used.
+    max_cells
+        The most cells to make.
+
+    Returns
+    -------
+    tuple of str
+        The rows of a grid, ``.`` for free and ``@`` where an obstacle covers any part of a cell.
+
+    Raises
+    ------
+    InputError
+        If no cell fits in, or more than ``max_cells`` do.
+    """
+    if cell_size <= 0:
+        raise InputError.at("cell_size", f"{cell_size} is not positive (give a length above 0)")
+    columns, rows = floor.width // cell_size, floor.height // cell_size
+    if not rows * columns:
+        message = (
+            f"{cell_size} is longer than the floor (give at most {min(floor.width, floor.height)})"
+        )
+        raise InputError.at("cell_size", message)
+    if rows * columns > max_cells:
+        raise InputError.at("cell_size", _too_many(rows, columns, cell_size, max_cells))
+    blocked = np.zeros((rows, columns), bool)
+    for obstacle in floor.obstacles:
+        across = _covered(obstacle.x, obstacle.width, cell_size)
+        down = _covered(obstacle.y, obstacle.height, cell_size)
+        blocked[down, across] = True
+    return tuple("".join(row) for row in np.where(blocked, "@", "."))
+
+
+def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
+    first = math.floor(start / cell_size)
+    return slice(max(first, 0), max(math.ceil((start + length) / cell_size), 0))
+
+
+def _too_many(rows: int, columns: int, cell_size: Fraction, max_cells: int) -> str:
+    return (
+        f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
+        f" {max_cells} (give a larger cell_size, bring the speeds closer together, or raise max_cells)"
+    )

@@ -1,0 +1,304 @@
+"""The graph that robots drive on; a grid is a roadmap of unit edges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.model.units import VertexId
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["Edge", "Grid", "Roadmap", "roadmap_of_edges", "roadmap_of_grid"]
+
+FREE = frozenset(".GS")
+"""Grid characters that a robot may stand on; every other one is blocked."""
+
+EAST_SOUTH_WEST_NORTH = ((0, 1), (1, 0), (0, -1), (-1, 0))
+"""Steps in (row, column), in the order that decides between equally short paths."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Grid:
+    """Where the vertices of a roadmap lie on a grid of cells.
+
+    Attributes
+    ----------
+    rows, columns
+        Size of the grid [cells].
+    cell_size
+        Side of a cell [length unit].
+    cells
+        Row-major number of each vertex's cell, increasing; int32, shape (V,).
+    vertex_at
+        The vertex of each cell, -1 where it is blocked; int32, shape (rows * columns,).
+    """
+
+    rows: int
+    columns: int
+    cell_size: Fraction
+    cells: NDArray[np.int32]
+    vertex_at: NDArray[np.int32]
+
+    def lines(self) -> tuple[str, ...]:
+        """Return the grid as text, ``.`` for free and ``@`` for blocked."""
+        text = np.where(self.vertex_at >= 0, ".", "@").reshape(self.rows, self.columns)
+        return tuple("".join(row) for row in text)
+
+    def cell(self, vertex: int) -> tuple[int, int]:
+        """Return the (row, column) of a vertex."""
+        row, column = divmod(int(self.cells[vertex]), self.columns)
+        return row, column
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Roadmap:
+    """A directed graph with edge lengths, in compressed sparse rows.
+
+    Attributes
+    ----------
+    indptr, heads
+        The edges that leave vertex ``v`` are ``indptr[v]`` to ``indptr[v + 1]`` (exclusive) and
+        lead to ``heads`` of those; int32, shapes (V + 1,) and (E,).
+    length_class
+        Index into `lengths` of each edge; int32, shape (E,).
+    lengths
+        The distinct edge lengths [length unit].
+    positions
+        Where to draw each vertex, x to the right and y down; float64, shape (V, 2).
+    labels
+        Names of the vertices, or None on a grid, where they are ``N<row-major number>``.
+    grid
+        The grid this roadmap was cut from, if any.
+    """
+
+    indptr: NDArray[np.int32]
+    heads: NDArray[np.int32]
+    length_class: NDArray[np.int32]
+    lengths: tuple[Fraction, ...]
+    positions: NDArray[np.float64]
+    labels: tuple[str, ...] | None = None
+    grid: Grid | None = None
+    _ids: Mapping[str, int] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        for array in (self.indptr, self.heads, self.length_class, self.positions):
+            array.flags.writeable = False
+        ids = {name: vertex for vertex, name in enumerate(self.labels or ())}
+        object.__setattr__(self, "_ids", ids)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Roadmap):
+            return NotImplemented
+        return (
+            self.lengths == other.lengths
+            and self.labels == other.labels
+            and _same_grid(self.grid, other.grid)
+            and np.array_equal(self.indptr, other.indptr)
+            and np.array_equal(self.heads, other.heads)
+            and np.array_equal(self.length_class, other.length_class)
+            and np.array_equal(self.positions, other.positions)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.n_vertices, self.n_edges, self.lengths))
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return len(self.indptr) - 1
+
+    @property
+    def n_edges(self) -> int:
+        """Number of directed edges."""
+        return len(self.heads)
+
+    def name(self, vertex: int) -> str:
+        """Return the name of a vertex: its label, or ``N<row-major number>`` on a grid."""
+        if self.labels is not None:
+            return self.labels[vertex]
+        return f"N{int(self.grid.cells[vertex]) if self.grid else vertex}"
+
+    def vertex(self, name: str) -> VertexId:
+        """Return the vertex of that name.
+
+        Raises
+        ------
+        KeyError
+            If no free vertex has that name.
+        """
+        if self.labels is not None:
+            return VertexId(self._ids[name])
+        number = name[1:]
+        if not (name.startswith("N") and number.isascii() and number.isdecimal()):
+            raise KeyError(name)
+        if self.grid is None:
+            return self._checked(int(number), name)
+        cell = int(number)
+        vertex = int(self.grid.vertex_at[cell]) if cell < len(self.grid.vertex_at) else -1
+        return self._checked(vertex, name)
+
+    def _checked(self, vertex: int, name: str) -> VertexId:
+        if not 0 <= vertex < self.n_vertices:
+            raise KeyError(name)
+        return VertexId(vertex)
+
+    def edge(self, tail: int, head: int) -> int | None:
+        """Return the index of the edge from ``tail`` to ``head``, or None without one."""
+        for index in range(int(self.indptr[tail]), int(self.indptr[tail + 1])):
+            if self.heads[index] == head:
+                return index
+        return None
+
+
+def _same_grid(one: Grid | None, other: Grid | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return (one.rows, one.columns, one.cell_size) == (
+        other.rows,
+        other.columns,
+        other.cell_size,
+    ) and np.array_equal(one.cells, other.cells)
+
+
+def roadmap_of_grid(lines: Sequence[str], *, cell_size: Fraction = Fraction(1)) -> Roadmap:
+    """Make the roadmap of a grid: a vertex for each free cell, edges to the four next to it.
+
+    Parameters
+    ----------
+    lines
+        The rows, all of one length. ``.``, ``G`` and ``S`` are free, everything else is blocked.
+    cell_size
+        Side of a cell, and so the length of every edge [length unit].
+
+    Raises
+    ------
+    InputError
+        For an empty or ragged grid, or one without a free cell.
+    """
+    _check_lines(lines)
+    free = np.array([[character in FREE for character in line] for line in lines])
+    if not free.any():
+        raise InputError.at("", f"no free cell in {free.size} (free cells are . G S)")
+    rows, columns = free.shape
+    cells = np.flatnonzero(free).astype(np.int32)
+    vertex_at = np.full(rows * columns, -1, np.int32)
+    vertex_at[cells] = np.arange(len(cells), dtype=np.int32)
+    neighbours = _neighbours(vertex_at.reshape(rows, columns), free)
+    present = neighbours >= 0
+    cells.flags.writeable = vertex_at.flags.writeable = False
+    y, x = np.divmod(cells, columns)
+    return Roadmap(
+        indptr=np.concatenate(([0], np.cumsum(present.sum(axis=1)))).astype(np.int32),
+        heads=neighbours[present],
+        length_class=np.zeros(int(present.sum()), np.int32),
+        lengths=(Fraction(cell_size),),
+        positions=np.column_stack((x, y)).astype(np.float64) * float(cell_size),
+        grid=Grid(
+            rows=rows, columns=columns, cell_size=Fraction(cell_size), cells=cells,
+            vertex_at=vertex_at,
+        ),
+    )  # fmt: skip
+
+
+def _check_lines(lines: Sequence[str]) -> None:
+    if not lines or not lines[0]:
+        raise InputError.at("", "the grid is empty (give at least one row of one cell)")
+    width = len(lines[0])
+    for row, line in enumerate(lines):
+        if len(line) != width:
+            message = f"{len(line)} cells, but row 0 has {width} (make all rows equally long)"
+            raise InputError.at(f"[{row}]", message)
+
+
+def _neighbours(vertex_at: NDArray[np.int32], free: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Return the vertex east, south, west and north of each vertex, -1 for none; shape (V, 4)."""
+    framed = np.pad(vertex_at, 1, constant_values=-1)
+    rows, columns = vertex_at.shape
+    return np.column_stack(
+        [
+            framed[1 + down : 1 + down + rows, 1 + right : 1 + right + columns][free]
+            for down, right in EAST_SOUTH_WEST_NORTH
+        ]
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edge:
+    """A way from one named vertex to another.
+
+    Attributes
+    ----------
+    tail, head
+        Names of the vertices it leaves and enters.
+    length
+        Its length [length unit], positive.
+    """
+
+    tail: str
+    head: str
+    length: Fraction
+
+
+def roadmap_of_edges(
+    positions: Mapping[str, tuple[float, float]], edges: Sequence[Edge]
+) -> Roadmap:
+    """Make a roadmap of named vertices and directed edges.
+
+    Parameters
+    ----------
+    positions
+        Name and (x, y) of every vertex [length unit], y downwards; the order gives the vertex ids.
+    edges
+        Directed edges; their order decides between equally short paths.
+
+    Raises
+    ------
+    InputError
+        For no vertex, an edge from or to nowhere, to itself, of no length, or given twice.
+    """
+    ids = {name: vertex for vertex, name in enumerate(positions)}
+    _check_edges(ids, edges)
+    lengths = tuple(sorted({edge.length for edge in edges}))
+    class_of = {length: index for index, length in enumerate(lengths)}
+    ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
+    degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
+    return Roadmap(
+        indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
+        heads=np.array([ids[edge.head] for edge in ordered], np.int32),
+        length_class=np.array([class_of[edge.length] for edge in ordered], np.int32),
+        lengths=lengths,
+        positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2),
+        labels=tuple(positions),
+    )
+
+
+def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
+    if not ids:
+        raise InputError.at("", "the roadmap has no vertex (give at least one)")
+    seen: set[tuple[str, str]] = set()
+    for index, edge in enumerate(edges):
+        fault = _edge_fault(edge, ids, seen)
+        if fault:
+            raise InputError.at(f"edges[{index}]", fault)
+        seen.add((edge.tail, edge.head))
+
+
+def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) -> str | None:
+    for end in (edge.tail, edge.head):
+        if end not in ids:
+            return f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
+    if edge.tail == edge.head:
+        return f"leads from {edge.tail!r} to itself (take it out)"
+    if edge.length <= 0:
+        return f"length {edge.length} is not positive (give a length above 0)"
+    if (edge.tail, edge.head) in seen:
+        return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
+    return None

@@ -1,0 +1,43 @@
+"""What holds for the whole fleet: occupancy, headway, turning, the way back, laps, rotations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from rightofway.model.robot import TripEnd, Turn
+
+__all__ = ["Occupancy", "Rules"]
+
+Occupancy = Literal["one", "both"]
+"""What a moving robot books: the vertex it leaves (``one``), or the one it drives to as well."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rules:
+    """The rules of a scenario; the defaults are those of the paper.
+
+    Attributes
+    ----------
+    occupancy
+        ``one``: a robot books a vertex from when it enters. ``both``: from when it starts to drive
+        there, as real fleets do.
+    headway
+        Least time between one robot leaving a vertex and the next entering it [time unit].
+    turn
+        Turning time at each stop. None means ``cell`` on a grid and 0 on other roadmaps.
+    ends
+        Whether robots return home.
+    laps
+        How often each robot makes its round trip.
+    rotations
+        Whether three or more robots may move round a circle all at one instant.
+    """
+
+    occupancy: Occupancy = "one"
+    headway: Fraction = Fraction(0)
+    turn: Turn | None = None
+    ends: TripEnd = "home"
+    laps: int = 1
+    rotations: bool = True

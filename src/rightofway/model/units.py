@@ -1,0 +1,77 @@
+"""Integer ticks, exact fractions and how the one becomes the other.
+
+A *tick* is the only unit of time inside the program. What users write (speeds, lengths, times) are
+exact fractions of their own units; `choose_clock` finds the tick that makes every duration of a
+scenario a whole number.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, NewType
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["MAX_TICKS_OF_SHORTEST", "Clock", "Tick", "VertexId", "choose_clock"]
+
+Tick = NewType("Tick", int)
+VertexId = NewType("VertexId", int)
+
+MAX_TICKS_OF_SHORTEST = 1000
+"""The shortest duration of a fleet is at most this many ticks long."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Clock:
+    """How long a tick is.
+
+    Attributes
+    ----------
+    tick
+        Length of one tick [the scenario's time unit].
+    exact
+        Whether every duration of the fleet is a whole number of ticks. If not, durations are
+        rounded up, so that no robot is asked to go faster than it can.
+    """
+
+    tick: Fraction
+    exact: bool = True
+
+    def ticks(self, duration: Fraction) -> Tick:
+        """Return the least number of ticks that lasts at least ``duration`` [time unit]."""
+        return Tick(math.ceil(duration / self.tick))
+
+    def time(self, ticks: int) -> Fraction:
+        """Return how long ``ticks`` last [time unit]."""
+        return ticks * self.tick
+
+
+def choose_clock(durations: Iterable[Fraction]) -> Clock:
+    """Return the clock with the largest tick that makes every duration exact.
+
+    Parameters
+    ----------
+    durations
+        All durations of a fleet [time unit]; zeros do not count.
+
+    Notes
+    -----
+    Where the shortest duration would be longer than `MAX_TICKS_OF_SHORTEST` ticks, the tick is that
+    fraction of it and the clock is not exact. Without any positive duration the tick is one unit.
+    """
+    positive = {duration for duration in durations if duration > 0}
+    if not positive:
+        return Clock(tick=Fraction(1))
+    tick = _greatest_common_divisor(positive)
+    shortest = min(positive)
+    if shortest / tick > MAX_TICKS_OF_SHORTEST:
+        return Clock(tick=shortest / MAX_TICKS_OF_SHORTEST, exact=False)
+    return Clock(tick=tick)
+
+
+def _greatest_common_divisor(fractions: Iterable[Fraction]) -> Fraction:
+    numerators, denominators = zip(*((f.numerator, f.denominator) for f in fractions), strict=True)
+    return Fraction(math.gcd(*numerators), math.lcm(*denominators))
