@@ -162,5 +162,5 @@ def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
 def _too_many(rows: int, columns: int, cell_size: Fraction, max_cells: int) -> str:
     return (
         f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
-        f" {max_cells} (give a larger cell_size, bring the speeds closer together, or raise max_cells)"
+        f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
     )

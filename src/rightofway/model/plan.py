@@ -79,7 +79,8 @@ class Decision:
         How much later it leaves there by this decision [ticks].
     level
         ``node``: fewer conflicts were left in the whole system. ``robot``: as many were left, but
-        both achieve their work sooner. ``only``: the other choice was impossible.
+        both achieve their work sooner. ``settled``: the other choice would have met robots that
+        are settled already. ``only``: the other choice was impossible.
     conflicts_left
         Conflicts left in the system if i waits, and if j waits; None where that was impossible.
     completion_sums
@@ -94,7 +95,7 @@ class Decision:
     waits: int
     waits_at: VertexId
     ticks: Tick
-    level: Literal["node", "robot", "only"]
+    level: Literal["node", "robot", "settled", "only"]
     conflicts_left: tuple[int | None, int | None]
     completion_sums: tuple[int | None, int | None] | None = None
 

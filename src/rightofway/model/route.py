@@ -1,0 +1,75 @@
+"""Where one robot goes: an ordered list of visits, each with a least dwell; no times yet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rightofway.model.itinerary import Itinerary, Stage, least_dwell
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.units import Tick, VertexId
+
+__all__ = ["Route", "route_along"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Route:
+    """The visits of one robot.
+
+    Attributes
+    ----------
+    vertices
+        Where each visit is.
+    dwell
+        How long each visit lasts at least, without the drive that follows [ticks].
+    drive
+        Ticks of the edge driven into each visit; 0 for the first.
+    """
+
+    vertices: tuple[VertexId, ...]
+    dwell: tuple[Tick, ...]
+    drive: tuple[Tick, ...]
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    def least(self, visit: int) -> Tick:
+        """Return the least ticks from a visit's enter to the next one's (or to completion)."""
+        last = visit == len(self.vertices) - 1
+        return Tick(self.dwell[visit] + (0 if last else self.drive[visit + 1]))
+
+
+def route_along(
+    roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[VertexId]]
+) -> Route:
+    """Join paths into a route.
+
+    Parameters
+    ----------
+    roadmap
+        The graph the paths run on.
+    itinerary
+        What the robot has to do.
+    legs
+        One path for each stage, from where the stage before it is (or home) to its own vertex, both
+        included. A stage at the vertex where the robot already is has a leg of that one vertex.
+    """
+    vertices = [itinerary.home]
+    served: list[list[Stage]] = [[]]
+    for stage, leg in zip(itinerary.stages, legs, strict=True):
+        vertices += leg[1:]
+        served += [[] for _ in leg[1:]]
+        served[-1].append(stage)
+    last = len(vertices) - 1
+    dwell = [least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served)]
+    drive = [
+        _edge_ticks(roadmap, itinerary, tail, head)
+        for tail, head in zip(vertices, vertices[1:], strict=False)
+    ]
+    return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
+
+
+def _edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: VertexId, head: VertexId) -> Tick:
+    edge = roadmap.edge(tail, head)
+    assert edge is not None, "a leg follows edges"
+    return itinerary.edge_ticks[roadmap.length_class[edge]]

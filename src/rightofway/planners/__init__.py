@@ -1,0 +1,16 @@
+"""Ways to choose routes and right of way; each planner is one module and one registry line."""
+
+from rightofway.planners.registry import DEFAULT, Option, PlannerSpec, find, registered
+from rightofway.planners.task import Deadline, Draft, Planner, Task
+
+__all__ = [
+    "DEFAULT",
+    "Deadline",
+    "Draft",
+    "Option",
+    "Planner",
+    "PlannerSpec",
+    "Task",
+    "find",
+    "registered",
+]

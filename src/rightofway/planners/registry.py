@@ -1,0 +1,133 @@
+"""Which planners there are, and what each can be told; ours and those of other packages."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import Any, cast
+
+from rightofway.errors import InputError
+from rightofway.planners.task import Planner
+
+__all__ = ["DEFAULT", "Option", "PlannerSpec", "find", "registered"]
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """Something a planner can be told.
+
+    Attributes
+    ----------
+    name
+        As in ``--option name=value``.
+    choices
+        The values it may have, the default first.
+    summary
+        What it does, in a sentence.
+    """
+
+    name: str
+    choices: tuple[str, ...]
+    summary: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlannerSpec:
+    """A planner by name; its module is imported when it is first needed.
+
+    Attributes
+    ----------
+    name
+        As in ``--planner``: the published name in lower case.
+    target
+        ``module:function``; the function is a `Planner`.
+    summary
+        What it does, in a sentence.
+    options
+        What it can be told.
+    """
+
+    name: str
+    target: str
+    summary: str
+    options: tuple[Option, ...] = ()
+
+    def load(self) -> Planner:
+        """Import the planner."""
+        module, function = self.target.split(":")
+        return cast("Planner", getattr(import_module(module), function))
+
+    def settle(self, given: Mapping[str, Any]) -> dict[str, str]:
+        """Return a value for every option: the given ones, and defaults for the rest.
+
+        Raises
+        ------
+        InputError
+            For an option or a value that the planner does not know.
+        """
+        known = {option.name: option for option in self.options}
+        for name in given:
+            if name not in known:
+                raise InputError.at(f"option {name}", _unknown(name, self.name, list(known)))
+        return {
+            option.name: _value(option, str(given.get(option.name, option.choices[0])))
+            for option in self.options
+        }
+
+
+PLANNERS = (
+    PlannerSpec(
+        "two-level",
+        "rightofway.planners.two_level:two_level",
+        "The paper's method: right of way by collisions left, then by work achieved sooner.",
+        (
+            Option(
+                "swaps",
+                ("resolve", "leave"),
+                "Keep robots that meet head-on apart, or leave swaps in as the paper does.",
+            ),
+        ),
+    ),
+)
+
+DEFAULT = "two-level"
+"""What ``auto`` stands for."""
+
+
+def registered() -> dict[str, PlannerSpec]:
+    """Return every planner by name: ours, then those of other packages."""
+    specs = {spec.name: spec for spec in PLANNERS}
+    for point in entry_points(group="rightofway.planners"):
+        specs.setdefault(point.name, cast("PlannerSpec", point.load()))
+    return specs
+
+
+def find(name: str) -> PlannerSpec:
+    """Return the planner of that name; ``auto`` is the default.
+
+    Raises
+    ------
+    InputError
+        If there is none; names the nearest.
+    """
+    specs = registered()
+    wanted = DEFAULT if name == "auto" else name
+    if wanted not in specs:
+        raise InputError.at("planner", _unknown(name, "rightofway", ["auto", *specs]))
+    return specs[wanted]
+
+
+def _unknown(name: str, owner: str, known: list[str]) -> str:
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]!r}? " if near else ""
+    return f"{name!r} is unknown to {owner} ({hint}known: {', '.join(known) or 'none'})"
+
+
+def _value(option: Option, given: str) -> str:
+    if given not in option.choices:
+        message = f"{given!r} is not a choice (give one of: {', '.join(option.choices)})"
+        raise InputError.at(f"option {option.name}", message)
+    return given

@@ -1,0 +1,111 @@
+"""Sending robots another way, one at a time, where waiting on fixed routes opens no deadlock."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable
+
+from rightofway.errors import GaveUp
+from rightofway.model import Tick, Track
+from rightofway.planners.routing import shortest_route
+from rightofway.planners.task import Task, planning_headway
+from rightofway.search import Booking, Bookings, Distances, earliest_track
+
+__all__ = ["reroute"]
+
+TRIES_PER_ROBOT = 20
+"""How often robots may be sent another way, per robot of the fleet, before giving up."""
+
+START_HOLD = 4
+"""For how many of its slowest edges the home of a robot without a track is kept free."""
+
+
+class _Floor:
+    """Who has a track, what is booked, and who still waits for a track."""
+
+    def __init__(self, task: Task, distances: Distances, tracks: dict[int, Track]) -> None:
+        scenario = task.scenario
+        self.task = task
+        self.distances = distances
+        self.itineraries = scenario.timing.itineraries
+        self.tracks = tracks
+        self.bookings = Bookings(
+            scenario.roadmap, planning_headway(scenario), scenario.rules.occupancy == "both"
+        )
+        for robot, track in tracks.items():
+            self.bookings.add(robot, track, self.itineraries[robot])
+
+    def hold_home(self, robot: int) -> None:
+        """Keep the home of a robot without a track free for a while, so that it can leave."""
+        itinerary = self.itineraries[robot]
+        booked = self.bookings.at(itinerary.home)
+        hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
+        end = min([hold, *(booking.start for booking in booked)])
+        if end > 0:
+            self.bookings.book(itinerary.home, Booking(Tick(0), end, robot))
+
+    def place(self, robot: int) -> bool:
+        """Give a robot its earliest track among the others, if there is one."""
+        self.bookings.remove(robot)
+        itinerary = self.itineraries[robot]
+        track = earliest_track(itinerary, self.bookings, self.distances)
+        if track is None:
+            return False
+        self.tracks[robot] = track
+        self.bookings.add(robot, track, itinerary)
+        return True
+
+    def evict(self, robots: Iterable[int]) -> list[int]:
+        """Take back the tracks of some robots; they need new ones."""
+        evicted = sorted(robot for robot in robots if self.tracks.pop(robot, None) is not None)
+        for robot in evicted:
+            self.bookings.remove(robot)
+        return evicted
+
+    def blockers(self, robot: int) -> set[int]:
+        """Return the robots in the way of this one on its shortest route without waits."""
+        itinerary = self.itineraries[robot]
+        route = shortest_route(itinerary, self.distances)
+        enter = [0]
+        for visit in range(len(route) - 1):
+            enter.append(enter[-1] + route.least(visit))
+        track = Track.of(route.vertices, enter)
+        return self.bookings.in_the_way(robot, track, itinerary)
+
+
+def reroute(
+    task: Task, distances: Distances, tracks: dict[int, Track], aside: list[int]
+) -> list[int]:
+    """Give robots without a track one among the others, in order; add them to ``tracks``.
+
+    A robot that finds no way takes back the tracks of those in its way, and they follow it.
+
+    Returns
+    -------
+    list of int
+        All robots whose way was changed, in the order of the fleet.
+
+    Raises
+    ------
+    GaveUp
+        After a bounded number of tries, or when time ran out.
+    """
+    floor = _Floor(task, distances, tracks)
+    waiting, changed = deque(aside), set(aside)
+    for robot in aside:
+        floor.hold_home(robot)
+    tries = TRIES_PER_ROBOT * len(floor.itineraries)
+    while waiting:
+        task.deadline.check("sending robots another way")
+        tries -= 1
+        if tries < 0:
+            raise GaveUp("no way was found round a deadlock (a plan may exist; try another planner)")
+        robot = waiting.popleft()
+        if floor.place(robot):
+            continue
+        evicted = floor.evict(floor.blockers(robot)) or floor.evict(list(tracks))
+        waiting.extend([robot, *evicted] if not floor.place(robot) else evicted)
+        changed |= set(evicted)
+        for other in evicted:
+            floor.hold_home(other)
+    return sorted(changed)

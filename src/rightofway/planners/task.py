@@ -1,0 +1,109 @@
+"""What a planner is given, and what it hands back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from rightofway.errors import GaveUp
+from rightofway.model import Decision, Reroute, Scenario, Tick, Track
+
+__all__ = ["Deadline", "Draft", "Planner", "Task", "planning_headway"]
+
+
+@dataclass(frozen=True, slots=True)
+class Deadline:
+    """A moment on the monotonic clock [s]; None never comes."""
+
+    at: float | None = None
+
+    @classmethod
+    def after(cls, seconds: float | None) -> Deadline:
+        """Return the deadline that many seconds from now."""
+        return cls(None if seconds is None else time.monotonic() + seconds)
+
+    def check(self, doing: str) -> None:
+        """Raise `GaveUp` if the moment has come.
+
+        Raises
+        ------
+        GaveUp
+            Saying what the planner was doing.
+        """
+        if self.at is not None and time.monotonic() > self.at:
+            raise GaveUp(f"time ran out while {doing} (give a longer --time-limit)")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Task:
+    """A scenario and the means to plan it.
+
+    Attributes
+    ----------
+    scenario
+        The problem.
+    options
+        Every option of the planner, defaults filled in.
+    seed
+        For planners that draw at random.
+    deadline
+        When to stop.
+    report
+        Takes a sentence on progress.
+    """
+
+    scenario: Scenario
+    options: Mapping[str, Any] = field(default_factory=dict)
+    seed: int = 0
+    deadline: Deadline = Deadline()
+    report: Callable[[str], None] = lambda _: None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Draft:
+    """What a planner found, before the judge has seen it.
+
+    Attributes
+    ----------
+    tracks
+        One for each robot.
+    status
+        What the planner did, for people.
+    decisions, reroutes
+        As in `PlannerRun`.
+    keeps_swaps
+        Whether swaps were left in because the options asked for it.
+    """
+
+    tracks: tuple[Track, ...]
+    status: str
+    decisions: tuple[Decision, ...] = ()
+    reroutes: tuple[Reroute, ...] = ()
+    keeps_swaps: bool = False
+
+
+class Planner(Protocol):
+    """Anything that turns a task into a draft."""
+
+    def __call__(self, task: Task, /) -> Draft:
+        """Plan.
+
+        Raises
+        ------
+        NoPlanExists
+            If it is proven that there is no plan.
+        GaveUp
+            If none was found.
+        """
+        ...
+
+
+def planning_headway(scenario: Scenario) -> Tick:
+    """Return the headway to plan with [ticks].
+
+    Where rotations are forbidden it is at least one tick: a vertex that is never entered at the
+    very instant it is left cannot be part of a rotation.
+    """
+    return Tick(max(scenario.timing.headway, 0 if scenario.rules.rotations else 1))

@@ -1,0 +1,170 @@
+"""The precedence graph: routes, rights of way between their visits, and the earliest times.
+
+Every visit is a node, its enter the time. An arc leads from a visit to the next one of its robot,
+as long as the visit lasts at least. A *right of way* at a vertex is one more arc: the visit that
+goes second enters no earlier than the first one has left (and the headway is over). The timetable
+is the longest path to each node; a cycle of positive length is a deadlock and is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from rightofway import _core
+from rightofway.model import Route, Tick, Track, VertexId
+
+__all__ = ["Meeting", "PrecedenceGraph", "Visit"]
+
+Visit = int
+"""A visit's number in the graph: the robots' routes one behind the other."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Meeting:
+    """A conflict that the timetable still holds.
+
+    Attributes
+    ----------
+    tick
+        When the robots meet [ticks].
+    kind
+        ``vertex`` or ``swap``.
+    robots
+        The two robots (i, j), i < j.
+    visits
+        Their visits to one vertex: in a vertex conflict the overlapping ones; in a swap, i's visit
+        to the vertex that it enters and j's to the same vertex, which it leaves.
+    """
+
+    tick: Tick
+    kind: Literal["vertex", "swap"]
+    robots: tuple[int, int]
+    visits: tuple[Visit, Visit]
+
+
+class PrecedenceGraph:
+    """Fixed routes with the rights of way decided so far.
+
+    Parameters
+    ----------
+    routes
+        One for each robot.
+    headway
+        Ticks that a vertex stays booked after it was left.
+    books_ahead
+        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    forbid_swaps
+        Whether a swap counts as a conflict (the published method does not see them).
+    active
+        The robots that take part; all by default. The others are as if they were not there.
+    """
+
+    def __init__(
+        self,
+        routes: Sequence[Route],
+        *,
+        headway: Tick,
+        books_ahead: bool,
+        forbid_swaps: bool = True,
+        active: Sequence[bool] | None = None,
+    ) -> None:
+        self.routes = tuple(routes)
+        lengths = [len(route) for route in routes]
+        self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
+        self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
+        drive = [ticks for route in routes for ticks in route.drive]
+        self._kernel = _core.PrecedenceGraph(
+            self._first,
+            np.array([vertex for route in routes for vertex in route.vertices], np.int32),
+            np.array(
+                [route.least(visit) for route in routes for visit in range(len(route))], np.int64
+            ),
+            np.array(drive if books_ahead else [0] * len(drive), np.int64),
+            int(headway),
+            forbid_swaps,
+            np.array([True] * len(routes) if active is None else active, np.uint8),
+        )
+
+    def visit(self, robot: int, index: int) -> Visit:
+        """Return the number of the ``index``-th visit of a robot."""
+        return int(self._first[robot]) + index
+
+    def place(self, visit: Visit) -> tuple[int, int]:
+        """Return the robot that a visit belongs to, and its index in that robot's route."""
+        robot: int = self._robot[visit]
+        return robot, visit - int(self._first[robot])
+
+    def vertex(self, visit: Visit) -> VertexId:
+        """Return where a visit is."""
+        robot, index = self.place(visit)
+        return self.routes[robot].vertices[index]
+
+    def give_way(self, first: Visit, second: Visit) -> bool:
+        """Let ``first`` have the right of way over ``second``, a visit to the same vertex.
+
+        Returns
+        -------
+        bool
+            False, with nothing changed, if that is impossible: ``first`` never leaves, ``second``
+            is there from the start, or the two would deadlock with what is decided already.
+        """
+        return self._kernel.precede(first, second)
+
+    def rights_of_way(self) -> list[tuple[Visit, Visit]]:
+        """Return all (first, second) in the order they were given."""
+        return [(first, second) for first, second in self._kernel.rights_of_way().tolist()]
+
+    def checkpoint(self) -> int:
+        """Return a mark to roll back to."""
+        return self._kernel.checkpoint()
+
+    def rollback(self, mark: int) -> None:
+        """Take back every right of way given since the mark."""
+        self._kernel.rollback(mark)
+
+    def conflicts_left(self) -> int:
+        """Return the conflicts in the whole system: ticks of overlap, and swaps."""
+        return self._kernel.conflicts()
+
+    def conflicts_of(self, robot: int, others: Sequence[int]) -> int:
+        """Return the conflicts of one robot with some others."""
+        mask = np.zeros(len(self.routes), np.uint8)
+        mask[list(others)] = 1
+        return self._kernel.conflicts_of(robot, mask)
+
+    def next_meeting(self) -> Meeting | None:
+        """Return the earliest conflict in the system, or None."""
+        return self._meeting(self._kernel.next_conflict())
+
+    def next_meeting_of(self, i: int, j: int) -> Meeting | None:
+        """Return the earliest conflict of two robots, or None."""
+        return self._meeting(self._kernel.next_conflict_between(i, j))
+
+    def _meeting(self, found: tuple[int, int, int, int] | None) -> Meeting | None:
+        if found is None:
+            return None
+        tick, kind, one, other = found
+        robots = (self._robot[one], self._robot[other])
+        if kind:  # a swap is told by the two visits entered; the other has just left one's vertex
+            return Meeting(tick=Tick(tick), kind="swap", robots=robots, visits=(one, other - 1))
+        return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(one, other))
+
+    def completion(self, robot: int) -> Tick:
+        """Return when a robot has done its work and is where it ends."""
+        return Tick(self._kernel.completion(robot) + self.routes[robot].dwell[-1])
+
+    def enter(self, visit: Visit) -> Tick:
+        """Return when a visit begins [ticks]."""
+        return Tick(int(self._kernel.enter()[visit]))
+
+    def tracks(self) -> list[Track]:
+        """Return the timetable: the earliest track of each robot."""
+        parts = np.split(self._kernel.enter(), self._first[1:-1])
+        return [
+            Track(vertices=np.array(route.vertices, np.int32), enter=enter)
+            for route, enter in zip(self.routes, parts, strict=True)
+        ]

@@ -1,0 +1,7 @@
+"""Shortest distances and searches for one robot, with and without others in the way."""
+
+from rightofway.search.bookings import FOREVER, Booking, Bookings
+from rightofway.search.distances import Distances
+from rightofway.search.sipp import earliest_track
+
+__all__ = ["FOREVER", "Booking", "Bookings", "Distances", "earliest_track"]

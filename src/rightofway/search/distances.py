@@ -1,0 +1,96 @@
+"""Shortest distances to a target, computed when first asked for and shared by all who ask."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway import _core
+from rightofway.model import Itinerary, Roadmap, Tick, VertexId
+
+__all__ = ["Distances"]
+
+type_of_table = NDArray[np.int32]
+
+
+class Distances:
+    """Tables of the least ticks from every vertex to a target.
+
+    Parameters
+    ----------
+    roadmap
+        The graph that robots drive on.
+
+    Notes
+    -----
+    Robots of one speed that go to one target share one table.
+    """
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self.roadmap = roadmap
+        self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
+
+    @cached_property
+    def _kernel(self) -> _core.DistanceTables:
+        return _core.DistanceTables(self.roadmap.indptr, self.roadmap.heads)
+
+    def to(self, target: VertexId, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
+        """Return the least ticks from every vertex to ``target``.
+
+        Parameters
+        ----------
+        target
+            The vertex to reach.
+        edge_ticks
+            Ticks for an edge of each length class.
+
+        Returns
+        -------
+        ndarray of int32, shape (V,)
+            Ticks, -1 from where the target cannot be reached.
+        """
+        key = (target, edge_ticks)
+        if key not in self._tables:
+            ticks = np.array(edge_ticks, np.int32)[self.roadmap.length_class]
+            self._tables[key] = self._kernel.to(target, ticks)
+        return self._tables[key]
+
+    def path(
+        self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]
+    ) -> tuple[VertexId, ...] | None:
+        """Return a shortest path, or None where there is none.
+
+        At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
+        the order east, south, west, north, which gives the routes of the paper.
+        """
+        table = self.to(target, edge_ticks)
+        if table[start] < 0:
+            return None
+        path = [start]
+        while path[-1] != target:
+            path.append(self._nearer(path[-1], table, edge_ticks))
+        return tuple(path)
+
+    def _nearer(
+        self, vertex: VertexId, table: NDArray[np.int32], edge_ticks: tuple[Tick, ...]
+    ) -> VertexId:
+        roadmap = self.roadmap
+        for edge in range(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1])):
+            head = roadmap.heads[edge]
+            if table[head] >= 0 and (
+                table[vertex] == table[head] + edge_ticks[roadmap.length_class[edge]]
+            ):
+                return VertexId(int(head))
+        raise AssertionError("a shortest path goes on at every vertex but its target")
+
+    def least_completion(self, itinerary: Itinerary) -> Tick | None:
+        """Return the completion time of a robot that nobody hinders, or None if it has no way."""
+        place, total = itinerary.home, 0
+        for stage in itinerary.stages:
+            leg = int(self.to(stage.vertex, itinerary.edge_ticks)[place])
+            if leg < 0:
+                return None
+            place, total = stage.vertex, total + leg
+        return Tick(total)
