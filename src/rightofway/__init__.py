@@ -1,1 +1,94 @@
-"""Plans for fleets of mobile robots that go out, work and come home."""
+"""Plans for fleets of mobile robots that go out, work and come home.
+
+::
+
+    import rightofway
+
+    scenario = rightofway.load("examples/door.yaml")
+    plan = rightofway.solve(scenario)
+    print(rightofway.check(plan))
+
+Names are imported when they are first used, so that ``import rightofway`` costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rightofway.check import Fault, Report, check
+    from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
+    from rightofway.io import load, load_plan, save_plan
+    from rightofway.metrics import Metrics, measure, waits
+    from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
+    from rightofway.solve import solve
+    from rightofway.viz import write_gif, write_page, write_png
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "Fault": "check",
+    "GaveUp": "errors",
+    "InputError": "errors",
+    "InvalidPlan": "errors",
+    "Metrics": "metrics",
+    "NoPlanExists": "errors",
+    "Plan": "model",
+    "Report": "check",
+    "RightOfWayError": "errors",
+    "Roadmap": "model",
+    "Robot": "model",
+    "Rules": "model",
+    "Scenario": "model",
+    "Stop": "model",
+    "check": "check",
+    "load": "io",
+    "load_plan": "io",
+    "measure": "metrics",
+    "save_plan": "io",
+    "solve": "solve",
+    "waits": "metrics",
+    "write_gif": "viz",
+    "write_page": "viz",
+    "write_png": "viz",
+}
+
+__all__ = [
+    "Fault",
+    "GaveUp",
+    "InputError",
+    "InvalidPlan",
+    "Metrics",
+    "NoPlanExists",
+    "Plan",
+    "Report",
+    "RightOfWayError",
+    "Roadmap",
+    "Robot",
+    "Rules",
+    "Scenario",
+    "Stop",
+    "check",
+    "load",
+    "load_plan",
+    "measure",
+    "save_plan",
+    "solve",
+    "waits",
+    "write_gif",
+    "write_page",
+    "write_png",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -30,7 +30,9 @@ class _Floor:
         self.itineraries = scenario.timing.itineraries
         self.tracks = tracks
         self.bookings = Bookings(
-            scenario.roadmap, planning_headway(scenario), scenario.rules.occupancy == "both"
+            scenario.roadmap,
+            headway=planning_headway(scenario),
+            books_ahead=scenario.rules.occupancy == "both",
         )
         for robot, track in tracks.items():
             self.bookings.add(robot, track, self.itineraries[robot])
@@ -46,9 +48,10 @@ class _Floor:
 
     def place(self, robot: int) -> bool:
         """Give a robot its earliest track among the others, if there is one."""
-        self.bookings.remove(robot)
+        self.bookings.release(robot)
         itinerary = self.itineraries[robot]
-        track = earliest_track(itinerary, self.bookings, self.distances)
+        left = self.task.deadline.seconds_left()
+        track = earliest_track(itinerary, self.bookings, self.distances, time_limit=left)
         if track is None:
             return False
         self.tracks[robot] = track
@@ -59,7 +62,7 @@ class _Floor:
         """Take back the tracks of some robots; they need new ones."""
         evicted = sorted(robot for robot in robots if self.tracks.pop(robot, None) is not None)
         for robot in evicted:
-            self.bookings.remove(robot)
+            self.bookings.release(robot)
         return evicted
 
     def blockers(self, robot: int) -> set[int]:

@@ -24,6 +24,10 @@ class Deadline:
         """Return the deadline that many seconds from now."""
         return cls(None if seconds is None else time.monotonic() + seconds)
 
+    def seconds_left(self) -> float | None:
+        """Return how long it is until then [s], never negative; None for no limit."""
+        return None if self.at is None else max(self.at - time.monotonic(), 0.0)
+
     def check(self, doing: str) -> None:
         """Raise `GaveUp` if the moment has come.
 

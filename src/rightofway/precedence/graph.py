@@ -159,7 +159,7 @@ class PrecedenceGraph:
 
     def enter(self, visit: Visit) -> Tick:
         """Return when a visit begins [ticks]."""
-        return Tick(int(self._kernel.enter()[visit]))
+        return Tick(self._kernel.enter_of(visit))
 
     def tracks(self) -> list[Track]:
         """Return the timetable: the earliest track of each robot."""

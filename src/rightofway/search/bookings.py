@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, insort
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from rightofway import _core
 from rightofway.model import Itinerary, Roadmap, Tick, Track
 
 __all__ = ["FOREVER", "Booking", "Bookings"]
 
-FOREVER = Tick(2**62)
+FOREVER = Tick(_core.INFINITY)
 """The end of a booking that never ends."""
 
 
@@ -23,9 +22,8 @@ class Booking(NamedTuple):
     robot: int
 
 
-@dataclass(slots=True)
 class Bookings:
-    """What robots with a track book, by vertex and in order of time.
+    """What robots with a track book; no two bookings of a vertex overlap.
 
     Parameters
     ----------
@@ -37,15 +35,15 @@ class Bookings:
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     """
 
-    roadmap: Roadmap
-    headway: Tick
-    books_ahead: bool
-    _at: dict[int, list[Booking]] = field(default_factory=dict)
-    _of: dict[int, list[tuple[int, Booking]]] = field(default_factory=dict)
+    def __init__(self, roadmap: Roadmap, *, headway: Tick, books_ahead: bool) -> None:
+        self.roadmap = roadmap
+        self.headway = headway
+        self.books_ahead = books_ahead
+        self.table = _core.BookingTable(roadmap.n_vertices)
 
     def at(self, vertex: int) -> list[Booking]:
-        """Return the bookings of a vertex in order of time; they do not overlap."""
-        return self._at.get(vertex, [])
+        """Return the bookings of a vertex in order of time."""
+        return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(vertex)]
 
     def add(self, robot: int, track: Track, itinerary: Itinerary) -> None:
         """Book all vertices of a track."""
@@ -54,14 +52,11 @@ class Bookings:
 
     def book(self, vertex: int, booking: Booking) -> None:
         """Book one vertex."""
-        insort(self._at.setdefault(vertex, []), booking)
-        self._of.setdefault(booking.robot, []).append((vertex, booking))
+        self.table.book(vertex, *booking)
 
-    def remove(self, robot: int) -> None:
-        """Give back all that a robot has booked."""
-        for vertex, booking in self._of.pop(robot, ()):
-            here = self._at[vertex]
-            del here[bisect_left(here, booking)]
+    def release(self, robot: int) -> None:
+        """Take back all that a robot has booked."""
+        self.table.release(robot)
 
     def of_track(
         self, robot: int, track: Track, itinerary: Itinerary

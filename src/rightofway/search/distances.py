@@ -12,9 +12,6 @@ from rightofway.model import Itinerary, Roadmap, Tick, VertexId
 
 __all__ = ["Distances"]
 
-type_of_table = NDArray[np.int32]
-
-
 class Distances:
     """Tables of the least ticks from every vertex to a target.
 
@@ -31,6 +28,7 @@ class Distances:
     def __init__(self, roadmap: Roadmap) -> None:
         self.roadmap = roadmap
         self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
+        self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
 
     @cached_property
     def _kernel(self) -> _core.DistanceTables:
@@ -53,9 +51,15 @@ class Distances:
         """
         key = (target, edge_ticks)
         if key not in self._tables:
-            ticks = np.array(edge_ticks, np.int32)[self.roadmap.length_class]
-            self._tables[key] = self._kernel.to(target, ticks)
+            self._tables[key] = self._kernel.to(target, self.ticks_of_edges(edge_ticks))
         return self._tables[key]
+
+    def ticks_of_edges(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
+        """Return the ticks of every edge, given those of each length class; shape (E,)."""
+        if edge_ticks not in self._edges:
+            by_class = np.array(edge_ticks, np.int32)
+            self._edges[edge_ticks] = by_class[self.roadmap.length_class]
+        return self._edges[edge_ticks]
 
     def path(
         self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]
@@ -84,13 +88,3 @@ class Distances:
             ):
                 return VertexId(int(head))
         raise AssertionError("a shortest path goes on at every vertex but its target")
-
-    def least_completion(self, itinerary: Itinerary) -> Tick | None:
-        """Return the completion time of a robot that nobody hinders, or None if it has no way."""
-        place, total = itinerary.home, 0
-        for stage in itinerary.stages:
-            leg = int(self.to(stage.vertex, itinerary.edge_ticks)[place])
-            if leg < 0:
-                return None
-            place, total = stage.vertex, total + leg
-        return Tick(total)

@@ -1,0 +1,58 @@
+// What the files of the binding share: how arrays come in and go out, and who binds what.
+//
+// Arrays come in as they are (right type, contiguous, on the CPU; read-only will do): a silent
+// conversion would hide a copy, or wrap a number that does not fit. Arrays that go out are new.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rightofway::bind {
+
+namespace nb = nanobind;
+
+template <class T>
+using ArrayIn = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using ArrayOut = nb::ndarray<nb::numpy, T, nb::ndim<1>>;
+template <class T>
+using PairsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, 2>>;
+
+template <class T>
+std::span<const T> view(const ArrayIn<T>& array) {
+    return {array.data(), array.size()};
+}
+
+// Hands the vector's memory over to Python, which frees it with the last array that uses it.
+template <class Out, class T>
+Out hand_over(std::vector<T>&& values, std::initializer_list<std::size_t> shape) {
+    auto owned = std::make_unique<std::vector<T>>(std::move(values));
+    T* data = owned->data();
+    nb::capsule owner(owned.get(),
+                      [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    owned.release();
+    return Out(data, shape, owner);
+}
+
+template <class T>
+ArrayOut<T> to_numpy(std::vector<T>&& values) {
+    const std::size_t size = values.size();
+    return hand_over<ArrayOut<T>>(std::move(values), {size});
+}
+
+template <class T>
+ArrayOut<T> to_numpy(std::span<const T> values) {
+    return to_numpy(std::vector<T>(values.begin(), values.end()));
+}
+
+void bind_distance_tables(nb::module_& module);
+void bind_precedence_graph(nb::module_& module);
+void bind_safe_interval_search(nb::module_& module);
+
+}  // namespace rightofway::bind

@@ -1,0 +1,14 @@
+#include "bindings.hpp"
+#include "rightofway/types.hpp"
+
+NB_MODULE(_core, module) {
+    module.doc() =
+        "The native kernels: arrays and integers in, arrays and integers out.\n\n"
+        "``FOREVER`` is the most that one conflict counts, also if it never ends;\n"
+        "``INFINITY`` is the end of a booking that never ends. [ticks]";
+    module.attr("FOREVER") = rightofway::forever;
+    module.attr("INFINITY") = rightofway::infinity;
+    rightofway::bind::bind_distance_tables(module);
+    rightofway::bind::bind_precedence_graph(module);
+    rightofway::bind::bind_safe_interval_search(module);
+}

@@ -1,0 +1,71 @@
+// Routes, the right of way between them, the timetable that follows, and the conflicts still left.
+//
+// This is the object that planners work on: they read the next conflict, give one of its visits
+// the right of way over the other, look at what that does to times and conflicts, and take it back
+// if another choice is better. Every answer is kept up to date from what has changed, and undone at
+// the same cost.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rightofway/conflict.hpp"
+#include "rightofway/conflict_index.hpp"
+#include "rightofway/earliest_conflicts.hpp"
+#include "rightofway/routes.hpp"
+#include "rightofway/timetable.hpp"
+#include "rightofway/types.hpp"
+
+namespace rightofway {
+
+class PrecedenceGraph {
+  public:
+    // All methods below throw std::invalid_argument on an unknown robot or visit.
+    explicit PrecedenceGraph(const RouteArrays& arrays);
+
+    // Its parts refer to each other.
+    PrecedenceGraph(const PrecedenceGraph&) = delete;
+    PrecedenceGraph& operator=(const PrecedenceGraph&) = delete;
+
+    RobotId n_robots() const { return routes_.n_robots(); }
+    VisitId n_visits() const { return routes_.n_visits(); }
+    std::span<const Tick> enters() const { return timetable_.enters(); }
+    std::span<const RightOfWay> rights_of_way() const { return timetable_.rights_of_way(); }
+    Tick enter_of(VisitId visit) const;
+    Tick completion(RobotId robot) const;
+
+    // The weight of the conflicts left: of all, or of one robot's with those whose mask is not 0.
+    Tick conflicts() const { return conflicts_; }
+    Tick conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const;
+
+    std::optional<Conflict> next_conflict() { return earliest_.next(); }
+    std::optional<Conflict> next_conflict_between(RobotId robot, RobotId other) const;
+
+    // See Timetable. Throws std::invalid_argument unless a and b are visits of two active robots
+    // to one vertex.
+    bool precede(VisitId a, VisitId b);
+    std::span<const VisitId> cycle() const { return timetable_.cycle(); }
+
+    // A mark is the number of rights of way given so far, so it stays good for as long as no
+    // rollback goes below it. Throws std::invalid_argument if one has.
+    std::int64_t checkpoint() const { return static_cast<std::int64_t>(rights_of_way().size()); }
+    void rollback(std::int64_t mark);
+
+  private:
+    void check_pair(VisitId a, VisitId b) const;
+    template <class Use>
+    void for_each_touched(Use&& use) const;
+    void recount();
+
+    Routes routes_;
+    Timetable timetable_;
+    ConflictIndex index_;
+    EarliestConflicts earliest_;
+    Tick conflicts_ = 0;
+    std::vector<Tick> conflicts_before_;  // per right of way
+};
+
+}  // namespace rightofway

@@ -1,0 +1,26 @@
+// The quantities of the core and their few special values.
+//
+// Everything that crosses the binding is an int32 identifier or an int64 tick, so these are plain
+// aliases: they say in a signature which of the three numberings (vertices, robots, visits) is
+// meant, and arrays of them cross without a copy.
+#pragma once
+
+#include <cstdint>
+
+namespace rightofway {
+
+using VertexId = std::int32_t;
+using EdgeId = std::int32_t;
+using RobotId = std::int32_t;
+using VisitId = std::int32_t;  // position in the concatenation of all robots' routes
+using Tick = std::int64_t;     // the integer unit of time
+
+// The leave of a last visit: a robot stays at its last vertex for ever. Far above every time that
+// routes may reach (routes.hpp checks that), and far enough below the type's end to add to.
+inline constexpr Tick infinity = Tick{1} << 62;
+
+// The most that one conflict adds to the count of conflicts. Two robots that stay for ever at one
+// vertex overlap without end; this bound keeps every sum of conflicts finite.
+inline constexpr Tick forever = Tick{1} << 32;
+
+}  // namespace rightofway

@@ -1,0 +1,119 @@
+#include "rightofway/precedence_graph.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "rightofway/reject.hpp"
+
+namespace rightofway {
+
+PrecedenceGraph::PrecedenceGraph(const RouteArrays& arrays)
+    : routes_(arrays),
+      timetable_(routes_),
+      index_(routes_),
+      earliest_(routes_, timetable_, index_) {
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        conflicts_ += index_.add(x, timetable_);
+    }
+}
+
+Tick PrecedenceGraph::enter_of(VisitId visit) const {
+    require_id("visit", visit, n_visits());
+    return timetable_.enter(visit);
+}
+
+Tick PrecedenceGraph::completion(RobotId robot) const {
+    require_id("robot", robot, n_robots());
+    return timetable_.enter(routes_.last_of(robot));
+}
+
+Tick PrecedenceGraph::conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const {
+    require_id("robot", robot, n_robots());
+    require_length("others", others.size(), static_cast<std::size_t>(n_robots()));
+    Tick total = 0;
+    for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
+        total += index_.weight(x, others);
+    }
+    return total;
+}
+
+std::optional<Conflict> PrecedenceGraph::next_conflict_between(RobotId robot, RobotId other) const {
+    require_id("i", robot, n_robots());
+    require_id("j", other, n_robots());
+    if (robot == other) {
+        reject("j", other, "is the same robot as i");
+    }
+    return earliest_.between(robot, other);
+}
+
+bool PrecedenceGraph::precede(VisitId a, VisitId b) {
+    check_pair(a, b);
+    const std::size_t n_rights = rights_of_way().size();
+    if (!timetable_.precede(a, b)) {
+        return false;
+    }
+    if (rights_of_way().size() > n_rights) {
+        conflicts_before_.push_back(conflicts_);
+        recount();
+    }
+    return true;
+}
+
+void PrecedenceGraph::check_pair(VisitId a, VisitId b) const {
+    require_id("a", a, n_visits());
+    require_id("b", b, n_visits());
+    for (const VisitId x : {a, b}) {
+        if (!routes_.is_active(routes_.robot(x))) {
+            reject(x == a ? "a" : "b", x,
+                   "is a visit of robot " + std::to_string(routes_.robot(x)) +
+                       ", which is not active");
+        }
+    }
+    if (routes_.robot(a) == routes_.robot(b)) {
+        reject("b", b, "is a visit of the same robot as a, " + std::to_string(a));
+    }
+    if (routes_.vertex(a) != routes_.vertex(b)) {
+        reject("b", b,
+               "is at vertex " + std::to_string(routes_.vertex(b)) + ", but a, " +
+                   std::to_string(a) + ", is at vertex " + std::to_string(routes_.vertex(a)));
+    }
+}
+
+// A changed enter changes the booking of its visit and of the visit before, which ends then. (A
+// first visit never changes, so there always is one before.)
+template <class Use>
+void PrecedenceGraph::for_each_touched(Use&& use) const {
+    for (const VisitId x : timetable_.changed()) {
+        use(x - 1);
+        use(x);
+    }
+}
+
+void PrecedenceGraph::recount() {
+    for_each_touched([this](VisitId x) {
+        conflicts_ -= index_.remove(x);
+        earliest_.forget(routes_.robot(x));
+    });
+    for_each_touched([this](VisitId x) { conflicts_ += index_.add(x, timetable_); });
+}
+
+void PrecedenceGraph::rollback(std::int64_t mark) {
+    if (mark < 0 || mark > checkpoint()) {
+        reject("mark", mark,
+               "is not in 0.." + std::to_string(checkpoint()) +
+                   " (what was taken back cannot be gone back to)");
+    }
+    if (mark == checkpoint()) {
+        return;
+    }
+    const auto n_rights = static_cast<std::size_t>(mark);
+    timetable_.rollback(n_rights);
+    conflicts_ = conflicts_before_[n_rights];
+    conflicts_before_.resize(n_rights);
+    for_each_touched([this](VisitId x) {
+        index_.move(x, timetable_);
+        earliest_.forget(routes_.robot(x));
+    });
+}
+
+}  // namespace rightofway

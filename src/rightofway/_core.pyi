@@ -1,0 +1,255 @@
+"""The native kernels: arrays and integers in, arrays and integers out."""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+
+FOREVER: int = 4294967296
+
+class DistanceTables:
+    """
+    Least ticks from every vertex to one target.
+
+    A directed graph in compressed rows: the edges that leave vertex ``v`` are
+    ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at ``indices[e]``. The graph is copied
+    (reversed) once; tables for any target and any speed are made from it.
+
+    Parameters
+    ----------
+    indptr : int32[V + 1]
+        Where each vertex's edges begin.
+    indices : int32[E]
+        The vertex at which each edge ends.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not describe a graph; names the array, the index and the value.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def to(self, target: int, edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the least time from each vertex to one target.
+
+        Parameters
+        ----------
+        target : int
+            The vertex to go to.
+        edge_ticks : int32[E]
+            What each edge takes, above 0. [ticks]
+
+        Returns
+        -------
+        int32[V]
+            Least time from each vertex, following edges forward; -1 where no way leads there. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the target is no vertex, or an edge takes no time; names the index and the value.
+        OverflowError
+            If a least time does not fit int32.
+
+        Notes
+        -----
+        Exact and deterministic. Breadth-first search if all edges take the same time, Dijkstra's
+        algorithm otherwise. The GIL is released, and several threads may ask one object at once.
+        """
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices, V."""
+
+    @property
+    def n_edges(self) -> int:
+        """The number of edges, E."""
+
+class PrecedenceGraph:
+    """
+    Routes, rights of way, the timetable they give, and the conflicts left.
+
+    Routes are fixed lists of visits. A right of way says which of two visits to one vertex goes
+    first. The timetable is the earliest times that keep both: ``enter`` is 0 on first visits, at
+    least ``enter[x] + least[x]`` on the visit after ``x``, and at least
+    ``leave(a) + headway + approach[b]`` where ``a`` has the right of way over ``b``. ``leave(x)`` is
+    ``enter[x + 1]``; a last visit never leaves.
+
+    A visit books its vertex for ``[enter - approach, leave + headway)``. Two bookings of one vertex by
+    different robots that overlap are a *vertex conflict* (kind 0); its tick is the start of the
+    overlap, and it counts the overlap's ticks, at most ``FOREVER``. Two robots that exchange two
+    vertices at the same tick, without such an overlap at either, are a *swap conflict* (kind 1) at
+    that tick, which counts 1.
+
+    A conflict is a tuple ``(tick, kind, visit_a, visit_b)`` where the robot of ``visit_a`` is below
+    that of ``visit_b``; for a swap, these are the visits entered at that tick. Conflicts are ordered
+    by tick, then robots, then visits.
+
+    Parameters
+    ----------
+    first_visit : int32[R + 1]
+        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
+    vertex : int32[N]
+        Where each visit is; consecutive visits of a robot are at different vertices.
+    least : int64[N]
+        Least time from this enter to the next, above 0; not used on last visits. [ticks]
+    approach : int64[N]
+        How long before its enter a visit books its vertex; 0 on first visits. [ticks]
+    headway : int
+        How long after its leave a visit still books its vertex. [ticks]
+    swaps_conflict : bool
+        Whether swaps are conflicts.
+    active : uint8[R]
+        Robots with 0 here have times, but meet nobody: they have no conflicts and no rights of way.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not describe routes; names the array, the index and the value.
+
+    Notes
+    -----
+    Deterministic. Every answer is kept up to date from what has changed. Calls on a graph are short
+    and keep the GIL, so threads that share one take turns.
+    """
+
+    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    @property
+    def n_robots(self) -> int:
+        """The number of robots, R."""
+
+    @property
+    def n_visits(self) -> int:
+        """The number of visits, N."""
+
+    def enter(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """Return a copy of the times at which visits enter, int64[N]. [ticks]"""
+
+    def completion(self, robot: int) -> int:
+        """
+        Return the tick at which a robot enters its last vertex (ValueError: no such robot).
+        """
+
+    def conflicts(self) -> int:
+        """
+        Return what all conflicts that are left count together, 0 if there are none. [ticks]
+        """
+
+    def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+        """
+        Return the weight of one robot's conflicts.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+        others : uint8[R]
+            Count conflicts with the robots that do not have 0 here.
+
+        Returns
+        -------
+        int
+            Sum of what these conflicts count. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the robot does not exist or the mask has the wrong length.
+        """
+
+    def next_conflict(self) -> tuple[int, int, int, int] | None:
+        """
+        Return the earliest conflict ``(tick, kind, visit_a, visit_b)``, None if none is left.
+        """
+
+    def next_conflict_between(self, i: int, j: int) -> tuple[int, int, int, int] | None:
+        """
+        Return the earliest conflict of two robots.
+
+        Parameters
+        ----------
+        i, j : int
+            Two different robots, in any order.
+
+        Returns
+        -------
+        tuple[int, int, int, int] or None
+            ``(tick, kind, visit_a, visit_b)``, or None if they have no conflict.
+
+        Raises
+        ------
+        ValueError
+            If a robot does not exist, or both are the same.
+        """
+
+    def precede(self, a: int, b: int) -> bool:
+        """
+        Give visit a the right of way over visit b.
+
+        Parameters
+        ----------
+        a, b : int
+            Visits of two different robots to the same vertex.
+
+        Returns
+        -------
+        bool
+            Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
+            leaves, ``b`` is a first visit and there from the start, or ``cycle()`` tells the deadlock or
+            swap that would follow. Giving a right of way again is possible and does nothing.
+
+        Raises
+        ------
+        ValueError
+            If ``a`` or ``b`` is no visit or of an inactive robot, or if they are visits of one robot or
+            to two vertices.
+
+        Notes
+        -----
+        Times never decrease. A cycle of positive length is always refused; of zero length only if
+        ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
+        Takes time in proportion (but for a logarithm) to what changes.
+        """
+
+    def cycle(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Explain the last refusal.
+
+        Returns
+        -------
+        int32[n]
+            The visits on the cycle that the last refused ``precede(a, b)`` would have closed, in order,
+            from ``b`` to the visit after ``a``. The enter of each follows from that of the one before:
+            the same robot goes on, or the robot that leaves as it enters has the right of way. Empty if
+            there was another reason, or no refusal yet.
+        """
+
+    def checkpoint(self) -> int:
+        """
+        Return a mark for ``rollback``: the number of rights of way given so far.
+        """
+
+    def rollback(self, mark: int) -> None:
+        """
+        Undo everything since the mark.
+
+        Parameters
+        ----------
+        mark : int
+            What ``checkpoint()`` returned: the number of rights of way at that time. It can be gone back
+            to any number of times, until a rollback goes below it.
+
+        Raises
+        ------
+        ValueError
+            If there are fewer rights of way now than at the mark.
+        """
+
+    def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+        """
+        Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].
+        """
