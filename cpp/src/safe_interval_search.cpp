@@ -157,10 +157,9 @@ void SafeIntervalSearch::reach(const Node& candidate) {
 }
 
 std::int32_t SafeIntervalSearch::find(const Node& candidate) const {
-    const std::size_t place =
-        static_cast<std::size_t>(candidate.stage) *
-            static_cast<std::size_t>(bookings_.n_vertices()) +
-        static_cast<std::size_t>(candidate.vertex);
+    const std::size_t place = static_cast<std::size_t>(candidate.stage) *
+                                  static_cast<std::size_t>(bookings_.n_vertices()) +
+                              static_cast<std::size_t>(candidate.vertex);
     std::int32_t node = first_here_[place];
     while (node != none && nodes_[node].gap != candidate.gap) {
         node = nodes_[node].next_here;

@@ -57,9 +57,22 @@ bool Timetable::closes_swap(VisitId a, VisitId b) const {
     return routes_.may_swap(b) && routes_.may_swap(a + 1) && has_right(b - 1, a + 1);
 }
 
-// Raises b and all that follows from it; false as soon as the raise reaches the source.
+// Raises b and all that follows from it; false as soon as the raise reaches the source. No arc
+// leads back in time, so only visits entered no later than the source can lead to it. They come
+// first, and all others wait until it is known that there is no cycle: a refusal stays cheap.
 bool Timetable::spread(VisitId b, Tick delta, VisitId source) {
+    latest_ = enter_[source];
     raise_by(b, delta, none);
+    if (!settle(source)) {
+        return false;
+    }
+    latest_ = infinity;
+    open_.swap(deferred_);
+    std::make_heap(open_.begin(), open_.end(), is_later);
+    return settle(source);
+}
+
+bool Timetable::settle(VisitId source) {
     while (!open_.empty()) {
         std::pop_heap(open_.begin(), open_.end(), is_later);
         const Raise top = open_.back();
@@ -102,6 +115,10 @@ void Timetable::raise_by(VisitId visit, Tick delta, VisitId cause) {
     }
     raise_[visit] = delta;
     cause_[visit] = cause;
+    if (enter_[visit] > latest_) {
+        deferred_.push_back({delta, visit});
+        return;
+    }
     open_.push_back({delta, visit});
     std::push_heap(open_.begin(), open_.end(), is_later);
 }
@@ -126,6 +143,7 @@ void Timetable::forget_raises() {
     }
     changed_.clear();
     open_.clear();
+    deferred_.clear();
 }
 
 void Timetable::accept(VisitId a, VisitId b) {

@@ -8,7 +8,8 @@
     plan = rightofway.solve(scenario)
     print(rightofway.check(plan))
 
-Names are imported when they are first used, so that ``import rightofway`` costs next to nothing.
+Readers, writers and pages are imported when they are first used. ``check`` and ``solve`` are
+imported here, because the functions must win over the modules of the same names.
 """
 
 from __future__ import annotations
@@ -16,38 +17,24 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from rightofway.check import Fault, Report, check
+from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
+from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
+from rightofway.solve import solve
+
 if TYPE_CHECKING:
-    from rightofway.check import Fault, Report, check
-    from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
     from rightofway.io import load, load_plan, save_plan
     from rightofway.metrics import Metrics, measure, waits
-    from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
-    from rightofway.solve import solve
     from rightofway.viz import write_gif, write_page, write_png
 
 __version__ = "0.1.0"
 
-_HOME = {
-    "Fault": "check",
-    "GaveUp": "errors",
-    "InputError": "errors",
-    "InvalidPlan": "errors",
+_LATER = {
     "Metrics": "metrics",
-    "NoPlanExists": "errors",
-    "Plan": "model",
-    "Report": "check",
-    "RightOfWayError": "errors",
-    "Roadmap": "model",
-    "Robot": "model",
-    "Rules": "model",
-    "Scenario": "model",
-    "Stop": "model",
-    "check": "check",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
     "save_plan": "io",
-    "solve": "solve",
     "waits": "metrics",
     "write_gif": "viz",
     "write_page": "viz",
@@ -83,9 +70,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
+    if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    value = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
     globals()[name] = value
     return value
 

@@ -69,6 +69,7 @@ class Timetable {
     bool has_right(VisitId a, VisitId b) const;
     bool closes_swap(VisitId a, VisitId b) const;
     bool spread(VisitId b, Tick delta, VisitId source);
+    bool settle(VisitId source);
     void raise_successors(VisitId visit);
     void raise_along(VisitId from, VisitId to, Tick length);
     void raise_by(VisitId visit, Tick delta, VisitId cause);
@@ -91,9 +92,11 @@ class Timetable {
     std::vector<std::size_t> trail_mark_;     // length of the trail before each right of way
 
     // What a precede works on; reused, so that no step allocates.
-    std::vector<Tick> raise_;     // per visit, 0 if untouched
-    std::vector<VisitId> cause_;  // per raised visit: whose raise raised it
-    std::vector<Raise> open_;     // a heap
+    std::vector<Tick> raise_;      // per visit, 0 if untouched
+    std::vector<VisitId> cause_;   // per raised visit: whose raise raised it
+    std::vector<Raise> open_;      // a heap
+    std::vector<Raise> deferred_;  // visits entered after latest_
+    Tick latest_ = infinity;
     std::vector<VisitId> changed_;
     std::vector<VisitId> cycle_;
 };

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
+import random
+from collections import Counter, deque
 from collections.abc import Iterable
 
 from rightofway.errors import GaveUp
@@ -13,7 +14,7 @@ from rightofway.search import Booking, Bookings, Distances, earliest_track
 
 __all__ = ["reroute"]
 
-TRIES_PER_ROBOT = 20
+TRIES_PER_ROBOT = 50
 """How often robots may be sent another way, per robot of the fleet, before giving up."""
 
 START_HOLD = 4
@@ -53,6 +54,7 @@ class _Floor:
         left = self.task.deadline.seconds_left()
         track = earliest_track(itinerary, self.bookings, self.distances, time_limit=left)
         if track is None:
+            self.hold_home(robot)
             return False
         self.tracks[robot] = track
         self.bookings.add(robot, track, itinerary)
@@ -63,6 +65,7 @@ class _Floor:
         evicted = sorted(robot for robot in robots if self.tracks.pop(robot, None) is not None)
         for robot in evicted:
             self.bookings.release(robot)
+            self.hold_home(robot)
         return evicted
 
     def blockers(self, robot: int) -> set[int]:
@@ -79,9 +82,10 @@ class _Floor:
 def reroute(
     task: Task, distances: Distances, tracks: dict[int, Track], aside: list[int]
 ) -> list[int]:
-    """Give robots without a track one among the others, in order; add them to ``tracks``.
+    """Give robots without a track one among the others; add them to ``tracks``.
 
-    A robot that finds no way takes back the tracks of those in its way, and they follow it.
+    A robot that finds no way takes back the tracks of those in its way, and they follow it in any
+    order. The more often it fails, the more others make room.
 
     Returns
     -------
@@ -95,20 +99,21 @@ def reroute(
     """
     floor = _Floor(task, distances, tracks)
     waiting, changed = deque(aside), set(aside)
+    failures: Counter[int] = Counter()
+    draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
     for robot in aside:
         floor.hold_home(robot)
-    tries = TRIES_PER_ROBOT * len(floor.itineraries)
-    while waiting:
+    for _ in range(TRIES_PER_ROBOT * len(floor.itineraries)):
+        if not waiting:
+            return sorted(changed)
         task.deadline.check("sending robots another way")
-        tries -= 1
-        if tries < 0:
-            raise GaveUp("no way was found round a deadlock (a plan may exist; try another planner)")
         robot = waiting.popleft()
         if floor.place(robot):
             continue
-        evicted = floor.evict(floor.blockers(robot)) or floor.evict(list(tracks))
-        waiting.extend([robot, *evicted] if not floor.place(robot) else evicted)
+        more = draw.sample(sorted(tracks), min(failures[robot], len(tracks)))
+        failures[robot] += 1
+        evicted = floor.evict(floor.blockers(robot).union(more))
+        draw.shuffle(evicted)
         changed |= set(evicted)
-        for other in evicted:
-            floor.hold_home(other)
-    return sorted(changed)
+        waiting.extend(evicted if floor.place(robot) else [robot, *evicted])
+    raise GaveUp("no way was found round a deadlock (a plan may exist; try another planner)")

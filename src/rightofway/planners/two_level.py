@@ -244,9 +244,7 @@ class _Fleet:
         return [one for one in self.decisions if not set(one.robots) & set(rerouted)]
 
 
-def _node_level(
-    choices: Sequence[_Choice | None], on_tie: int
-) -> tuple[_Choice | None, Level]:
+def _node_level(choices: Sequence[_Choice | None], on_tie: int) -> tuple[_Choice | None, Level]:
     """Choose who waits by the conflicts left in the whole system."""
     possible = [choice for choice in choices if choice is not None]
     if len(possible) < 2:
@@ -260,9 +258,7 @@ def _node_level(
     return min(possible, key=lambda choice: choice.conflicts_left), "node"
 
 
-def _with_sums(
-    group: _Group | None, sums: tuple[int | None, ...]
-) -> _Group | None:
+def _with_sums(group: _Group | None, sums: tuple[int | None, ...]) -> _Group | None:
     """Note both groups' sums at the decisions that the robot level took."""
     if group is None:
         return None

@@ -1,0 +1,54 @@
+# Short recipes; CI runs the same ones. `just --list` shows them all.
+
+set shell := ["bash", "-euo", "pipefail", "-c"]
+
+# Everything that can be checked without installing the package anew
+default: lint types contracts test
+
+# Style of Python and C++
+lint:
+    ruff check .
+    ruff format --check .
+    clang-format --dry-run --Werror cpp/*/*.cpp cpp/*/*.hpp cpp/include/rightofway/*.hpp
+
+# Bring everything into the house style
+format:
+    ruff check --fix .
+    ruff format .
+    clang-format -i cpp/*/*.cpp cpp/*/*.hpp cpp/include/rightofway/*.hpp
+
+# Static types, strict
+types:
+    mypy
+
+# Who may import whom
+contracts:
+    lint-imports
+
+# Python tests
+test *args:
+    pytest {{ args }}
+
+# The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
+native:
+    cmake -S . -B build/native -DCMAKE_BUILD_TYPE=Debug -DRIGHTOFWAY_TESTS=ON -DRIGHTOFWAY_SANITIZE=ON -DRIGHTOFWAY_WERROR=ON
+    cmake --build build/native -j
+    ctest --test-dir build/native --output-on-failure
+
+# Write the stub of the native core anew, from the installed module
+stub:
+    python -m nanobind.stubgen -m rightofway._core -o src/rightofway/_core.pyi
+
+# Fail if the committed stub is not that of the installed module
+stub-is-fresh:
+    python -m nanobind.stubgen -m rightofway._core -o build/_core.pyi
+    diff -u src/rightofway/_core.pyi build/_core.pyi
+
+# The documentation, warnings as errors, into docs/_build/html
+docs:
+    sphinx-build -W --keep-going -q -b html docs docs/_build/html
+
+# Install for work on the code: edits to Python files are live, `just develop` again after C++
+develop:
+    pip install scikit-build-core nanobind
+    pip install --no-build-isolation -e '.[dev,docs,viewer]'

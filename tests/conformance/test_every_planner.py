@@ -1,0 +1,84 @@
+"""What every registered planner owes: valid plans, the same ones for the same seed, honest ends."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import rightofway
+from rightofway.errors import NoPlanExists
+from rightofway.metrics import measure
+from rightofway.model import Plan, Rules, Scenario
+from rightofway.planners import registered
+from tests.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
+
+PLANNERS = sorted(registered())
+
+RULES = {
+    "paper": Rules(),
+    "both": Rules(occupancy="both"),
+    "headway": Rules(headway=Fraction(1)),
+    "both and headway": Rules(occupancy="both", headway=Fraction(1, 2)),
+    "one way": Rules(ends="none"),
+    "two laps": Rules(laps=2),
+    "no rotations": Rules(rotations=False),
+    "no turning": Rules(turn=Fraction(0)),
+}
+
+SMALL: dict[str, Scenario] = {
+    **{case["name"]: paper_scenario(case) for case in PAPER},
+    **{
+        f"random {seed}, {name}": random_fleet(seed, rules=rules)
+        for seed, (name, rules) in enumerate(RULES.items())
+    },
+    "stays at home": grid_fleet(["..."], [("N0", "N0"), ("N2", "N2")], work=[3]),
+}
+
+
+def key(plan: Plan) -> list[tuple[bytes, bytes]]:
+    return [(track.vertices.tobytes(), track.enter.tobytes()) for track in plan.tracks]
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("scenario", SMALL.values(), ids=list(SMALL))
+def test_plans_are_valid_and_never_below_the_lower_bound(planner: str, scenario: Scenario) -> None:
+    plan = rightofway.solve(scenario, planner)
+    assert rightofway.check(plan).ok
+    metrics = measure(plan)
+    assert metrics.flowtime >= metrics.lower_bound
+    assert plan.run.name == planner
+    assert plan.run.status
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("seed", [0, 7])
+def test_the_same_seed_gives_the_same_plan(planner: str, seed: int) -> None:
+    scenario = random_fleet(3, robots=12)
+    plans = [rightofway.solve(scenario, planner, seed=seed) for _ in range(2)]
+    assert key(plans[0]) == key(plans[1])
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_a_robot_alone_completes_as_soon_as_it_can(planner: str) -> None:
+    """Three cells out, a tick to turn, two of work, three back: 9."""
+    plan = rightofway.solve(grid_fleet(["...."], [("N0", "N3")], work=[2]), planner)
+    assert int(plan.tracks[0].enter[-1]) == 9
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_the_impossible_is_refused_as_proven(planner: str) -> None:
+    with pytest.raises(NoPlanExists):
+        rightofway.solve(grid_fleet([".@."], [("N0", "N2")]), planner)
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(planner: str) -> None:
+    spec = registered()[planner]
+    for option in spec.options:
+        with pytest.raises(rightofway.InputError, match="is not a choice"):
+            spec.settle({option.name: "no such value"})
+    given: dict[str, Any] = {"no-such-option": 1}
+    with pytest.raises(rightofway.InputError, match="is unknown to"):
+        spec.settle(given)

@@ -1,0 +1,101 @@
+"""Small fleets to plan in tests: the paper's cases, and random ones."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
+
+__all__ = ["PAPER", "grid_fleet", "paper_scenario", "random_fleet"]
+
+PAPER: list[dict[str, Any]] = json.loads(
+    (Path(__file__).parent / "data" / "paper.json").read_text(encoding="utf-8")
+)["cases"]
+
+
+def paper_scenario(case: dict[str, Any]) -> Scenario:
+    """Return a published case; one tick of the table is one unit of time."""
+    roadmap = roadmap_of_grid(case["grid"])
+    return Scenario(
+        roadmap=roadmap,
+        robots=tuple(
+            Robot(
+                name=robot["name"],
+                home=roadmap.vertex(f"N{robot['home']}"),
+                stops=(
+                    Stop(
+                        at=roadmap.vertex(f"N{robot['target']}"),
+                        work=Fraction(robot["work_ticks"]),
+                    ),
+                ),
+                speed=Fraction(1, robot["ticks_per_cell"]),
+            )
+            for robot in case["robots"]
+        ),
+    )
+
+
+def grid_fleet(
+    grid: Sequence[str],
+    trips: Sequence[tuple[str, str]],
+    *,
+    rules: Rules | None = None,
+    speeds: Sequence[Fraction] = (Fraction(1),),
+    work: Sequence[int] = (0,),
+) -> Scenario:
+    """Return robots R1, R2, … that go from the first place of a trip to the second."""
+    roadmap = roadmap_of_grid(grid)
+    return Scenario(
+        roadmap=roadmap,
+        robots=tuple(
+            Robot(
+                name=f"R{index + 1}",
+                home=roadmap.vertex(home),
+                stops=(Stop(at=roadmap.vertex(target), work=Fraction(work[index % len(work)])),),
+                speed=speeds[index % len(speeds)],
+            )
+            for index, (home, target) in enumerate(trips)
+        ),
+        rules=rules or Rules(),
+    )
+
+
+def random_fleet(
+    seed: int, *, size: int = 12, robots: int = 8, walls: float = 0.1, rules: Rules | None = None
+) -> Scenario:
+    """Return a random fleet in the largest open part of a random grid; targets all differ."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    lines = [
+        "".join("@" if draw.random() < walls else "." for _ in range(size)) for _ in range(size)
+    ]
+    roadmap = roadmap_of_grid(lines)
+    places = _largest_part(roadmap)
+    homes, targets = draw.sample(places, robots), draw.sample(places, robots)
+    speeds = [Fraction(1), Fraction(1, 2), Fraction(1, 3)]
+    return grid_fleet(
+        lines,
+        [(roadmap.name(h), roadmap.name(t)) for h, t in zip(homes, targets, strict=True)],
+        rules=rules,
+        speeds=[draw.choice(speeds) for _ in range(robots)],
+        work=[draw.randint(0, 5) for _ in range(robots)],
+    )
+
+
+def _largest_part(roadmap: Roadmap) -> list[int]:
+    unseen, parts = set(range(roadmap.n_vertices)), []
+    while unseen:
+        part, edge = [], [min(unseen)]
+        unseen.discard(edge[0])
+        while edge:
+            vertex = edge.pop()
+            part.append(vertex)
+            around = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+            edge += [head for head in around if head in unseen]
+            unseen.difference_update(around)
+        parts.append(sorted(part))
+    return max(parts, key=len)

@@ -1,0 +1,63 @@
+"""The native search for one robot finds what trying every tick finds."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.model import Rules, Scenario, Tick
+from rightofway.search import FOREVER, Booking, Bookings, Distances, earliest_track
+from tests.fleets import grid_fleet
+from tests.oracles.sipp import Booked, earliest_completion
+
+GRIDS = (["...", ".@.", "..."], ["....", "@.@@"], [".....", "..@..", "....."])
+HORIZON = 60
+
+
+@st.composite
+def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
+    """Draw a robot on a small grid and bookings of others that do not overlap."""
+    grid = draw(st.sampled_from(GRIDS))
+    free = [f"N{k}" for k, cell in enumerate("".join(grid)) if cell == "."]
+    rules = Rules(
+        occupancy=draw(st.sampled_from(["one", "both"])),
+        headway=Fraction(draw(st.integers(0, 2))),
+        ends=draw(st.sampled_from(["home", "none"])),
+    )
+    trip = (draw(st.sampled_from(free)), draw(st.sampled_from(free)))
+    speed = Fraction(1, draw(st.integers(1, 2)))
+    scenario = grid_fleet(grid, [trip], rules=rules, speeds=[speed], work=[draw(st.integers(0, 2))])
+    booked: list[Booked] = []
+    for robot in range(draw(st.integers(0, 8))):
+        vertex = draw(st.integers(0, scenario.roadmap.n_vertices - 1))
+        start = draw(st.integers(-1, 15))
+        end = draw(st.one_of(st.integers(1, 8).map(lambda d, s=start: s + d), st.just(FOREVER)))
+        if all(b.vertex != vertex or b.end <= start or end <= b.start for b in booked):
+            booked.append(Booked(vertex, start, end, draw(st.integers(0, robot))))
+    return scenario, booked
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(problems())
+def test_the_search_finds_the_earliest_completion(problem: tuple[Scenario, list[Booked]]) -> None:
+    scenario, booked = problem
+    timing, both = scenario.timing, scenario.rules.occupancy == "both"
+    itinerary = timing.itineraries[0]
+    bookings = Bookings(scenario.roadmap, headway=timing.headway, books_ahead=both)
+    for one in booked:
+        bookings.book(one.vertex, Booking(Tick(one.start), Tick(one.end), one.robot))
+    track = earliest_track(itinerary, bookings, Distances(scenario.roadmap))
+    best = earliest_completion(
+        scenario.roadmap,
+        itinerary,
+        booked,
+        headway=timing.headway,
+        books_ahead=both,
+        horizon=HORIZON,
+    )
+    if track is None or len(track) == 1:  # a trip that stays at home needs no time to get there
+        assert (track is None) == (best is None)
+    else:
+        assert int(track.enter[-1]) + itinerary.stages[-1].work == best

@@ -1,0 +1,121 @@
+"""The earliest track of one robot among bookings, found by trying every tick.
+
+Slow and obvious: a breadth-first search over (tick, vertex, stages done, since when at the vertex
+it has been free to go), one tick after the other, up to a horizon.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from rightofway.model import Itinerary, Roadmap
+
+__all__ = ["Booked", "earliest_completion"]
+
+
+class Booked(NamedTuple):
+    """A robot books a vertex for ``[start, end)``."""
+
+    vertex: int
+    start: int
+    end: int
+    robot: int
+
+
+class _State(NamedTuple):
+    vertex: int
+    stage: int
+    busy_until: int
+
+
+def earliest_completion(
+    roadmap: Roadmap,
+    itinerary: Itinerary,
+    booked: Sequence[Booked],
+    *,
+    headway: int,
+    books_ahead: bool,
+    horizon: int,
+) -> int | None:
+    """Return the first tick at which the trip can be complete, None if not before the horizon."""
+    search = _Ticks(roadmap, itinerary, booked, headway, books_ahead)
+    if not search.free(itinerary.home, 0, 1):
+        return None
+    layers: list[set[_State]] = [set() for _ in range(horizon + 1)]
+    layers[0].add(_State(itinerary.home, 0, 0))
+    best = None
+    for tick in range(horizon + 1):
+        to_do = list(layers[tick])
+        while to_do:
+            state = to_do.pop()
+            done = search.completion(state, tick)
+            if done is not None and (best is None or done < best):
+                best = done
+            for enter, after in search.moves(state, tick):
+                if enter <= horizon and after not in layers[enter]:
+                    layers[enter].add(after)
+                    to_do += [after] if enter == tick else []
+    return best
+
+
+class _Ticks:
+    def __init__(
+        self,
+        roadmap: Roadmap,
+        itinerary: Itinerary,
+        booked: Sequence[Booked],
+        headway: int,
+        books_ahead: bool,
+    ) -> None:
+        self.roadmap, self.itinerary, self.booked = roadmap, itinerary, booked
+        self.headway, self.books_ahead = headway, books_ahead
+
+    def free(self, vertex: int, start: int, end: int) -> bool:
+        return all(b.vertex != vertex or b.end <= start or end <= b.start for b in self.booked)
+
+    def is_swap(self, tail: int, head: int, tick: int) -> bool:
+        """Tell whether a robot leaves the head for the tail at this very tick."""
+        leaving = {b.robot for b in self.booked if b.vertex == head and b.end == tick}
+        coming = {b.robot for b in self.booked if b.vertex == tail and b.start == tick}
+        return bool(leaving & coming)
+
+    def completion(self, state: _State, tick: int) -> int | None:
+        """Return when the trip is over if the robot stays here for ever from this tick on."""
+        rest = self.itinerary.stages[state.stage :]
+        if any(stage.vertex != state.vertex for stage in rest):
+            return None
+        if not self.free(state.vertex, tick, 10**9):
+            return None
+        turns = sum(stage.turn for stage in rest[:-1])
+        return max(tick, state.busy_until) + sum(stage.work for stage in rest) + turns
+
+    def moves(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
+        yield from self._wait(state, tick)
+        yield from self._serve(state, tick)
+        if tick >= state.busy_until:
+            yield from self._drive(state, tick)
+
+    def _wait(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
+        if self.free(state.vertex, tick, tick + 1 + self.headway):
+            yield tick + 1, state
+
+    def _serve(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
+        stages = self.itinerary.stages
+        if state.stage == len(stages) - 1 or stages[state.stage].vertex != state.vertex:
+            return  # whoever has served the last stage stays; that is `completion`
+        stage = stages[state.stage]
+        until = max(tick, state.busy_until) + stage.work + stage.turn
+        yield tick, state._replace(stage=state.stage + 1, busy_until=until)
+
+    def _drive(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
+        for edge in range(self.roadmap.indptr[state.vertex], self.roadmap.indptr[state.vertex + 1]):
+            head = int(self.roadmap.heads[edge])
+            ticks = self.itinerary.edge_ticks[self.roadmap.length_class[edge]]
+            enter, approach = tick + ticks, ticks if self.books_ahead else 0
+            if (
+                self.free(state.vertex, tick, enter + self.headway)
+                and self.free(head, enter - approach, enter + 1 + self.headway)
+                and not self.is_swap(state.vertex, head, enter)
+            ):
+                yield enter, _State(head, state.stage, enter)
