@@ -1,5 +1,11 @@
-"""The native kernels: arrays and integers in, arrays and integers out."""
+"""
+The native kernels: arrays and integers in, arrays and integers out.
 
+``FOREVER`` is the most that one conflict counts, also if it never ends;
+``INFINITY`` is the end of a booking that never ends. [ticks]
+"""
+
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -7,6 +13,8 @@ from numpy.typing import NDArray
 
 
 FOREVER: int = 4294967296
+
+INFINITY: int = 4611686018427387904
 
 class DistanceTables:
     """
@@ -126,17 +134,40 @@ class PrecedenceGraph:
     def n_visits(self) -> int:
         """The number of visits, N."""
 
+    def enter_of(self, visit: int) -> int:
+        """Return the tick at which a visit enters (ValueError: no such visit)."""
+
     def enter(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
         """Return a copy of the times at which visits enter, int64[N]. [ticks]"""
 
     def completion(self, robot: int) -> int:
         """
-        Return the tick at which a robot enters its last vertex (ValueError: no such robot).
+        Return when a robot completes its route.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+
+        Returns
+        -------
+        int
+            The enter of its last visit. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the robot does not exist.
         """
 
     def conflicts(self) -> int:
         """
-        Return what all conflicts that are left count together, 0 if there are none. [ticks]
+        Return the weight of all conflicts that are left.
+
+        Returns
+        -------
+        int
+            Sum of what they count, 0 if there are none. [ticks]
         """
 
     def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
@@ -253,3 +284,112 @@ class PrecedenceGraph:
         """
         Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].
         """
+
+class BookingTable:
+    """
+    Who has booked which vertex when; no two bookings of a vertex overlap.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices, V.
+
+    Raises
+    ------
+    ValueError
+        If the number is negative.
+    """
+
+    def __init__(self, n_vertices: int) -> None: ...
+
+    def book(self, vertex: int, start: int, end: int, robot: int) -> None:
+        """
+        Book a vertex.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex.
+        start, end : int
+            It is booked for ``[start, end)``. [ticks]
+        robot : int
+            By whom.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex, the booking is empty, or it overlaps another one.
+        """
+
+    def release(self, robot: int) -> None:
+        """
+        Take back all that a robot has booked.
+
+        Parameters
+        ----------
+        robot : int
+            The robot; one without bookings will do.
+        """
+
+    def at(self, vertex: int) -> list[tuple[int, int, int]]:
+        """
+        Return the bookings of a vertex in order of time.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex.
+
+        Returns
+        -------
+        list of tuple[int, int, int]
+            ``(start, end, robot)``. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex.
+        """
+
+def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bookings: BookingTable, headway: int, books_ahead: bool, home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Find the track of one robot that completes first and overlaps no booking.
+
+    Parameters
+    ----------
+    indptr, indices : int32[V + 1], int32[E]
+        The directed graph in compressed rows.
+    edge_ticks : int32[E]
+        What each edge takes. [ticks]
+    bookings : BookingTable
+        What the other robots have booked.
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when the robot starts to drive there.
+    home : int
+        Where the robot is at tick 0.
+    stage_vertex : int32[S]
+        Where it has something to do, in order; it stays at the last one for ever.
+    stage_dwell : int64[S]
+        How long that takes there, turning included where an edge follows. [ticks]
+    stage_tables : list of int32[V]
+        For each stage, the least ticks from each vertex to its vertex.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int32[n], int64[n])
+        How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices and
+        when each is entered. [ticks]
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, or a stage cannot be reached.
+
+    Notes
+    -----
+    Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.
+    """

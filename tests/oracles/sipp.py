@@ -98,7 +98,8 @@ class _Ticks:
 
     def _wait(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
         if self.free(state.vertex, tick, tick + 1 + self.headway):
-            yield tick + 1, state
+            busy_until = state.busy_until if state.busy_until > tick + 1 else 0
+            yield tick + 1, state._replace(busy_until=busy_until)
 
     def _serve(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
         stages = self.itinerary.stages
@@ -118,4 +119,4 @@ class _Ticks:
                 and self.free(head, enter - approach, enter + 1 + self.headway)
                 and not self.is_swap(state.vertex, head, enter)
             ):
-                yield enter, _State(head, state.stage, enter)
+                yield enter, _State(head, state.stage, 0)

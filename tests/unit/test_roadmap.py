@@ -59,7 +59,7 @@ def test_named_roadmaps_keep_edge_order_and_lengths() -> None:
         Edge(tail="B", head="A", length=Fraction(2)),
     ]
     roadmap = roadmap_of_edges(positions, edges)
-    assert roadmap.lengths == (1, 2)
+    assert roadmap.lengths == (Fraction(1), Fraction(2))
     assert roadmap.heads.tolist() == [2, 1, 0]
     assert roadmap.edge(roadmap.vertex("A"), roadmap.vertex("B")) == 1
     assert roadmap.edge(roadmap.vertex("C"), roadmap.vertex("A")) is None

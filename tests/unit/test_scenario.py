@@ -68,7 +68,7 @@ def test_laps_need_a_way_back() -> None:
 def test_turning_by_the_cell_needs_cells() -> None:
     scenario = grid_fleet(ROW, [("N0", "N4")])
     gridless = replace(scenario.roadmap, grid=None)
-    with pytest.raises(InputError, match="rules.turn: 'cell' needs a grid"):
+    with pytest.raises(InputError, match=r"rules\.turn: 'cell' needs a grid"):
         replace(scenario, roadmap=gridless, rules=Rules(turn="cell"))
 
 

@@ -5,7 +5,7 @@ from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
 from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.model.robot import Robot, Stop, TripEnd, Turn
-from rightofway.model.route import Route, route_along
+from rightofway.model.route import Route, edge_ticks, route_along
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
@@ -37,6 +37,7 @@ __all__ = [
     "VertexId",
     "choose_clock",
     "cluster",
+    "edge_ticks",
     "least_dwell",
     "node_length",
     "roadmap_of_edges",

@@ -9,7 +9,7 @@ from rightofway.model.itinerary import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Route", "route_along"]
+__all__ = ["Route", "edge_ticks", "route_along"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,13 +63,21 @@ def route_along(
     last = len(vertices) - 1
     dwell = [least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served)]
     drive = [
-        _edge_ticks(roadmap, itinerary, tail, head)
+        edge_ticks(roadmap, itinerary, tail, head)
         for tail, head in zip(vertices, vertices[1:], strict=False)
     ]
     return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
 
 
-def _edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: VertexId, head: VertexId) -> Tick:
+def edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: int, head: int) -> Tick:
+    """Return how long a robot drives from one vertex to the next [ticks].
+
+    Raises
+    ------
+    KeyError
+        If no edge leads there.
+    """
     edge = roadmap.edge(tail, head)
-    assert edge is not None, "a leg follows edges"
-    return itinerary.edge_ticks[roadmap.length_class[edge]]
+    if edge is None:
+        raise KeyError((tail, head))
+    return itinerary.edge_ticks[int(roadmap.length_class[edge])]

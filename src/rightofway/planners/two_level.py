@@ -28,7 +28,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Reroute, Route, Scenario, Tick, Track
+from rightofway.model import Decision, Reroute, Route, Scenario, Tick
 from rightofway.planners.rerouting import reroute
 from rightofway.planners.routing import shortest_routes
 from rightofway.planners.task import Draft, Task, planning_headway
@@ -247,7 +247,7 @@ class _Fleet:
 def _node_level(choices: Sequence[_Choice | None], on_tie: int) -> tuple[_Choice | None, Level]:
     """Choose who waits by the conflicts left in the whole system."""
     possible = [choice for choice in choices if choice is not None]
-    if len(possible) < 2:
+    if len(possible) < len(choices):
         return (possible[0] if possible else None), "only"
     clear = [choice for choice in possible if not choice.meets_settled]
     if len(clear) == 1:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from rightofway import _core
-from rightofway.model import Itinerary, Roadmap, Tick, Track
+from rightofway.model import Itinerary, Roadmap, Tick, Track, edge_ticks
 
 __all__ = ["FOREVER", "Booking", "Bookings"]
 
@@ -72,9 +72,7 @@ class Bookings:
     def _approach(self, vertices: list[int], visit: int, itinerary: Itinerary) -> Tick:
         if visit == 0 or not self.books_ahead:
             return Tick(0)
-        edge = self.roadmap.edge(vertices[visit - 1], vertices[visit])
-        assert edge is not None, "a track follows edges"
-        return itinerary.edge_ticks[self.roadmap.length_class[edge]]
+        return edge_ticks(self.roadmap, itinerary, vertices[visit - 1], vertices[visit])
 
     def in_the_way(self, robot: int, track: Track, itinerary: Itinerary) -> set[int]:
         """Return the other robots whose bookings a track would overlap."""

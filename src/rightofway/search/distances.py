@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Itinerary, Roadmap, Tick, VertexId
+from rightofway.model import Roadmap, Tick, VertexId
 
 __all__ = ["Distances"]
+
 
 class Distances:
     """Tables of the least ticks from every vertex to a target.

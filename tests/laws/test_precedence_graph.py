@@ -1,0 +1,228 @@
+"""The native precedence graph is, after every step, what its slow twin says.
+
+The kernel keeps everything up to date from what has changed; the twin starts afresh each time.
+"""
+
+from __future__ import annotations
+
+from itertools import accumulate
+from typing import NamedTuple
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.oracles import precedence as oracle
+from tests.oracles.precedence import Right, System
+
+from rightofway._core import PrecedenceGraph
+
+law = settings(max_examples=120, derandomize=True, deadline=None)
+main_law = settings(law, max_examples=400)
+
+
+class Step(NamedTuple):
+    """What to do next, and whether to look at the results before the step after."""
+
+    right: Right | None  # None: go back to a mark
+    mark: int
+    look: bool
+
+
+@st.composite
+def routes(draw: st.DrawFn) -> tuple[tuple[int, ...], ...]:
+    """Few vertices, so that robots meet all the time; each step is to a different one."""
+    n_vertices = draw(st.integers(2, 6))
+    length = draw(st.sampled_from([1, 4, 6, 8]))
+    first = st.integers(0, n_vertices - 1)
+    steps = st.lists(st.integers(1, n_vertices - 1), min_size=length - 1, max_size=length - 1)
+    return tuple(
+        tuple(v % n_vertices for v in accumulate(draw(steps), initial=draw(first)))
+        for _ in range(draw(st.integers(2, 4)))
+    )
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> System:
+    """One or both vertices booked while moving, with headway and without, some robots inactive."""
+    paths = draw(routes())
+    n_visits = sum(map(len, paths))
+    ticks = st.integers(1, draw(st.sampled_from([1, 4])))
+    approach = st.integers(0, draw(st.sampled_from([0, 0, 1, 6])))
+    return System(
+        routes=paths,
+        least=tuple(draw(st.lists(ticks, min_size=n_visits, max_size=n_visits))),
+        approach=tuple(draw(approach) if k > 0 else 0 for path in paths for k in range(len(path))),
+        headway=draw(st.sampled_from([0, 0, 2])),
+        swaps_conflict=draw(st.booleans()),
+        active=tuple(draw(st.sampled_from([True, True, True, False])) for _ in paths),
+    )
+
+
+def meetings(system: System) -> list[Right]:
+    """Every right of way that can be asked for."""
+    visits = range(len(system.vertex))
+    return [
+        Right(a, b)
+        for a in visits
+        for b in visits
+        if system.vertex[a] == system.vertex[b]
+        and system.robot[a] != system.robot[b]
+        and system.active[system.robot[a]]
+        and system.active[system.robot[b]]
+    ]
+
+
+@st.composite
+def runs(draw: st.DrawFn) -> tuple[System, list[Step]]:
+    """A system, and what to do with it: mostly rights of way, now and then back to a mark.
+
+    Most rights of way ask for what a planner would: the visit goes first whose turn it is.
+    """
+    system = draw(systems())
+    pairs = meetings(system)
+    sensible = [right for right in pairs if is_sensible(system, right)]
+    kinds = ["any", "back"] if not sensible else ["sensible"] * 6 + ["any", "back"]
+    todo = []
+    for _ in range(draw(st.sampled_from([4, 12, 20]))):
+        kind = draw(st.sampled_from(kinds))
+        choice = sensible if kind == "sensible" else pairs
+        right = draw(st.sampled_from(choice)) if choice and kind != "back" else None
+        todo.append(Step(right, draw(st.integers(0, 20)), draw(st.booleans())))
+    return system, todo
+
+
+def is_sensible(system: System, right: Right) -> bool:
+    """Return whether the visit that goes first is about as early on its route as the other."""
+    place = [x - system.first_visit[r] for x, r in enumerate(system.robot)]
+    late = place[right.first] - place[right.second]
+    return late <= 1 and not system.is_last(right.first) and not system.is_first(right.second)
+
+
+def check(system: System, rights: list[Right], kernel: PrecedenceGraph) -> None:
+    """Everything that the kernel can be asked has the answer of its twin."""
+    enter = oracle.enters(system, rights)
+    assert enter is not None
+    found = oracle.conflicts(system, enter)
+    n_robots = len(system.routes)
+
+    assert kernel.rights_of_way().tolist() == [list(right) for right in rights]
+    assert kernel.checkpoint() == len(rights)
+    assert kernel.enter().tolist() == enter
+    assert kernel.conflicts() == sum(c.weight for c in found)
+    assert kernel.next_conflict() == (found[0].as_tuple() if found else None)
+    for r in range(n_robots):
+        assert kernel.completion(r) == enter[system.first_visit[r + 1] - 1]
+        for other in range(n_robots):
+            check_pair(kernel, r, other, found)
+
+
+def check_pair(kernel: PrecedenceGraph, r: int, other: int, found: list[oracle.Conflict]) -> None:
+    theirs = [c for c in found if {c.robot_a, c.robot_b} == {r, other}]
+    n_robots = kernel.n_robots
+    others = (np.arange(n_robots) == other).astype(np.uint8)
+    assert kernel.conflicts_of(r, others) == sum(c.weight for c in theirs)
+    if r != other:
+        earliest = theirs[0].as_tuple() if theirs else None
+        assert kernel.next_conflict_between(r, other) == earliest
+
+
+def take(step: Step, rights: list[Right], kernel: PrecedenceGraph) -> bool:
+    """Do the step to both; return whether the kernel found it possible."""
+    if step.right is None:
+        mark = step.mark % (len(rights) + 1)
+        kernel.rollback(mark)
+        del rights[mark:]
+        return True
+    possible = kernel.precede(*step.right)
+    if possible and step.right not in rights:
+        rights.append(step.right)
+    return possible
+
+
+@main_law
+@given(runs())
+def test_kernel_and_twin_agree_after_every_step(run: tuple[System, list[Step]]) -> None:
+    system, todo = run
+    kernel = system.kernel()
+    rights: list[Right] = []
+    check(system, rights, kernel)
+
+    for step in todo:
+        expected = step.right is None or oracle.is_possible(system, rights, step.right)
+        assert take(step, rights, kernel) == expected
+        if step.look:
+            check(system, rights, kernel)
+    check(system, rights, kernel)
+
+
+@law
+@given(runs())
+def test_times_never_decrease_when_a_right_of_way_is_given(run: tuple[System, list[Step]]) -> None:
+    system, todo = run
+    kernel = system.kernel()
+
+    for step in todo:
+        before = kernel.enter()
+        if step.right is not None and kernel.precede(*step.right):
+            assert (kernel.enter() >= before).all()
+
+
+@law
+@given(runs())
+def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
+    run: tuple[System, list[Step]],
+) -> None:
+    """A deadlock is a cycle of positive length; a swap has two visits and length zero."""
+    system, todo = run
+    kernel = system.kernel()
+    rights: list[Right] = []
+
+    for step in todo:
+        if take(step, rights, kernel) or step.right is None:
+            continue
+        check(system, rights, kernel)
+        cycle = kernel.cycle().tolist()
+        a, b = step.right
+        if system.is_last(a) or system.is_first(b):
+            assert cycle == []
+            continue
+        assert (cycle[0], cycle[-1]) == (b, a + 1)
+        assert len(set(cycle)) == len(cycle)
+        length = oracle.length_of_cycle(system, [*rights, step.right], cycle)
+        assert length is not None
+        assert length > 0 or (length == 0 and len(cycle) == 2 and system.swaps_conflict)
+
+
+@law
+@given(runs())
+def test_going_back_to_the_start_restores_the_start(run: tuple[System, list[Step]]) -> None:
+    system, todo = run
+    kernel = system.kernel()
+    mark = kernel.checkpoint()
+
+    for step in todo:
+        if step.right is not None:
+            kernel.precede(*step.right)
+    kernel.rollback(mark)
+
+    check(system, [], kernel)
+
+
+@law
+@given(runs())
+def test_marks_nest_and_can_be_gone_back_to_more_than_once(
+    run: tuple[System, list[Step]],
+) -> None:
+    """Try every step and take it back, as a planner does that compares choices."""
+    system, todo = run
+    kernel = system.kernel()
+    rights: list[Right] = []
+
+    for step in todo:
+        mark = kernel.checkpoint()
+        for right in meetings(system)[:3]:
+            kernel.precede(*right)
+            kernel.rollback(mark)
+        check(system, rights, kernel)
+        if step.right is not None:
+            take(step, rights, kernel)
