@@ -23,6 +23,8 @@ template <class T>
 using ArrayOut = nb::ndarray<nb::numpy, T, nb::ndim<1>>;
 template <class T>
 using PairsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, 2>>;
+template <class T>
+using TableOut = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
 
 template <class T>
 std::span<const T> view(const ArrayIn<T>& array) {
@@ -52,6 +54,7 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
 }
 
 void bind_distance_tables(nb::module_& module);
+void bind_lacam(nb::module_& module);
 void bind_precedence_graph(nb::module_& module);
 void bind_safe_interval_search(nb::module_& module);
 

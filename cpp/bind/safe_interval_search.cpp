@@ -4,11 +4,11 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <chrono>
 #include <optional>
 #include <tuple>
 
 #include "bindings.hpp"
+#include "deadline.hpp"
 #include "rightofway/booking_table.hpp"
 
 namespace rightofway::bind {
@@ -107,7 +107,6 @@ Notes
 -----
 Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.)";
 
-using Clock = std::chrono::steady_clock;
 using Found = std::tuple<int, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
 std::vector<std::tuple<Tick, Tick, RobotId>> at(const BookingTable& self, VertexId vertex) {
@@ -121,15 +120,6 @@ std::vector<std::tuple<Tick, Tick, RobotId>> at(const BookingTable& self, Vertex
     return bookings;
 }
 
-// Asked while the GIL is released: takes it to look for Ctrl-C.
-bool is_over(const std::optional<Clock::time_point>& deadline) {
-    const nb::gil_scoped_acquire acquired;
-    if (PyErr_CheckSignals() != 0) {
-        throw nb::python_error();
-    }
-    return deadline && Clock::now() > *deadline;
-}
-
 Found earliest_track(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
                      const ArrayIn<std::int32_t>& edge_ticks, const BookingTable& bookings,
                      Tick headway, bool books_ahead, VertexId home,
@@ -140,18 +130,14 @@ Found earliest_track(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& ind
     for (const auto& table : stage_tables) {
         trip.stage_tables.push_back(view(table));
     }
-    std::optional<Clock::time_point> deadline;
-    if (time_limit) {
-        deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(*time_limit));
-    }
+    const Deadline deadline(time_limit);
     SearchEnd end = SearchEnd::stopped;
     FoundTrack track;
     {
         const nb::gil_scoped_release released;
         const Graph graph{view(indptr), view(indices)};
         SafeIntervalSearch search(graph, bookings, {headway, books_ahead}, trip);
-        end = search.run([&deadline] { return is_over(deadline); });
+        end = search.run(deadline);
         track = search.track();
     }
     return {static_cast<int>(end), to_numpy(std::move(track.vertices)),

@@ -51,10 +51,11 @@ bool Timetable::has_right(VisitId a, VisitId b) const {
 }
 
 // A swap is a cycle of two robots and zero length: b enters the vertex that a leaves, and the
-// robot of a enters the vertex that b's robot leaves, each no earlier than the other. Longer cycles
-// of zero length are rotations, which are allowed.
+// robot of a enters the vertex that b's robot leaves, each no earlier than the other. (With a gap
+// such a cycle has a positive length, and is refused as that anyway.) Longer cycles of zero length
+// are rotations, which are allowed.
 bool Timetable::closes_swap(VisitId a, VisitId b) const {
-    return routes_.may_swap(b) && routes_.may_swap(a + 1) && has_right(b - 1, a + 1);
+    return routes_.swaps_conflict() && has_right(b - 1, a + 1);
 }
 
 // Raises b and all that follows from it; false as soon as the raise reaches the source. No arc

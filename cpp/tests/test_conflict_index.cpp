@@ -101,5 +101,21 @@ TEST_CASE("of conflicts at the same tick the one of lower robots comes first") {
     CHECK(filled.index.earliest(1) == Conflict{1, 0, 1, 1, 4, vertex_kind});
 }
 
+TEST_CASE("robots come before kinds: a swap with a lower robot before a meeting with a higher") {
+    // At tick 2 the third robot enters 2, which the second enters too, from 1, to which the first
+    // goes from 2.
+    Filled filled(Example({{3, 2, 1}, {6, 7, 2}, {5, 1, 2}}));
+    CHECK(filled.index.earliest(8) == Conflict{2, 0, 2, 2, 8, swap_kind});
+    CHECK(filled.index.earliest(8, 1) == Conflict{2, 1, 2, 5, 8, vertex_kind});
+}
+
+TEST_CASE("two visits that swap are taken out and put back as one conflict") {
+    Filled filled(Example({{0, 1, 2, 5}, {3, 2, 1, 6}}));
+    CHECK(filled.index.remove(2) == 1);
+    CHECK(filled.index.remove(6) == 0);
+    CHECK(filled.index.add(2, filled.timetable) == 0);
+    CHECK(filled.index.add(6, filled.timetable) == 1);
+}
+
 }  // namespace
 }  // namespace rightofway::test

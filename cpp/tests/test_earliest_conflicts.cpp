@@ -86,13 +86,14 @@ TEST_CASE("a conflict comes back when what resolved it is taken back") {
 }
 
 TEST_CASE("a long approach makes a later visit conflict earlier") {
-    // The first robot meets the second at 9 at tick 2; at 8 it books from 3 - 3 = 0 on, and the
-    // third robot is there during [0, 9).
-    Example example({{0, 1, 9, 8}, {2, 3, 9, 4}, {8, 5}});
-    example.approach = {0, 0, 0, 3, 0, 0, 0, 0, 0, 0};
-    example.least = {1, 1, 1, 1, 1, 1, 1, 1, 9, 1};
+    // The robots meet at 9 at tick 2. But the first books 8 from 3 - 3 = 0 on for its visit after
+    // that, and the second is there during [0, 2).
+    Example example({{0, 1, 9, 8}, {8, 9, 4}});
+    example.approach = {0, 0, 0, 3, 0, 0, 0};
+    example.least = {1, 1, 1, 1, 2, 1, 1};
     System system(example);
-    CHECK(system.earliest.next() == Conflict{0, 0, 2, 3, 8, vertex_kind});
+    CHECK(system.earliest.between(0, 1) == Conflict{0, 0, 1, 3, 4, vertex_kind});
+    CHECK(system.earliest.next() == Conflict{0, 0, 1, 3, 4, vertex_kind});
 }
 
 TEST_CASE("two robots are asked about in either order") {

@@ -76,6 +76,48 @@ class DistanceTables:
     def n_edges(self) -> int:
         """The number of edges, E."""
 
+def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+    """
+    Find steps for the whole fleet that bring every robot through its stages.
+
+    Time plays no part: in a step each robot stays or moves to a neighbour, no two are at one vertex and
+    no two change places. Times follow from the routes and the order of visits at each vertex.
+
+    Parameters
+    ----------
+    indptr, indices : int32[V + 1], int32[E]
+        The directed graph in compressed rows.
+    home : int32[R]
+        Where each robot is at first.
+    first_stage : int32[R + 1]
+        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+    stage_vertex : int32[S]
+        The vertices to go to, one after the other; a robot stays at its last one.
+    stage_tables : list of int32[V]
+        For each stage, how far it is to its vertex from everywhere, -1 where there is no way.
+    may_rotate : bool
+        Whether three or more robots may move round a circle in one step.
+    seed : int
+        For ties.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int32[T, R])
+        How it ended (0: found, 1: proven that there is none, 2: out of time) and where every robot is
+        after each step, the start included.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together.
+
+    Notes
+    -----
+    Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is obeyed.
+    """
+
 class PrecedenceGraph:
     """
     Routes, rights of way, the timetable they give, and the conflicts left.

@@ -1,5 +1,7 @@
 """The paper's planner against the paper's tables, and where it goes beyond them."""
 
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -84,7 +86,7 @@ def test_by_default_no_plan_has_a_fault(case: dict[str, Any], occupancy: Any) ->
 
 
 def test_robots_with_one_target_go_through_the_dead_end_one_after_the_other() -> None:
-    """N0 and N2 both work at N7, behind the door: the second waits outside until the first is out."""
+    """N0 and N2 both work at N7, behind the door: the second waits until the first is out."""
     plan = rightofway.solve(grid_fleet(["...", "@.@", "@.@"], [("N0", "N7"), ("N2", "N7")]))
     # Alone: 0 1 4 7 7 4 1 0, seven ticks. R2 leaves N1 at tick 7, then R1 may enter it.
     assert sorted(int(track.enter[-1]) for track in plan.tracks) == [7, 13]
@@ -99,6 +101,30 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     assert plan.run.status == "re-routed R2"
     assert plan.scenario.roadmap.vertex("N8") in plan.tracks[1].vertices
     assert "waiting cannot keep R1 and R2 apart" in plan.run.reroutes[0].because
+
+
+def test_where_one_robot_at_a_time_finds_no_way_all_are_planned_together() -> None:
+    """Each works where the other lives, in a corridor with one bay: both have to use the bay."""
+    plan = rightofway.solve(grid_fleet([".....", "@@.@@"], [("N0", "N4"), ("N4", "N0")]))
+    assert rightofway.check(plan).ok
+    assert plan.run.status == "re-routed all robots together"
+
+
+@pytest.mark.parametrize("occupancy", ["one", "both"])
+def test_where_there_is_no_plan_that_is_proven(occupancy: Any) -> None:
+    """A corridor without a bay: nobody can pass."""
+    rules = Rules(occupancy=occupancy)
+    with pytest.raises(NoPlanExists, match="no order of moves"):
+        rightofway.solve(grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")], rules=rules))
+
+
+def test_a_full_ring_turns_only_where_rotations_are_allowed() -> None:
+    ring, trips = ["..", ".."], [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
+    allowed = Rules(ends="none", turn=Fraction(0))
+    plan = rightofway.solve(grid_fleet(ring, trips, rules=allowed))
+    assert [track.enter.tolist() for track in plan.tracks] == [[0, 1]] * 4
+    with pytest.raises(NoPlanExists):
+        rightofway.solve(grid_fleet(ring, trips, rules=replace(allowed, rotations=False)))
 
 
 def test_the_published_method_says_where_it_is_stuck() -> None:

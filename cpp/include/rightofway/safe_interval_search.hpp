@@ -14,14 +14,11 @@
 #include <vector>
 
 #include "rightofway/booking_table.hpp"
+#include "rightofway/graph.hpp"
+#include "rightofway/search_end.hpp"
 #include "rightofway/types.hpp"
 
 namespace rightofway {
-
-struct Graph {
-    std::span<const EdgeId> indptr;     // the edges that leave v: indptr[v] .. indptr[v + 1] - 1
-    std::span<const VertexId> indices;  // where each edge ends
-};
 
 // What one robot has to do. The stage tables hold, for each stage, the least ticks from every
 // vertex to the stage's vertex, -1 where there is no way.
@@ -33,7 +30,7 @@ struct Trip {
     std::vector<std::span<const std::int32_t>> stage_tables;
 };
 
-// How bookings are made of times; see DESIGN of bookings in conflict.hpp.
+// How bookings are made of times; see conflict.hpp.
 struct BookingRules {
     Tick headway;
     bool books_ahead;  // a vertex is booked from when the robot starts to drive there
@@ -43,8 +40,6 @@ struct FoundTrack {
     std::vector<VertexId> vertices;
     std::vector<Tick> enter;
 };
-
-enum class SearchEnd : std::int32_t { found = 0, proven_none = 1, stopped = 2 };
 
 class SafeIntervalSearch {
   public:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from rightofway.model.itinerary import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Route", "edge_ticks", "route_along"]
+__all__ = ["Route", "edge_ticks", "route_along", "route_through"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,9 +65,30 @@ def route_along(
     dwell = [least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served)]
     drive = [
         edge_ticks(roadmap, itinerary, tail, head)
-        for tail, head in zip(vertices, vertices[1:], strict=False)
+        for tail, head in pairwise(vertices)
     ]
     return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
+
+
+def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Route:
+    """Make a route of the vertices it visits; each stage is served as early as it can be.
+
+    Parameters
+    ----------
+    roadmap
+        The graph the route runs on.
+    itinerary
+        What the robot has to do; the vertices lead from its home past all stages to the last one.
+    vertices
+        Where it goes, visit by visit.
+    """
+    legs: list[list[VertexId]] = []
+    begin = 0
+    for stage in itinerary.stages[:-1]:
+        end = vertices.index(stage.vertex, begin)
+        legs.append(list(vertices[begin : end + 1]))
+        begin = end
+    return route_along(roadmap, itinerary, [*legs, vertices[begin:]])
 
 
 def edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: int, head: int) -> Tick:

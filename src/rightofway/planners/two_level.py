@@ -18,7 +18,9 @@ Notes
 -----
 Deterministic. Rights of way once given are kept, so the method ends: it has decided every meeting,
 or it has found one that no waiting can open (a deadlock). Then one of the two robots is set aside
-and, when all others have their times, sent another way (`rerouting`). Not complete, not optimal.
+and, when all others have their times, sent another way (`rerouting`). Where that does not work out
+the whole fleet is planned together (`joint`), so with ``swaps="resolve"`` the planner is complete:
+given time it finds a plan or proves that there is none. It is not optimal.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ from typing import Literal
 
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Scenario, Tick
+from rightofway.planners.joint import plan_jointly
 from rightofway.planners.rerouting import reroute
 from rightofway.planners.routing import shortest_routes
 from rightofway.planners.task import Draft, Task, planning_headway
@@ -72,27 +75,38 @@ def two_level(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If a robot cannot get to a place, or two would stay at one vertex for ever.
+        If it is proven that there is none.
     GaveUp
-        If time ran out; or a deadlock stayed closed, which is no proof that there is no plan.
+        If time ran out; with ``swaps="leave"`` also where the published method is stuck.
     """
     distances = Distances(task.scenario.roadmap)
-    routes = shortest_routes(task.scenario, distances)
-    fleet = _Fleet(task, routes)
+    fleet = _Fleet(task, shortest_routes(task.scenario, distances))
     fleet.settle_all()
-    tracks = dict(enumerate(fleet.graph.tracks()))
-    for robot in fleet.aside:
-        del tracks[robot]
+    tracks = {r: t for r, t in enumerate(fleet.graph.tracks()) if r not in fleet.aside}
     rerouted = reroute(task, distances, tracks, list(fleet.aside))
+    if rerouted is None:
+        return _all_together(task, distances)
     return Draft(
         tracks=tuple(track for _, track in sorted(tracks.items())),
         status=_status(task.scenario, rerouted),
         decisions=tuple(fleet.decisions_that_hold(rerouted)),
         reroutes=tuple(
-            Reroute(robot=robot, because=fleet.aside.get(robot, "stood in the way of one"))
+            Reroute(robot=robot, because=fleet.aside.get(robot, "stood in the way of another one"))
             for robot in rerouted
         ),
         keeps_swaps=not fleet.by_segment,
+    )
+
+
+def _all_together(task: Task, distances: Distances) -> Draft:
+    """Plan the whole fleet anew, where one robot at a time was not enough."""
+    because = "one robot at a time finds no way, so all were planned together"
+    return Draft(
+        tracks=tuple(plan_jointly(task, distances)),
+        status="re-routed all robots together",
+        reroutes=tuple(
+            Reroute(robot=robot, because=because) for robot in range(len(task.scenario.robots))
+        ),
     )
 
 

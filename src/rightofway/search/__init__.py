@@ -2,6 +2,7 @@
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances
+from rightofway.search.joint import joint_steps
 from rightofway.search.sipp import earliest_track
 
-__all__ = ["FOREVER", "Booking", "Bookings", "Distances", "earliest_track"]
+__all__ = ["FOREVER", "Booking", "Bookings", "Distances", "earliest_track", "joint_steps"]

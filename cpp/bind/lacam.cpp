@@ -1,0 +1,92 @@
+#include "rightofway/lacam.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "bindings.hpp"
+#include "deadline.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto steps_doc =
+    R"(Find steps for the whole fleet that bring every robot through its stages.
+
+Time plays no part: in a step each robot stays or moves to a neighbour, no two are at one vertex and
+no two change places. Times follow from the routes and the order of visits at each vertex.
+
+Parameters
+----------
+indptr, indices : int32[V + 1], int32[E]
+    The directed graph in compressed rows.
+home : int32[R]
+    Where each robot is at first.
+first_stage : int32[R + 1]
+    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+stage_vertex : int32[S]
+    The vertices to go to, one after the other; a robot stays at its last one.
+stage_tables : list of int32[V]
+    For each stage, how far it is to its vertex from everywhere, -1 where there is no way.
+may_rotate : bool
+    Whether three or more robots may move round a circle in one step.
+seed : int
+    For ties.
+time_limit : float or None
+    After so many seconds the search stops.
+
+Returns
+-------
+tuple of (int, int32[T, R])
+    How it ended (0: found, 1: proven that there is none, 2: out of time) and where every robot is
+    after each step, the start included.
+
+Raises
+------
+ValueError
+    If the arrays do not fit together.
+
+Notes
+-----
+Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is obeyed.)";
+
+using Steps = std::tuple<int, TableOut<VertexId>>;
+
+Steps joint_steps(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
+                  const ArrayIn<VertexId>& home, const ArrayIn<std::int32_t>& first_stage,
+                  const ArrayIn<VertexId>& stage_vertex,
+                  const std::vector<ArrayIn<std::int32_t>>& stage_tables, bool may_rotate,
+                  std::uint32_t seed, std::optional<double> time_limit) {
+    Goals goals{view(home), view(first_stage), view(stage_vertex), {}};
+    for (const auto& table : stage_tables) {
+        goals.stage_table.push_back(view(table));
+    }
+    const Deadline deadline(time_limit);
+    SearchEnd end = SearchEnd::stopped;
+    std::vector<VertexId> steps;
+    {
+        const nb::gil_scoped_release released;
+        Lacam search({view(indptr), view(indices)}, goals, may_rotate, seed);
+        end = search.run(deadline);
+        steps = search.steps();
+    }
+    const std::size_t n_steps = home.size() == 0 ? 0 : steps.size() / home.size();
+    return {static_cast<int>(end),
+            hand_over<TableOut<VertexId>>(std::move(steps), {n_steps, home.size()})};
+}
+
+}  // namespace
+
+void bind_lacam(nb::module_& module) {
+    module.def("joint_steps", &joint_steps, nb::arg("indptr").noconvert(),
+               nb::arg("indices").noconvert(), nb::arg("home").noconvert(),
+               nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
+               nb::arg("stage_tables"), nb::arg("may_rotate"), nb::arg("seed"),
+               nb::arg("time_limit").none(), steps_doc);
+}
+
+}  // namespace rightofway::bind

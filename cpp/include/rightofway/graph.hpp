@@ -1,0 +1,22 @@
+// The directed graph that robots drive on, borrowed, in compressed rows.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "rightofway/types.hpp"
+
+namespace rightofway {
+
+struct Graph {
+    std::span<const EdgeId> indptr;     // the edges that leave v: indptr[v] .. indptr[v + 1] - 1
+    std::span<const VertexId> indices;  // where each edge ends
+
+    VertexId n_vertices() const { return static_cast<VertexId>(indptr.size()) - 1; }
+    std::span<const VertexId> heads(VertexId v) const {
+        const auto first = static_cast<std::size_t>(indptr[v]);
+        return indices.subspan(first, static_cast<std::size_t>(indptr[v + 1]) - first);
+    }
+};
+
+}  // namespace rightofway
