@@ -105,7 +105,7 @@ std::vector<VertexId> Pibt::places_by_distance(const Configuration& now, RobotId
     std::vector<VertexId> places(heads.begin(), heads.end());
     places.push_back(now.at[robot]);
     for (const VertexId place : places) {
-        tie_[place] = draw_();
+        tie_[place] = static_cast<std::uint32_t>(draw_());
     }
     std::sort(places.begin(), places.end(), [&](VertexId left, VertexId right) {
         const auto way_left = way(now, robot, left);

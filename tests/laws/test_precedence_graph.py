@@ -32,12 +32,15 @@ class Step(NamedTuple):
 def routes(draw: st.DrawFn) -> tuple[tuple[int, ...], ...]:
     """Few vertices, so that robots meet all the time; each step is to a different one."""
     n_vertices = draw(st.integers(2, 6))
-    length = draw(st.sampled_from([1, 4, 6, 8]))
-    first = st.integers(0, n_vertices - 1)
-    steps = st.lists(st.integers(1, n_vertices - 1), min_size=length - 1, max_size=length - 1)
+    start = st.integers(0, n_vertices - 1)
+    step = st.integers(1, n_vertices - 1)
+    lengths = draw(st.lists(st.sampled_from([5, 8, 1, 2]), min_size=2, max_size=4))
     return tuple(
-        tuple(v % n_vertices for v in accumulate(draw(steps), initial=draw(first)))
-        for _ in range(draw(st.integers(2, 4)))
+        tuple(
+            v % n_vertices
+            for v in accumulate((draw(step) for _ in range(n - 1)), initial=draw(start))
+        )
+        for n in lengths
     )
 
 
@@ -54,7 +57,7 @@ def systems(draw: st.DrawFn) -> System:
         approach=tuple(draw(approach) if k > 0 else 0 for path in paths for k in range(len(path))),
         headway=draw(st.sampled_from([0, 0, 2])),
         swaps_conflict=draw(st.booleans()),
-        active=tuple(draw(st.sampled_from([True, True, True, False])) for _ in paths),
+        active=tuple(draw(st.sampled_from([True] * 5 + [False])) for _ in paths),
     )
 
 
@@ -76,19 +79,21 @@ def meetings(system: System) -> list[Right]:
 def runs(draw: st.DrawFn) -> tuple[System, list[Step]]:
     """A system, and what to do with it: mostly rights of way, now and then back to a mark.
 
-    Most rights of way ask for what a planner would: the visit goes first whose turn it is.
+    Most rights of way ask for what a planner would: the visit goes first whose turn it is. Some
+    come in pairs that make two robots exchange their vertices.
     """
     system = draw(systems())
     pairs = meetings(system)
     sensible = [right for right in pairs if is_sensible(system, right)]
-    kinds = ["any", "back"] if not sensible else ["sensible"] * 6 + ["any", "back"]
-    todo = []
-    for _ in range(draw(st.sampled_from([4, 12, 20]))):
-        kind = draw(st.sampled_from(kinds))
-        choice = sensible if kind == "sensible" else pairs
-        right = draw(st.sampled_from(choice)) if choice and kind != "back" else None
-        todo.append(Step(right, draw(st.integers(0, 20)), draw(st.booleans())))
-    return system, todo
+    exchanges = [right for right in sensible if opposite(right) in pairs]
+    asked: list[Right | None] = []
+    for _ in range(draw(st.sampled_from([12, 4, 20]))):
+        kind = draw(st.sampled_from([*[sensible] * 6, exchanges, pairs, []]))
+        right = draw(st.sampled_from(kind)) if kind else None
+        asked.append(right)
+        if right is not None and kind is exchanges:
+            asked.append(opposite(right))
+    return system, [Step(right, draw(st.integers(0, 20)), draw(st.booleans())) for right in asked]
 
 
 def is_sensible(system: System, right: Right) -> bool:
@@ -96,6 +101,11 @@ def is_sensible(system: System, right: Right) -> bool:
     place = [x - system.first_visit[r] for x, r in enumerate(system.robot)]
     late = place[right.first] - place[right.second]
     return late <= 1 and not system.is_last(right.first) and not system.is_first(right.second)
+
+
+def opposite(right: Right) -> Right:
+    """Return the right of way that makes a swap of this one, if the vertices fit."""
+    return Right(right.second - 1, right.first + 1)
 
 
 def check(system: System, rights: list[Right], kernel: PrecedenceGraph) -> None:

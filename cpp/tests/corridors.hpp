@@ -1,0 +1,44 @@
+// Small graphs for the tests of searches, and tables of how far it is from everywhere.
+#pragma once
+
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "rightofway/distance_tables.hpp"
+#include "rightofway/graph.hpp"
+
+namespace rightofway::test {
+
+// Vertices 0 .. n - 1, joined both ways.
+struct Roads {
+    std::vector<EdgeId> indptr{0};
+    std::vector<VertexId> heads;
+
+    Roads(VertexId n, std::initializer_list<std::pair<VertexId, VertexId>> joined) {
+        for (VertexId v = 0; v < n; ++v) {
+            for (const auto& [one, other] : joined) {
+                if (one == v || other == v) {
+                    heads.push_back(one == v ? other : one);
+                }
+            }
+            indptr.push_back(static_cast<EdgeId>(heads.size()));
+        }
+    }
+
+    Graph graph() const { return {indptr, heads}; }
+    std::vector<std::int32_t> ticks() const { return std::vector<std::int32_t>(heads.size(), 1); }
+    std::vector<std::int32_t> table(VertexId target) const {
+        return DistanceTables(indptr, heads).to(target, ticks());
+    }
+};
+
+// 0 - 1 - 2 - 3
+inline Roads corridor() { return {4, {{0, 1}, {1, 2}, {2, 3}}}; }
+
+// 0 - 1 - 2, and a bay, 3, at 1
+inline Roads corridor_with_bay() { return {4, {{0, 1}, {1, 2}, {1, 3}}}; }
+
+inline bool never() { return false; }
+
+}  // namespace rightofway::test

@@ -1,0 +1,76 @@
+"""Whether a whole fleet can get through its trips, by trying every step from every configuration."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from itertools import product
+
+from rightofway.model import Scenario
+
+__all__ = ["can_get_through", "is_step"]
+
+State = tuple[tuple[int, ...], tuple[int, ...]]
+
+
+def can_get_through(scenario: Scenario, *, may_rotate: bool) -> bool:
+    """Search all configurations that can be reached, the nearest first."""
+    goals = [[int(s.vertex) for s in it.stages] for it in scenario.timing.itineraries]
+    homes = tuple(int(itinerary.home) for itinerary in scenario.timing.itineraries)
+    start = _advance(homes, (0,) * len(homes), goals)
+    queue, seen = deque([start]), {start}
+    while queue:
+        at, stage = queue.popleft()
+        if all(g[s:] == [v] for g, s, v in zip(goals, stage, at, strict=True)):
+            return True
+        for after in _steps(scenario, at, may_rotate=may_rotate):
+            state = _advance(after, stage, goals)
+            if state not in seen:
+                seen.add(state)
+                queue.append(state)
+    return False
+
+
+def is_step(
+    scenario: Scenario, at: Sequence[int], after: Sequence[int], *, may_rotate: bool
+) -> bool:
+    """Tell whether all robots may go from one configuration to another in one step."""
+    moves = {a: b for a, b in zip(at, after, strict=True) if a != b}
+    return (
+        len(set(after)) == len(after)
+        and all(scenario.roadmap.edge(a, b) is not None for a, b in moves.items())
+        and all(moves.get(b) != a for a, b in moves.items())
+        and (may_rotate or not _rotates(moves))
+    )
+
+
+def _rotates(moves: dict[int, int]) -> bool:
+    for start in moves:
+        place = moves[start]
+        while place in moves and place != start:
+            place = moves[place]
+            if place == moves[start]:
+                break  # round a circle that does not hold the start
+        if place == start:
+            return True
+    return False
+
+
+def _steps(
+    scenario: Scenario, at: tuple[int, ...], *, may_rotate: bool
+) -> Iterator[tuple[int, ...]]:
+    roadmap = scenario.roadmap
+    choices = [[v, *roadmap.heads[roadmap.indptr[v] : roadmap.indptr[v + 1]].tolist()] for v in at]
+    for after in product(*choices):
+        if is_step(scenario, at, after, may_rotate=may_rotate):
+            yield after
+
+
+def _advance(at: tuple[int, ...], stage: tuple[int, ...], goals: list[list[int]]) -> State:
+    done = []
+    for place, number, goal in zip(at, stage, goals, strict=True):
+        reached = number
+        while reached < len(goal) - 1 and goal[reached] == place:
+            reached += 1
+        done.append(reached)
+    return at, tuple(done)
