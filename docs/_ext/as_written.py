@@ -1,0 +1,85 @@
+"""The Python pages: signatures as they are written, and names that lead to where they are told.
+
+Left to itself autodoc spells out what annotations stand for, so that ``FaultKind`` becomes a list of
+a dozen words, and names every type after the module it is defined in, which has no page.
+"""  # noqa: INP001 (a Sphinx extension, found by its path)
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable, Iterator
+from inspect import Parameter
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from docutils import nodes
+    from sphinx.application import Sphinx
+    from sphinx.environment import BuildEnvironment
+
+
+def signature_of(
+    _app: Sphinx, what: str, _name: str, value: Any, *_: Any
+) -> tuple[str, str | None] | None:
+    """Return parameters and result of a function, method or class as the source has them."""
+    if what == "class" and getattr(value, "_is_protocol", False):
+        return "", None
+    if what not in {"function", "method", "class"} or not _is_code(value):
+        return None
+    signature = inspect.signature(value)
+    parameters = list(signature.parameters.values())
+    if what == "method" and not inspect.ismethod(value):
+        parameters = parameters[1:]
+    result = None if what == "class" else _words(signature.return_annotation)
+    return f"({', '.join(_parts(parameters))})", result
+
+
+def _is_code(value: Any) -> bool:
+    return inspect.isroutine(value) or inspect.isclass(value)
+
+
+def _parts(parameters: Iterable[Parameter]) -> Iterator[str]:
+    before = None
+    for each in parameters:
+        if each.kind is Parameter.KEYWORD_ONLY and before is not Parameter.KEYWORD_ONLY:
+            yield "*"
+        before = each.kind
+        annotation = _words(each.annotation)
+        default = "" if each.default is each.empty else _default(each.default)
+        yield f"{each.name}: {annotation}{f' = {default}' if default else ''}"
+
+
+def _words(annotation: Any) -> str | None:
+    """Return an annotation as text; named tuples keep theirs as forward references."""
+    if annotation is Parameter.empty:
+        return None
+    return str(getattr(annotation, "__forward_arg__", annotation))
+
+
+def _default(value: Any) -> str:
+    """Return a default; a factory or a function has no text that means anything."""
+    return "..." if repr(value).startswith("<") else repr(value)
+
+
+def is_field(_app: Sphinx, _what: str, _name: str, value: Any, *_: Any) -> bool | None:
+    """Leave out the fields of named tuples, which the text of their class describes."""
+    return True if type(value).__name__ == "_tuplegetter" else None
+
+
+def told_elsewhere(
+    app: Sphinx, env: BuildEnvironment, node: nodes.Element, content: nodes.Element
+) -> nodes.Node | None:
+    """Resolve a name that a page of another package tells about, like ``Plan`` in `check`."""
+    name = node.get("reftarget", "").rpartition(".")[2]
+    domain = env.get_domain("py")
+    found = [full for full, *_ in domain.get_objects() if full.split(".")[2:] == [name]]
+    if node.get("refdomain") != "py" or len(found) != 1:
+        return None
+    return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", found[0], node, content)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the three."""
+    app.connect("autodoc-process-signature", signature_of)
+    app.connect("autodoc-skip-member", is_field)
+    app.connect("missing-reference", told_elsewhere)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

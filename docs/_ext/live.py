@@ -1,0 +1,179 @@
+"""Parts of pages that are taken from the program itself, so that they cannot drift from it.
+
+``command-help`` shows what ``--help`` prints, ``planner-options`` and ``planner-list`` come from the
+registry, ``document-keys`` from the JSON Schema of a format, ``public-names`` from ``__all__``.
+"""  # noqa: INP001 (a Sphinx extension, found by its path)
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable, Iterator, Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import click
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.util.docutils import SphinxDirective
+
+from rightofway.cli.main import commands
+from rightofway.io import schema
+from rightofway.model import Robot, Rules, Stop
+from rightofway.planners import registered
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+Row = Sequence[str]
+
+RULES = schema("scenario")["$defs"]["RulesDocument"]["properties"]
+"""Keys that stand last where a robot has them too."""
+
+
+class LiveDirective(SphinxDirective):
+    """Writes Markdown in its place."""
+
+    required_arguments = 1
+    optional_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return what the Markdown becomes."""
+        container = nodes.container()
+        text = "\n".join(self.lines(*self.arguments))
+        self.state.nested_parse(StringList(text.splitlines(), "live"), 0, container)
+        return container.children
+
+    def lines(self, *_: str) -> Iterable[str]:
+        """Return the Markdown."""
+        raise NotImplementedError
+
+
+def table(heads: Row, rows: Iterable[Row]) -> Iterator[str]:
+    """Yield a Markdown table."""
+    for row in (heads, ["---"] * len(heads), *rows):
+        yield "| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) + " |"
+
+
+class CommandHelp(LiveDirective):
+    """What a command prints with ``--help``."""
+
+    required_arguments = 0
+
+    def lines(self, *path: str) -> Iterable[str]:
+        """Return a code block."""
+        command: click.Command = commands
+        context = click.Context(command, info_name="rightofway", max_content_width=80)
+        for name in path:
+            assert isinstance(command, click.Group)
+            command = command.commands[name]
+            context = click.Context(command, info_name=name, parent=context, max_content_width=80)
+        return ["```text", *command.get_help(context).splitlines(), "```"]
+
+
+class PlannerList(LiveDirective):
+    """The planners there are."""
+
+    required_arguments = 0
+
+    def lines(self, *_: str) -> Iterable[str]:
+        """Return a table."""
+        rows = [(f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in registered().values()]
+        return table(("planner", "what it does"), rows)
+
+
+class PlannerOptions(LiveDirective):
+    """What a planner can be told."""
+
+    def lines(self, *arguments: str) -> Iterable[str]:
+        """Return a table."""
+        options = registered()[arguments[0]].options
+        rows = (
+            (f"`{each.name}`", f"`{each.choices[0]}`", _codes(each.choices[1:]), each.summary)
+            for each in options
+        )
+        return table(("option", "default", "other values", "what it does"), rows)
+
+
+class DocumentKeys(LiveDirective):
+    """The keys of one part of a format: ``scenario RulesDocument``."""
+
+    optional_arguments = 1
+
+    def lines(self, *arguments: str) -> Iterable[str]:
+        """Return a table."""
+        kind, *part = arguments
+        whole = schema(kind)  # type: ignore[arg-type]  # a wrong kind is refused with a sentence
+        node = whole["$defs"][part[0]] if part else whole
+        node = node["anyOf"][-1] if "anyOf" in node else node
+        required = node.get("required", [])
+        defaults = _defaults().get(part[0], {}) if part else {}
+        keys = sorted(
+            node["properties"].items(), key=lambda item: (item[0] not in required, item[0] in RULES)
+        )
+        rows = (
+            (
+                f"`{key}`",
+                _text(value, whole),
+                "required" if key in required else _default(key, value, defaults),
+            )
+            for key, value in keys
+        )
+        return table(("key", "what", "default"), rows)
+
+
+def _defaults() -> dict[str, dict[str, Any]]:
+    """Return the defaults that the model has, where the schema leaves them to it."""
+    rules, robot = Rules(), Robot(name="R1", home=0, stops=(Stop(at=0),))  # type: ignore[arg-type]
+    return {
+        "RulesDocument": {
+            **{name: getattr(rules, name) for name in ("occupancy", "headway", "laps", "rotations")},
+            "return": rules.ends,
+        },
+        "RobotDocument": {"speed": robot.speed, "work": robot.stops[0].work},
+        "StopDocument": {"work": robot.stops[0].work},
+    }
+
+
+def _default(key: str, value: dict[str, Any], defaults: dict[str, Any]) -> str:
+    default = defaults.get(key, value.get("default"))
+    if default in (None, "", [], {}):
+        return ""
+    return f"`{str(default).lower() if isinstance(default, bool) else default}`"
+
+
+def _text(value: dict[str, Any], whole: dict[str, Any]) -> str:
+    if "description" in value:
+        return str(value["description"])
+    name = value.get("$ref", "").rpartition("/")[2]
+    return str(whole["$defs"].get(name, {}).get("description", ""))
+
+
+def _codes(words: Iterable[str]) -> str:
+    return ", ".join(f"`{word}`" for word in words)
+
+
+class PublicNames(LiveDirective):
+    """The names a module offers, with the first line of what each says."""
+
+    def lines(self, *arguments: str) -> Iterable[str]:
+        """Return a table."""
+        module = import_module(arguments[0])
+        rows = (_public(name, getattr(module, name)) for name in module.__all__)
+        return table(("name", "what"), rows)
+
+
+def _public(name: str, value: Any) -> Row:
+    home = ".".join(value.__module__.split(".")[:2])
+    where = name if home == "rightofway.solve" else f"{home.removeprefix('rightofway.')}.{name}"
+    summary = (inspect.getdoc(value) or "").splitlines()[0]
+    return f"{{py:obj}}`{name} <rightofway.{where}>`", summary
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the directives."""
+    app.add_directive("command-help", CommandHelp)
+    app.add_directive("planner-list", PlannerList)
+    app.add_directive("planner-options", PlannerOptions)
+    app.add_directive("document-keys", DocumentKeys)
+    app.add_directive("public-names", PublicNames)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,5 @@
+"""``python -m rightofway``."""
+
+from rightofway.cli import main
+
+main()

@@ -1,0 +1,109 @@
+"""What the judge says: faults, each with who, where, when and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from rightofway.model import Tick, VertexId
+
+__all__ = ["Fault", "FaultKind", "Report"]
+
+FaultKind = Literal[
+    "unknown vertex",
+    "wrong home",
+    "backwards",
+    "jump",
+    "too fast",
+    "work cut short",
+    "stop missed",
+    "wrong end",
+    "vertex conflict",
+    "headway",
+    "swap conflict",
+    "rotation",
+]
+"""The ways a plan can be wrong.
+
+==================  ===============================================================================
+``unknown vertex``  a visit is at a vertex that the roadmap does not have
+``wrong home``      the first visit is not at home, or not from tick 0
+``backwards``       a visit ends before it begins
+``jump``            no edge joins two visits, or one vertex is entered twice in a row
+``too fast``        an edge is driven in less than the robot's ticks for it
+``work cut short``  a stop is visited, but never for long enough to work and turn
+``stop missed``     a stop is not visited after the one before it
+``wrong end``       the last visit is not where the trip ends
+``vertex conflict`` two robots book one vertex at the same time
+``headway``         they would not without the headway: one comes too soon after the other
+``swap conflict``   two robots exchange two vertices at the same instant
+``rotation``        three or more robots move round a circle at one instant, where rules forbid it
+==================  ===============================================================================
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault:
+    """One place where a plan breaks a rule.
+
+    Attributes
+    ----------
+    kind
+        Which rule.
+    robots
+        Who breaks it, by index, increasing.
+    vertices
+        Where. For a jump or a drive its tail and head; for a swap the vertex that each robot
+        leaves; for a rotation the circle.
+    tick
+        When it begins [ticks].
+    message
+        The same for people, with what would be right in brackets.
+    """
+
+    kind: FaultKind
+    robots: tuple[int, ...]
+    vertices: tuple[VertexId, ...]
+    tick: Tick
+    message: str
+
+    def __str__(self) -> str:
+        return f"tick {self.tick}: {self.kind}: {self.message}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """The judgement of a plan.
+
+    Attributes
+    ----------
+    faults
+        The earliest faults, by tick, then by robots.
+    counts
+        How many faults there are of each kind that occurs, those not listed included.
+    """
+
+    faults: tuple[Fault, ...]
+    counts: Mapping[FaultKind, int]
+
+    @property
+    def ok(self) -> bool:
+        """Whether the plan keeps every rule."""
+        return not self.counts
+
+    @property
+    def total(self) -> int:
+        """How many faults there are, those not listed included."""
+        return sum(self.counts.values())
+
+    @property
+    def summary(self) -> str:
+        """One line: the number of faults of each kind."""
+        kinds = ", ".join(f"{count} {kind}" for kind, count in self.counts.items())
+        return f"{self.total} fault{'s' * (self.total != 1)}: {kinds}" if kinds else "no fault"
+
+    def __str__(self) -> str:
+        unlisted = self.total - len(self.faults)
+        more = [f"and {unlisted} more (raise the limit to list them)"] if unlisted else []
+        return "\n".join([self.summary, *map(str, self.faults), *more])

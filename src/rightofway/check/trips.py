@@ -1,0 +1,133 @@
+"""One robot's whole trip: from its home, through all its stops, to where it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+
+import numpy as np
+
+from rightofway.check.report import Fault, FaultKind
+from rightofway.check.sieve import Sieve
+from rightofway.check.visits import Visits
+from rightofway.check.words import Words, ticks
+from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
+
+__all__ = ["judge_trips"]
+
+
+def judge_trips(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> None:
+    """Find wrong homes, wrong ends, missed stops and work cut short."""
+    spare = np.maximum(visits.leave - visits.enter - visits.drive, 0).tolist()
+    begin = 0
+    for robot, track in enumerate(plan.tracks):
+        end = begin + len(track)
+        trip = _Trip(
+            robot=robot,
+            itinerary=plan.scenario.timing.itineraries[robot],
+            vertices=track.vertices.tolist(),
+            enter=track.enter.tolist(),
+            spare=spare[begin:end],
+            words=words,
+        )
+        for fault in trip.faults():
+            sieve.add(fault)
+        begin = end
+
+
+@dataclass(slots=True, kw_only=True)
+class _Trip:
+    """A robot's track against its itinerary.
+
+    `spare` is how long each visit lasts beyond the drive that ends it, less what has been worked
+    there so far [ticks]; the last visit's counts for nothing, it never ends. `too_short` holds, for
+    each stage, which may recur in every lap, the visits that were: a heap of (-spare, visit).
+    """
+
+    robot: int
+    itinerary: Itinerary
+    vertices: list[int]
+    enter: list[int]
+    spare: list[int]
+    words: Words
+    too_short: dict[Stage, list[tuple[int, int]]] = field(default_factory=dict)
+
+    def faults(self) -> Iterator[Fault]:
+        yield from self._ends()
+        yield from self._work()
+
+    def _ends(self) -> Iterator[Fault]:
+        home, last = self.itinerary.home, self.itinerary.stages[-1].vertex
+        name, vertex = self._name, self.words.vertex
+        if self.vertices[0] != home or self.enter[0] != 0:
+            message = (
+                f"{name} starts at {vertex(self.vertices[0])} at tick {self.enter[0]}"
+                f" (start at its home, {vertex(home)}, at tick 0)"
+            )
+            yield self._fault("wrong home", self.vertices[0], self.enter[0], message)
+        if self.vertices[-1] != last:
+            message = f"{name} ends at {vertex(self.vertices[-1])} (end at {vertex(last)})"
+            yield self._fault("wrong end", self.vertices[-1], self.enter[-1], message)
+
+    def _work(self) -> Iterator[Fault]:
+        stages = self.itinerary.stages
+        if self.vertices[-1] != stages[-1].vertex:
+            stages = stages[:-1]  # the wrong end has been told
+        hopeless = set()  # or every lap would search the rest of the track again
+        visit = 0
+        for stage in stages:
+            found = None if stage in hopeless else self._serve(stage, visit)
+            if found is None:
+                hopeless.add(stage)
+                yield self._unserved(stage, visit)
+            else:
+                visit = found
+
+    def _serve(self, stage: Stage, visit: int) -> int | None:
+        """Return the first visit, from this one on, that is long enough; take its time."""
+        need = stage.work + stage.turn
+        last = len(self.vertices) - 1
+        while True:
+            try:
+                visit = self.vertices.index(stage.vertex, visit)
+            except ValueError:
+                return None
+            if visit == last or self.spare[visit] >= need:
+                self.spare[visit] -= need
+                return visit
+            heappush(self.too_short.setdefault(stage, []), (-self.spare[visit], visit))
+            visit += 1
+
+    def _unserved(self, stage: Stage, visit: int) -> Fault:
+        too_short = self.too_short.get(stage)
+        if too_short:
+            minus_spare, visit = heappop(too_short)
+            return self._cut_short(stage, -minus_spare, self.enter[visit])
+        message = (
+            f"{self._name} does not come to {self.words.vertex(stage.vertex)}"
+            f" at tick {self.enter[visit]} or later (visit its stops in their order)"
+        )
+        return self._fault("stop missed", stage.vertex, self.enter[visit], message)
+
+    def _cut_short(self, stage: Stage, spare: int, enter: int) -> Fault:
+        needs = {"working": stage.work, "turning": stage.turn}
+        need = " and ".join(f"{duration} {what}" for what, duration in needs.items() if duration)
+        message = (
+            f"{self._name} has {ticks(spare)} at {self.words.vertex(stage.vertex)}, it needs"
+            f" {need} (stay {ticks(stage.work + stage.turn - spare)} longer)"
+        )
+        return self._fault("work cut short", stage.vertex, enter, message)
+
+    @property
+    def _name(self) -> str:
+        return self.words.robot(self.robot)
+
+    def _fault(self, kind: FaultKind, vertex: int, tick: int, message: str) -> Fault:
+        return Fault(
+            kind=kind,
+            robots=(self.robot,),
+            vertices=(VertexId(vertex),),
+            tick=Tick(tick),
+            message=message,
+        )

@@ -1,0 +1,92 @@
+"""Which commands there are, and which exit code each ending has.
+
+=====  ===================================================================
+0      done
+1      no plan exists, or the checked plan has faults
+2      bad input or usage
+3      no plan was found: time ran out, or the planner gave up
+70     a defect of ours
+130    interrupted
+=====  ===================================================================
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+import click
+
+from rightofway import __version__
+from rightofway.cli.check import check
+from rightofway.cli.convert import convert
+from rightofway.cli.plan import plan
+from rightofway.cli.schema import schema
+from rightofway.cli.show import show
+from rightofway.cli.table import table
+from rightofway.cli.terminal import say
+from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
+
+__all__ = ["commands", "main", "run"]
+
+DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED = 0, 1, 2, 3, 70, 130
+
+
+@click.group(
+    name="rightofway",
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
+    epilog="Start with:  rightofway plan examples/door.yaml --show door.html",
+)
+@click.version_option(__version__, prog_name="rightofway")
+def commands() -> None:
+    """Plan fleets of mobile robots that go out, work and come home.
+
+    Results go to standard output or to the file of -o, everything else to standard error. Exit
+    codes: 0 done, 1 no plan exists or the plan has faults, 2 bad input, 3 no plan was found,
+    130 interrupted.
+    """
+
+
+for command in (plan, check, show, table, convert, schema):
+    commands.add_command(command)
+
+
+def main(args: Sequence[str] | None = None) -> NoReturn:
+    """Run a command and end the process with its exit code."""
+    sys.exit(run(args))
+
+
+ENDINGS: dict[type[BaseException], tuple[int, str]] = {
+    InputError: (BAD_INPUT, "{}"),
+    NoPlanExists: (NO_PLAN, "no plan exists: {}"),
+    GaveUp: (GAVE_UP, "no plan found: {}"),
+    InvalidPlan: (DEFECT, "{} (a defect of rightofway; please report the scenario)"),
+    KeyboardInterrupt: (INTERRUPTED, "interrupted"),
+    click.Abort: (INTERRUPTED, "interrupted"),
+}
+
+
+def run(args: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code; what went wrong is said on standard error."""
+    try:
+        return int(commands.main(args, prog_name="rightofway", standalone_mode=False) or DONE)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except tuple(ENDINGS) as error:
+        code, words = next(end for kind, end in ENDINGS.items() if isinstance(error, kind))
+        say(words.format(error))
+        return code
+    except BrokenPipeError:
+        _let_the_reader_go()
+        return DONE
+    except OSError as error:
+        say(f"{error.filename or 'file'}: {error.strerror or error} (check the path)")
+        return BAD_INPUT
+
+
+def _let_the_reader_go() -> None:
+    """Keep Python from complaining, at its exit, that nobody reads its output any more."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,31 @@
+"""Files: scenarios and plans, read with every fault named and written whole; MovingAI files.
+
+Pydantic and PyYAML serve in here, at the border; both are imported when the first file is read.
+"""
+
+from rightofway.io.movingai import read_map, read_scen, write_map, write_scen
+from rightofway.io.plan_reader import load_plan, plan_of, read_either
+from rightofway.io.plan_writer import dump_plan, plan_text, save_plan
+from rightofway.io.scenario_reader import Loaded, load, read, scenario_of
+from rightofway.io.scenario_writer import dump_scenario, save_scenario
+from rightofway.io.schema import schema
+
+__all__ = [
+    "Loaded",
+    "dump_plan",
+    "dump_scenario",
+    "load",
+    "load_plan",
+    "plan_of",
+    "plan_text",
+    "read",
+    "read_either",
+    "read_map",
+    "read_scen",
+    "save_plan",
+    "save_scenario",
+    "scenario_of",
+    "schema",
+    "write_map",
+    "write_scen",
+]

@@ -1,0 +1,6 @@
+"""The names and versions of our document formats."""
+
+__all__ = ["PLAN_FORMAT", "SCENARIO_FORMAT"]
+
+SCENARIO_FORMAT = "rightofway-scenario/1"
+PLAN_FORMAT = "rightofway-plan/1"

@@ -1,0 +1,236 @@
+"""MovingAI files: `.map` grids and `.scen` lists of starts and goals.
+
+References
+----------
+Sturtevant, *Benchmarks for Grid-Based Pathfinding*, IEEE T-CIAIG 2012; Stern et al., *Multi-Agent
+Pathfinding: Definitions, Variants, and Benchmarks*, SoCS 2019. In a `.scen` file x is the column
+and y the row; the first k rows are the k-robot instance.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rightofway.errors import InputError, Problem
+from rightofway.io.faults import Faults, blaming
+from rightofway.io.files import read_text, write_text
+from rightofway.io.words import shown
+from rightofway.model import Grid, Roadmap, Scenario
+
+__all__ = ["ScenRow", "read_map", "read_scen", "write_map", "write_scen"]
+
+_SIZE = re.compile(r"[0-9]{1,9}")
+_COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScenRow:
+    """One robot of a `.scen` file.
+
+    Attributes
+    ----------
+    line
+        Where it stands in the file, from 1.
+    map_name
+        The map it belongs to, as it is written there.
+    width, height
+        Size of that map [cells].
+    start, goal
+        (row, column) of the cells it starts from and goes to.
+    """
+
+    line: int
+    map_name: str
+    width: int
+    height: int
+    start: tuple[int, int]
+    goal: tuple[int, int]
+
+
+def read_map(path: Path) -> tuple[str, ...]:
+    """Return the rows of a `.map` file.
+
+    Raises
+    ------
+    InputError
+        For a header without height and width, a type other than a grid's, or rows that do not
+        agree with the header; the place is the line.
+    """
+    with blaming(str(path)):
+        return _rows(read_text(path).rstrip().split("\n"))
+
+
+def _rows(lines: list[str]) -> tuple[str, ...]:
+    header: dict[str, str] = {}
+    for number, line in enumerate(lines, start=1):
+        key, _, value = line.strip().partition(" ")
+        if key == "map":
+            height, width = _size(header, "height"), _size(header, "width")
+            rows = tuple(row.rstrip() for row in lines[number:])
+            _check_rows(rows, height, width, number)
+            return rows
+        _check_header(key, value.strip(), number)
+        header[key] = value.strip()
+    raise InputError.at(
+        f"line {len(lines)}", "the header has no line 'map' (put it before the rows)"
+    )
+
+
+def _check_header(key: str, value: str, line: int) -> None:
+    if key not in {"type", "height", "width"}:
+        message = (
+            f"{shown(key)} is no line of a header (give type, height, width, map, in this order)"
+        )
+        raise InputError.at(f"line {line}", message)
+    if key == "type" and value not in {"octile", "tile"}:
+        raise InputError.at(f"line {line}", f"type {shown(value)} is not known (give octile)")
+    if key != "type" and not (_SIZE.fullmatch(value) and int(value)):
+        raise InputError.at(
+            f"line {line}", f"{key} {shown(value)} is no size (give a count of cells)"
+        )
+
+
+def _size(header: dict[str, str], key: str) -> int:
+    if key not in header:
+        raise InputError.at("", f"the header has no {key} (give a line like '{key} 32')")
+    return int(header[key])
+
+
+def _check_rows(rows: tuple[str, ...], height: int, width: int, header: int) -> None:
+    faults = Faults()
+    for line, row in enumerate(rows[:height], start=header + 1):
+        if len(row) != width:
+            faults.note(f"line {line}", f"{len(row)} cells, but width is {width} (mend the row)")
+    if len(rows) != height:
+        message = f"{len(rows)} rows, but height is {height} (mend the rows, or the header)"
+        faults.note(f"line {header + 1 + min(len(rows), height)}", message)
+    faults.stop()
+
+
+def read_scen(path: Path) -> tuple[ScenRow, ...]:
+    """Return the rows of a `.scen` file.
+
+    Raises
+    ------
+    InputError
+        For rows that are not made of nine columns; the place is the line.
+    """
+    with blaming(str(path)):
+        rows = _scen_rows(read_text(path).rstrip().split("\n"))
+        if not rows:
+            raise InputError.at("", "there is no row (give one for each robot)")
+    return rows
+
+
+def _scen_rows(lines: list[str]) -> tuple[ScenRow, ...]:
+    faults = Faults()
+    has_header = lines[0].startswith("version")
+    rows = [
+        faults.attempt(f"line {number}", _scen_row, number, line)
+        for number, line in enumerate(lines, start=1)
+        if not (number == 1 and has_header)
+    ]
+    faults.stop()
+    return tuple(row for row in rows if row is not None)
+
+
+def _scen_row(line: int, text: str) -> ScenRow:
+    columns = text.split("\t") if "\t" in text else text.split()
+    if len(columns) not in {8, 9}:
+        raise InputError.at("", f"{len(columns)} columns (give {_COLUMNS})")
+    numbers = [columns[index].strip() for index in range(2, 8)]
+    for number in numbers:
+        if not _SIZE.fullmatch(number):
+            raise InputError.at("", f"{shown(number)} is no count of cells (give {_COLUMNS})")
+    width, height, start_x, start_y, goal_x, goal_y = map(int, numbers)
+    return ScenRow(
+        line=line,
+        map_name=columns[1].strip(),
+        width=width,
+        height=height,
+        start=(start_y, start_x),
+        goal=(goal_y, goal_x),
+    )
+
+
+def write_map(roadmap: Roadmap, path: Path | str) -> None:
+    """Write a grid as a `.map` file.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid, or the file cannot be written.
+    """
+    grid = _grid_of(roadmap)
+    header = ("type octile", f"height {grid.rows}", f"width {grid.columns}", "map")
+    write_text(Path(path), "\n".join((*header, *grid.lines())) + "\n")
+
+
+def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
+    """Write the homes and targets of a fleet as a `.scen` file.
+
+    Parameters
+    ----------
+    scenario
+        On a grid, with one stop for each robot.
+    path
+        The file.
+    map_name
+        Name of the map file beside it, for the rows.
+
+    Returns
+    -------
+    tuple of str
+        What the scenario says and a `.scen` file cannot: a sentence each.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid, a robot has several stops, or the file cannot be written.
+
+    Notes
+    -----
+    Bucket and optimal length are written as 0, for "not known"; the benchmark's own are lengths
+    with diagonal moves.
+    """
+    grid = _grid_of(scenario.roadmap)
+    problems = [
+        Problem(f"robots[{index}].stops", f"{len(robot.stops)} stops, a .scen row has one goal")
+        for index, robot in enumerate(scenario.robots)
+        if len(robot.stops) > 1
+    ]
+    if problems:
+        raise InputError(problems)
+    rows = (
+        "\t".join(map(str, (0, map_name, grid.columns, grid.rows, *cells, 0)))
+        for cells in _starts_and_goals(scenario, grid)
+    )
+    write_text(Path(path), "\n".join(("version 1", *rows)) + "\n")
+    return tuple(_left_out(scenario, grid))
+
+
+def _grid_of(roadmap: Roadmap) -> Grid:
+    if roadmap.grid is None:
+        message = "the roadmap is no grid, MovingAI files hold nothing else (choose another format)"
+        raise InputError.at("map", message)
+    return roadmap.grid
+
+
+def _starts_and_goals(scenario: Scenario, grid: Grid) -> Iterator[tuple[int, int, int, int]]:
+    for robot in scenario.robots:
+        start_row, start_column = grid.cell(robot.home)
+        goal_row, goal_column = grid.cell(robot.stops[0].at)
+        yield start_column, start_row, goal_column, goal_row
+
+
+def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
+    robots = scenario.robots
+    if any(robot.speed != 1 for robot in robots) or grid.cell_size != 1:
+        yield "speeds and the size of cells are left out; .scen robots drive one cell a tick"
+    if any(robot.stops[0].work for robot in robots):
+        yield "work times are left out"
+    if any((robot.ends or scenario.rules.ends) == "home" for robot in robots):
+        yield "ways back and laps are left out; .scen robots stay at their goals"

@@ -1,0 +1,91 @@
+"""The shape of a plan document: which keys there are, and what each may hold."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from rightofway.io.fields import Document, Name, NotNegative, TickLength, Ticks, Words
+from rightofway.io.scenario_document import ScenarioDocument
+
+__all__ = [
+    "DecisionDocument",
+    "PlanDocument",
+    "PlanFrame",
+    "PlannerDocument",
+    "RerouteDocument",
+    "TrackDocument",
+]
+
+PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
+PairOfCounts = Annotated[list[Ticks | None], Field(min_length=2, max_length=2)]
+
+
+class DecisionDocument(Document):
+    """Who got the right of way where two robots would have met, and why."""
+
+    tick: Ticks = Field(description="when they would have met, a whole number of ticks")
+    kind: Literal["vertex", "head-on"] = Field(description="vertex, or head-on")
+    vertices: list[Name] = Field(description="the names of the vertex, or of the segment in order")
+    robots: PairOfNames = Field(description="the names of the two robots")
+    waits: Name = Field(description="the name of the one that waits")
+    waits_at: Name = Field(description="the name of the vertex it waits in")
+    ticks: Ticks = Field(description="how much later it leaves there, a whole number of ticks")
+    level: Literal["node", "robot", "settled", "only"] = Field(description="node, robot, or only")
+    conflicts_left: PairOfCounts = Field(
+        description="two counts: conflicts left if the first robot waits, and if the second does"
+    )
+    completion_sums: PairOfCounts | None = Field(
+        default=None, description="two sums of completion times in ticks, or null"
+    )
+
+
+class RerouteDocument(Document):
+    """A robot that was sent another way."""
+
+    robot: Name = Field(description="the name of the robot")
+    because: Words = Field(description="a sentence")
+
+
+class PlannerDocument(Document):
+    """How a plan came about."""
+
+    name: Name = Field(description="the name of the planner")
+    options: dict[str, Any] = Field(default={}, description="a mapping of options to values")
+    seed: int = Field(default=0, description="a whole number")
+    status: Words = Field(default="", description="a sentence")
+    seconds: NotNegative | None = Field(default=None, description="how long it took, or null")
+    decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
+    reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")
+
+
+class TrackDocument(Document):
+    """Where one robot is, when. A visit's leave is the next one's enter."""
+
+    name: Name = Field(description="the name of a robot of the scenario")
+    vertices: list[str] = Field(min_length=1, description="names of vertices, at least one")
+    enter: list[Ticks] = Field(
+        min_length=1, description="for each vertex when its visit begins, whole numbers of ticks"
+    )
+
+
+class PlanFrame(Document):
+    """The keys of a plan; their values are read one by one, so that faults add up."""
+
+    format: Literal["rightofway-plan/1"] = Field(description="rightofway-plan/1")
+    scenario: Any = Field(description="a scenario, its map inlined")
+    tick: TickLength = Field(description="how long a tick is [time unit]")
+    planner: Any = Field(description="{name, options, seed, status, seconds}")
+    metrics: dict[str, Any] = Field(
+        default={}, description="a mapping of numbers, for readers; they are not read back"
+    )
+    robots: Any = Field(description="for each robot {name, vertices, enter}")
+
+
+class PlanDocument(PlanFrame):
+    """A plan: routes and times for all robots of the scenario inside it."""
+
+    scenario: ScenarioDocument = Field(description="the problem, its map inlined")
+    planner: PlannerDocument = Field(description="how the plan came about")
+    robots: list[TrackDocument] = Field(description="one for each robot of the scenario")

@@ -1,0 +1,120 @@
+"""Plans, written: the same plan gives the same bytes, and a file that needs no other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError, NoPlanExists
+from rightofway.io.exact import written
+from rightofway.io.files import write_text
+from rightofway.io.formats import PLAN_FORMAT
+from rightofway.io.layout import json_text
+from rightofway.io.scenario_writer import dump_scenario
+from rightofway.model import Decision, Plan, PlannerRun, Scenario
+
+__all__ = ["dump_plan", "plan_text", "save_plan"]
+
+
+def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
+    """Return a plan as a document.
+
+    Parameters
+    ----------
+    plan
+        A plan; it need not keep the rules.
+    seconds
+        Whether to keep how long planning took, which no two runs agree on.
+
+    Raises
+    ------
+    InputError
+        If a track leads through a vertex that the roadmap does not have.
+    """
+    scenario = plan.scenario
+    robots = _robots(plan)
+    return {
+        "format": PLAN_FORMAT,
+        "scenario": dump_scenario(scenario),
+        "tick": written(scenario.timing.clock.tick),
+        "planner": _planner(plan.run, scenario, seconds=seconds),
+        "metrics": _metrics(plan),
+        "robots": robots,
+    }
+
+
+def save_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
+    """Write a plan as JSON.
+
+    Parameters
+    ----------
+    plan, seconds
+        As for `dump_plan`.
+    path
+        The file. It is replaced as a whole: nobody ever reads half of a plan.
+
+    Raises
+    ------
+    InputError
+        As for `dump_plan`, or if the file cannot be written.
+    """
+    write_text(Path(path), plan_text(plan, seconds=seconds))
+
+
+def plan_text(plan: Plan, *, seconds: bool = False) -> str:
+    """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`."""
+    return json_text(dump_plan(plan, seconds=seconds))
+
+
+def _robots(plan: Plan) -> list[dict[str, Any]]:
+    names = [plan.scenario.roadmap.name(v) for v in range(plan.scenario.roadmap.n_vertices)]
+    rows = []
+    for index, (robot, track) in enumerate(zip(plan.scenario.robots, plan.tracks, strict=True)):
+        vertices = track.vertices.tolist()
+        if not 0 <= min(vertices) <= max(vertices) < len(names):
+            message = f"a vertex is not on the roadmap (give 0 to {len(names) - 1})"
+            raise InputError.at(f"robots[{index}].vertices", message)
+        row = {"vertices": [names[v] for v in vertices], "enter": track.enter.tolist()}
+        rows.append({"name": robot.name, **row})
+    return rows
+
+
+def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:
+    return {
+        "name": run.name,
+        "options": dict(sorted(run.options.items())),
+        "seed": run.seed,
+        "status": run.status,
+        "seconds": run.seconds if seconds else None,
+        "decisions": [_decision(decision, scenario) for decision in run.decisions],
+        "reroutes": [
+            {"robot": scenario.robots[reroute.robot].name, "because": reroute.because}
+            for reroute in run.reroutes
+        ],
+    }
+
+
+def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
+    vertex, robots = scenario.roadmap.name, scenario.robots
+    sums = decision.completion_sums
+    return {
+        "tick": decision.tick,
+        "kind": decision.kind,
+        "vertices": [vertex(each) for each in decision.vertices],
+        "robots": [robots[each].name for each in decision.robots],
+        "waits": robots[decision.waits].name,
+        "waits_at": vertex(decision.waits_at),
+        "ticks": decision.ticks,
+        "level": decision.level,
+        "conflicts_left": list(decision.conflicts_left),
+        "completion_sums": None if sums is None else list(sums),
+    }
+
+
+def _metrics(plan: Plan) -> dict[str, Any]:
+    from rightofway.metrics import measure
+
+    try:
+        return measure(plan).as_dict()
+    except NoPlanExists:  # some place cannot be reached: nothing to compare the plan with
+        return {}

@@ -1,0 +1,244 @@
+"""The shape of a scenario document: which keys there are, and what each may hold."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Self
+
+from pydantic import ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic_core import CoreSchema
+
+from rightofway.io.fields import (
+    LEFT_OUT,
+    CellSize,
+    Count,
+    Document,
+    Lines,
+    Name,
+    NotNegative,
+    Place,
+    Position,
+    Positive,
+    Rectangle,
+    Size,
+    Turning,
+    Words,
+    described,
+)
+from rightofway.io.words import shown
+from rightofway.model import Occupancy, TripEnd
+
+__all__ = [
+    "EdgeDocument",
+    "FleetDocument",
+    "FloorDocument",
+    "MapDocument",
+    "RoadmapDocument",
+    "RobotDocument",
+    "RulesDocument",
+    "ScenarioDocument",
+    "ScenarioFrame",
+]
+
+
+PLACES = "N<k>, [row, column] or a vertex name"
+TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
+RETURN = "home, or none"
+WORK = "work time there [time unit], 0 by default"
+LAPS = "how often it makes its round trip, 1 or more"
+
+MAX_CELLS_ALLOWED = 10_000_000
+"""The limit on cells of a floor can be raised to this."""
+
+
+class ObstacleDocument(Document):
+    """A rectangle of a floor that robots cannot enter."""
+
+    name: Words = Field(default="", description="what it is, for messages")
+    rect: Rectangle = Field(description="[x, y, width, height], x right, y down [length unit]")
+
+
+class FloorDocument(Document):
+    """A floor by size, to be cut into cells."""
+
+    size: Size = Field(description="[width, height] [length unit]")
+    obstacles: list[ObstacleDocument] = Field(default=[], description="a list of rectangles")
+    max_cells: Count = Field(
+        default=LEFT_OUT,
+        le=MAX_CELLS_ALLOWED,
+        description=f"the most cells to make, from 1 to {MAX_CELLS_ALLOWED}",
+    )
+
+
+class EdgeDocument(Document):
+    """A way between two vertices; ``[A, B]`` and ``[A, B, length]`` are short for one."""
+
+    tail: Name = Field(alias="from", description="the name of the vertex it begins at")
+    head: Name = Field(alias="to", description="the name of the vertex it leads to")
+    length: Positive = Field(
+        default=LEFT_OUT,
+        description="its length [length unit]; the straight distance where that is a fraction",
+    )
+    both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_list(cls, data: Any) -> Any:
+        if not isinstance(data, list | tuple):
+            return data
+        if len(data) not in {2, 3}:
+            raise ValueError(f"{shown(data)} does not fit (give [A, B] or [A, B, length])")
+        return dict(zip(("from", "to", "length"), data, strict=False))
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        mapping = handler.resolve_ref_schema(handler(core))
+        ends = [mapping["properties"]["from"], mapping["properties"]["to"]]
+        array = {
+            "type": "array",
+            "prefixItems": [*ends, mapping["properties"]["length"]],
+            "minItems": 2,
+            "maxItems": 3,
+        }
+        return {"anyOf": [array, dict(mapping)]}
+
+
+class RoadmapDocument(Document):
+    """Named vertices and the ways between them."""
+
+    vertices: dict[Name, Position] = Field(
+        description="for each vertex its name and [x, y], x right, y down [length unit]"
+    )
+    edges: list[EdgeDocument] = Field(
+        description="a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
+    )
+
+
+MAPS = ("grid", "file", "floor", "roadmap")
+
+
+class MapDocument(Document):
+    """Where the fleet drives: exactly one of grid, file, floor, roadmap."""
+
+    model_config = ConfigDict(
+        json_schema_extra=described(
+            oneOf=[{"required": [kind]} for kind in MAPS],
+            dependentSchemas={"cell_size": {"not": {"required": ["roadmap"]}}},
+        )
+    )
+
+    grid: Lines = Field(
+        default=LEFT_OUT,
+        description="rows of . (free) and @ (blocked), as a list or one text",
+    )
+    file: Name = Field(default=LEFT_OUT, description="a .map file, relative to the scenario's own")
+    floor: FloorDocument = Field(default=LEFT_OUT, description="{size, obstacles}")
+    roadmap: RoadmapDocument = Field(default=LEFT_OUT, description="{vertices, edges}")
+    cell_size: CellSize = Field(
+        default=LEFT_OUT,
+        description="side of a cell [length unit]: 1 by default; on a floor clustered by default",
+    )
+
+    @model_validator(mode="after")
+    def _check_one_map(self) -> Self:
+        found = [kind for kind in MAPS if kind in self.model_fields_set]
+        if len(found) != 1:
+            what = f"{' and '.join(found)} are" if found else "no map is"
+            raise ValueError(f"{what} given (give exactly one of {', '.join(MAPS)})")
+        if found == ["roadmap"] and self.cell_size is not None:
+            raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
+        if found != ["floor"] and self.cell_size == "clustered":
+            raise ValueError(f"a {found[0]} has cells already (give cell_size as a length)")
+        return self
+
+
+class StopDocument(Document):
+    """A place to work at."""
+
+    at: Place = Field(description=f"a place: {PLACES}")
+    work: NotNegative = Field(default=LEFT_OUT, description=WORK)
+
+
+class TripDocument(Document):
+    """What a robot may decide for itself; the rules stand where it does not."""
+
+    turn: Turning = Field(default=LEFT_OUT, description=TURNING)
+    ends: TripEnd = Field(default=LEFT_OUT, alias="return", description=RETURN)
+    laps: Count = Field(default=LEFT_OUT, description=LAPS)
+
+
+class RobotDocument(TripDocument):
+    """A robot and its trip: target and work, or stops."""
+
+    model_config = ConfigDict(
+        json_schema_extra=described(
+            oneOf=[
+                {"required": ["target"]},
+                {"required": ["stops"], "not": {"required": ["work"]}},
+            ]
+        )
+    )
+
+    name: Name = Field(description="a name of its own")
+    home: Place = Field(description=f"the place it starts from: {PLACES}")
+    target: Place = Field(default=LEFT_OUT, description=f"the place to work at: {PLACES}")
+    work: NotNegative = Field(default=LEFT_OUT, description=WORK)
+    stops: list[StopDocument] = Field(
+        default=LEFT_OUT, min_length=1, description="one or more {at, work}, in order"
+    )
+    speed: Positive = Field(
+        default=LEFT_OUT, description="length units per time unit, above 0; 1 by default"
+    )
+
+    @model_validator(mode="after")
+    def _check_one_trip(self) -> Self:
+        if self.target is None and self.stops is None:
+            raise ValueError("has nowhere to go (give target, or stops)")
+        if self.target is not None and self.stops is not None:
+            raise ValueError("has both target and stops (give one of them)")
+        if self.stops is not None and self.work is not None:
+            raise ValueError("has work beside stops (write it at each stop)")
+        return self
+
+
+class FleetDocument(TripDocument):
+    """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
+
+    scen: Name = Field(description="a .scen file, relative to the scenario's own")
+    count: Count = Field(
+        default=LEFT_OUT, description="how many of its rows to take, 1 or more; all by default"
+    )
+    speeds: list[Positive] = Field(
+        default=LEFT_OUT, min_length=1, description="speeds to deal out in turn: first, second, ..."
+    )
+    work: list[NotNegative] = Field(
+        default=LEFT_OUT, min_length=1, description="work times to deal out in turn"
+    )
+
+
+class RulesDocument(TripDocument):
+    """What holds for the whole fleet."""
+
+    occupancy: Occupancy = Field(default=LEFT_OUT, description="one, or both")
+    headway: NotNegative = Field(
+        default=LEFT_OUT, description="least time between two robots at a vertex [time unit]"
+    )
+    rotations: bool = Field(default=LEFT_OUT, description="true or false")
+
+
+class ScenarioFrame(Document):
+    """The keys of a scenario; their values are read one by one, so that faults add up."""
+
+    format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
+    map: Any = Field(description=f"one of {', '.join(MAPS)}")
+    robots: Any = Field(description="a list of robots, or {scen: file}")
+    rules: Any = Field(default=LEFT_OUT, description="rules for the whole fleet")
+
+
+class ScenarioDocument(ScenarioFrame):
+    """A scenario: where the fleet drives, its robots, its rules."""
+
+    map: MapDocument = Field(description="where the fleet drives")
+    robots: list[RobotDocument] | FleetDocument = Field(description="the fleet")
+    rules: RulesDocument = Field(default=LEFT_OUT, description="rules for the whole fleet")

@@ -1,0 +1,133 @@
+"""Scenarios, written: as a document that needs no other file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError
+from rightofway.io.exact import written
+from rightofway.io.files import write_text
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.layout import json_text
+from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
+
+__all__ = ["dump_scenario", "save_scenario"]
+
+
+def dump_scenario(scenario: Scenario) -> dict[str, Any]:
+    """Return a scenario as a document, its map inlined, its numbers exact.
+
+    Notes
+    -----
+    Reading the document gives an equal scenario, where robots and vertices have printable names,
+    numbers have at most 18 digits, and a roadmap without a grid has labels.
+    """
+    roadmap = scenario.roadmap
+    return {
+        "format": SCENARIO_FORMAT,
+        "map": _grid(roadmap.grid) if roadmap.grid else {"roadmap": _roadmap(roadmap)},
+        "robots": [_robot(robot, roadmap) for robot in scenario.robots],
+        "rules": _rules(scenario.rules),
+    }
+
+
+def save_scenario(scenario: Scenario, path: Path | str) -> None:
+    """Write a scenario as YAML or JSON, by the suffix of the path.
+
+    Raises
+    ------
+    InputError
+        For another suffix, or if the file cannot be written.
+    """
+    path = Path(path)
+    document = dump_scenario(scenario)
+    if path.suffix.lower() == ".json":
+        write_text(path, json_text(document))
+    elif path.suffix.lower() in {".yaml", ".yml"}:
+        write_text(path, _yaml_text(document))
+    else:
+        message = f"the suffix {path.suffix!r} is no scenario's (end the name in .yaml or .json)"
+        raise InputError.at("", message, str(path))
+
+
+def _yaml_text(document: dict[str, Any]) -> str:
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        """Draws a grid as a block of rows."""
+
+    class Block(str):
+        __slots__ = ()
+
+    Dumper.add_representer(
+        Block,
+        lambda dumper, text: dumper.represent_scalar("tag:yaml.org,2002:str", text, style="|"),
+    )
+    shape = document["map"]
+    if "grid" in shape:
+        document = {**document, "map": {**shape, "grid": Block("\n".join(shape["grid"]) + "\n")}}
+    text: str = yaml.dump(
+        document,
+        Dumper=Dumper,
+        default_flow_style=None,  # what holds no mapping or list itself stays on one line
+        sort_keys=False,
+        allow_unicode=True,
+        width=float("inf"),
+    )
+    return text
+
+
+def _grid(grid: Grid) -> dict[str, Any]:
+    return {"grid": list(grid.lines()), "cell_size": written(grid.cell_size)}
+
+
+def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
+    name = roadmap.name
+    vertices = {
+        name(vertex): [float(x), float(y)] for vertex, (x, y) in enumerate(roadmap.positions)
+    }
+    edges = [
+        {
+            "from": name(tail),
+            "to": name(int(roadmap.heads[edge])),
+            "length": written(roadmap.lengths[roadmap.length_class[edge]]),
+            "both_ways": False,
+        }
+        for tail in range(roadmap.n_vertices)
+        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
+    ]
+    return {"vertices": vertices, "edges": edges}
+
+
+def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
+    stops = [{"at": roadmap.name(stop.at), "work": written(stop.work)} for stop in robot.stops]
+    trip = (
+        {"target": stops[0]["at"], "work": stops[0]["work"]}
+        if len(stops) == 1
+        else {"stops": stops}
+    )
+    own = {"turn": _turn(robot.turn), "return": robot.ends, "laps": robot.laps}
+    return {
+        "name": robot.name,
+        "home": roadmap.name(robot.home),
+        **trip,
+        "speed": written(robot.speed),
+        **{key: value for key, value in own.items() if value is not None},
+    }
+
+
+def _turn(turn: Turn | None) -> int | str | None:
+    return turn if turn is None or isinstance(turn, str) else written(turn)
+
+
+def _rules(rules: Rules) -> dict[str, Any]:
+    turn = {} if rules.turn is None else {"turn": _turn(rules.turn)}
+    return {
+        "occupancy": rules.occupancy,
+        "headway": written(rules.headway),
+        **turn,
+        "return": rules.ends,
+        "laps": rules.laps,
+        "rotations": rules.rotations,
+    }

@@ -1,0 +1,172 @@
+"""YAML text to plain data: mappings, lists, text, whole numbers, decimals, true, false, nothing.
+
+Built from the parser's events rather than by its constructors, because those take more than a
+document needs: tags that make objects, keys that are no text, the later of two equal keys, decimals
+as floats, aliases that expand without end.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from rightofway.errors import InputError
+from rightofway.io.exact import decimal, whole
+from rightofway.io.json_text import MAX_DEPTH
+from rightofway.io.words import shown
+
+__all__ = ["MAX_ALIASED", "parse_yaml"]
+
+MAX_ALIASED = 100_000
+"""The most values that may be reached through aliases."""
+
+# What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
+_INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]*)")
+_DECIMAL = re.compile(r"([+-]?[0-9]+\.[0-9]*|\.[0-9]+)([eE][+-][0-9]+)?")
+_WORDS = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+}
+
+
+def parse_yaml(text: str) -> Any:
+    """Return the data of a YAML text, decimals exactly as they are written.
+
+    Raises
+    ------
+    InputError
+        For a fault in the syntax, several documents, tags, keys that are no text or given twice,
+        and nesting or aliases without measure.
+    """
+    import yaml
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    builder = _Builder()
+    try:
+        for event in yaml.parse(text, Loader=loader):
+            builder.take(event)
+    except InputError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise _fault(line, f"{error.problem} (check the YAML there)") from None
+    except (yaml.YAMLError, ValueError, OverflowError) as error:
+        reason = getattr(error, "reason", None) or "characters that no YAML file may hold"
+        raise InputError.at("", f"{reason} (save the file as plain text)") from None
+    return builder.data
+
+
+def _fault(line: int, message: str) -> InputError:
+    return InputError.at("", f"line {line}: {message}")
+
+
+@dataclass(slots=True)
+class _Open:
+    """A mapping or list that is not closed yet."""
+
+    value: dict[str, Any] | list[Any]
+    anchor: str | None
+    key: str | None = None  # of a mapping: the key whose value comes next
+    size: int = 1  # values in it, aliases counted in full
+
+
+@dataclass(slots=True)
+class _Builder:
+    """Takes events one by one; `data` is what they make."""
+
+    data: Any = None
+    documents: int = 0
+    aliased: int = 0
+    open: list[_Open] = field(default_factory=list)
+    anchored: dict[str, tuple[Any, int]] = field(default_factory=dict)
+
+    def take(self, event: Any) -> None:
+        """Take the next event of the parser."""
+        line = event.start_mark.line + 1
+        _refuse_tag(event, line)
+        match type(event).__name__:
+            case "DocumentStartEvent":
+                self._begin_document(line)
+            case "ScalarEvent":
+                self._add(_scalar(event), 1, event.anchor, line)
+            case "AliasEvent":
+                self._add_alias(event.anchor, line)
+            case "SequenceStartEvent":
+                self._begin(_Open([], event.anchor), line)
+            case "MappingStartEvent":
+                self._begin(_Open({}, event.anchor), line)
+            case "SequenceEndEvent" | "MappingEndEvent":
+                closed = self.open.pop()
+                self._add(closed.value, closed.size, closed.anchor, line)
+
+    def _begin_document(self, line: int) -> None:
+        self.documents += 1
+        if self.documents > 1:
+            raise _fault(line, "a second document begins (keep one in a file)")
+
+    def _begin(self, opened: _Open, line: int) -> None:
+        if len(self.open) == MAX_DEPTH:
+            message = (
+                f"values are nested more than {MAX_DEPTH} deep (a document needs no such depth)"
+            )
+            raise _fault(line, message)
+        if opened.anchor is not None:
+            self.anchored.pop(opened.anchor, None)
+        self.open.append(opened)
+
+    def _add_alias(self, anchor: str, line: int) -> None:
+        if anchor not in self.anchored:
+            inside = any(opened.anchor == anchor for opened in self.open)
+            what = "stands inside what it names" if inside else "names nothing before it"
+            raise _fault(line, f"the alias *{anchor} {what} (write the value out)")
+        value, size = self.anchored[anchor]
+        self.aliased += size
+        if self.aliased > MAX_ALIASED:
+            message = f"aliases stand for more than {MAX_ALIASED} values (write out what is meant)"
+            raise _fault(line, message)
+        self._add(value, size, None, line)
+
+    def _add(self, value: Any, size: int, anchor: str | None, line: int) -> None:
+        if anchor is not None:
+            self.anchored[anchor] = (value, size)
+        if not self.open:
+            self.data = value
+            return
+        parent = self.open[-1]
+        parent.size += size
+        if isinstance(parent.value, list):
+            parent.value.append(value)
+        elif parent.key is None:
+            parent.key = _new_key(value, parent.value, line)
+        else:
+            parent.value[parent.key] = value
+            parent.key = None
+
+
+def _refuse_tag(event: Any, line: int) -> None:
+    tag = getattr(event, "tag", None)
+    if tag is not None:
+        raise _fault(line, f"the tag {shown(tag)} is not allowed (take it out)")
+
+
+def _new_key(value: Any, mapping: dict[str, Any], line: int) -> str:
+    if not isinstance(value, str):
+        message = f"the key {shown(value)} is not text (put it in quotes, or add what is missing)"
+        raise _fault(line, message)
+    if value in mapping:
+        raise _fault(line, f"the key {shown(value)} is given twice (take one out)")
+    return value
+
+
+def _scalar(event: Any) -> Any:
+    text: str = event.value
+    is_plain, _ = event.implicit
+    if not is_plain:
+        return text
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return whole(text)
+    return decimal(text) if _DECIMAL.fullmatch(text) else text

@@ -1,0 +1,41 @@
+"""Plans for the eye: a page that plays them, a picture, a film, tables.
+
+The colours are in `palette`, where vertices are drawn in `plane`, who is where in `motion`; page
+and pictures share the three. What draws is imported when it is first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rightofway.viz.notebook import frame_of
+    from rightofway.viz.page import page_of, payload_of, write_page
+    from rightofway.viz.raster import Film, write_gif, write_png
+
+_LATER = {
+    "Film": "raster",
+    "frame_of": "notebook",
+    "page_of": "page",
+    "payload_of": "page",
+    "write_gif": "raster",
+    "write_page": "page",
+    "write_png": "raster",
+}
+
+__all__ = [
+    "Film",
+    "frame_of",
+    "page_of",
+    "payload_of",
+    "write_gif",
+    "write_page",
+    "write_png",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)

@@ -1,0 +1,32 @@
+"""A plan inside a notebook: the page in a frame of its own."""
+
+from __future__ import annotations
+
+import html
+
+from rightofway.model import Plan
+from rightofway.viz.page import page_of
+
+__all__ = ["frame_of"]
+
+HEIGHT = 680
+"""Enough for map and diagram [pixels]."""
+
+
+def frame_of(plan: Plan, *, height: int = HEIGHT) -> str:
+    """Return HTML that shows a plan in a notebook; what ``_repr_html_`` is to return.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    height
+        Height of the frame [pixels].
+
+    Notes
+    -----
+    The frame is sandboxed: whatever the names in a plan are, they cannot reach the notebook.
+    """
+    document = html.escape(page_of(plan))
+    style = f"width:100%;height:{height}px;border:0;border-radius:8px"
+    return f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{style}"></iframe>'

@@ -1,0 +1,76 @@
+"use strict";
+
+const AXIS_HEIGHT = 20;
+const LABEL_GAP = 62; // pixels between two labelled moments, at least
+
+/** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
+class Area {
+  constructor(width, height, end) {
+    const style = getComputedStyle(document.documentElement);
+    this.left = Number.parseFloat(style.getPropertyValue("--gutter"));
+    this.right = width - Number.parseFloat(style.getPropertyValue("--pad"));
+    this.top = 8;
+    this.bottom = height - AXIS_HEIGHT;
+    this.end = end;
+  }
+
+  get height() {
+    return this.bottom - this.top;
+  }
+
+  x(tick) {
+    return this.left + (Math.min(tick, this.end) / this.end) * (this.right - this.left);
+  }
+
+  tick(x) {
+    return ((x - this.left) / (this.right - this.left)) * this.end;
+  }
+}
+
+/** Ticks between two labels: a round number of time units where these are whole ticks. */
+function labelStep(area, plan) {
+  const least = (LABEL_GAP / (area.right - area.left)) * area.end;
+  const perUnit = plan.tick.denominator / plan.tick.numerator;
+  const round = [];
+  for (let power = -3; power < 15; power++) for (const digit of [1, 2, 5]) round.push(digit * 10 ** power);
+  const whole = (ticks) => Math.abs(ticks - Math.round(ticks)) < 1e-6 && ticks >= least;
+  return Math.max(round.map((units) => units * perUnit).find(whole) ?? round.find(whole), 1);
+}
+
+/** Moments along the bottom, with hairlines up through the diagram. */
+function paintAxis(context, area, plan, theme, words) {
+  const step = Math.round(labelStep(area, plan));
+  const perTick = (area.right - area.left) / area.end;
+  context.strokeStyle = theme.line;
+  context.lineWidth = 1;
+  context.beginPath();
+  for (let tick = 0; tick <= area.end; tick += step) {
+    line(context, area.x(tick), area.top, area.x(tick), area.bottom);
+  }
+  if (perTick >= 5) {
+    for (let tick = 0; tick <= area.end; tick++) {
+      line(context, area.x(tick), area.bottom, area.x(tick), area.bottom + 4);
+    }
+  }
+  line(context, area.left, area.bottom, area.right, area.bottom);
+  context.stroke();
+  context.font = theme.font(11.5);
+  context.fillStyle = theme.muted;
+  context.textBaseline = "top";
+  context.textAlign = "center";
+  for (let tick = 0; tick <= area.end; tick += step) {
+    context.fillText(words.time(tick), area.x(tick), area.bottom + 6);
+  }
+}
+
+/** Names along the left, as many as have room. */
+function paintRowNames(context, area, theme, names, rowHeight, middle) {
+  const every = Math.max(Math.ceil(13 / rowHeight), 1);
+  context.font = theme.font(Math.min(Math.max(rowHeight * 0.72, 10.5), 12.5));
+  context.fillStyle = theme.muted;
+  context.textAlign = "right";
+  context.textBaseline = "middle";
+  for (let row = 0; row < names.length; row += every) {
+    context.fillText(shortened(context, names[row], area.left - 34), area.left - 12, middle(row) + 0.5);
+  }
+}

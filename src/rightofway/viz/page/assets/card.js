@@ -1,0 +1,100 @@
+"use strict";
+
+const MOST_LINES = 200; // of stages or waits in a card
+
+/** All about the robot or decision that is chosen. */
+class Card {
+  constructor(plan, clock, choice, words) {
+    Object.assign(this, { plan, clock, choice, words });
+    this.box = document.getElementById("card");
+    choice.on("choice", () => this.#show());
+  }
+
+  #show() {
+    const { robot, decision } = this.choice;
+    this.box.hidden = !robot;
+    if (!robot) return;
+    this.box.replaceChildren(...(decision ? this.#decision(decision) : this.#robot(robot)));
+    this.box.scrollTop = 0;
+  }
+
+  #header(...title) {
+    const said = { ariaLabel: "Choose nothing", title: "Choose nothing (Esc)" };
+    const close = element("button", { type: "button", className: "quiet", ...said }, "✕");
+    close.addEventListener("click", () => this.choice.chooseNothing());
+    return element("header", {}, ...title, close);
+  }
+
+  #robot(robot) {
+    const { words } = this;
+    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
+    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
+    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
+    const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
+    return [
+      this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
+      facts([
+        ["Done at", `${words.time(robot.completion)}${lost}`],
+        ["Alone", words.time(robot.alone)],
+        ["Waits", waited ? `${words.time(waited)} in all` : "never"],
+        ["Speed", robot.speed],
+        ["Home", words.vertex(robot.home)],
+        ["Another way", rerouted?.because ?? ""],
+      ]),
+      element("h3", {}, "Trip"),
+      this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
+      ...this.#waits(robot),
+    ];
+  }
+
+  #stage(robot, stage) {
+    const dwell = [];
+    if (stage.work) dwell.push(`works ${counted(stage.work, "tick")}`);
+    if (stage.turn && stage.visit + 1 < robot.vertices.length) dwell.push(`turns ${counted(stage.turn, "tick")}`);
+    const text = [this.words.vertex(stage.vertex), ...dwell].join(", ");
+    if (stage.visit < 0) return goTo("never", text, () => {});
+    return this.#moment(robot.enter[stage.visit], text);
+  }
+
+  #waits(robot) {
+    if (!robot.waits.length) return [];
+    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait)));
+    return [element("h3", {}, "Waits"), lines];
+  }
+
+  #lines(items, make) {
+    const list = element("ol", {}, ...items.slice(0, MOST_LINES).map(make));
+    if (items.length > MOST_LINES) list.append(element("li", {}, `and ${items.length - MOST_LINES} more`));
+    return list;
+  }
+
+  #moment(tick, text) {
+    return goTo(this.words.time(tick), text, () => {
+      this.clock.pause();
+      this.clock.seek(tick);
+    });
+  }
+
+  #decision(decision) {
+    const pair = decision.robots.map((index) => this.plan.robots[index]);
+    const names = pair.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
+    const title = element("h2", {}, names[0], " and ", names[1]);
+    return [
+      this.#header(swatch(pair[0]), swatch(pair[1]), title),
+      element("p", { className: "name" }, this.words.decisionAtLength(decision)),
+      element("p", { className: "name" }, this.words.reason(decision)),
+      this.#choices(decision, pair),
+    ];
+  }
+
+  /** The two choices side by side, the one that was taken stronger. */
+  #choices(decision, pair) {
+    const cell = (tag, text, side) =>
+      element(tag, { className: decision.waits === decision.robots[side] ? "taken" : "" }, String(text));
+    const row = (tag, label, both) =>
+      element("tr", {}, element("th", {}, label), ...both.map((text, side) => cell(tag, text, side)));
+    const head = row("th", "If it waits", pair.map((robot) => robot.name));
+    const rows = this.words.figures(decision).map(([label, ...both]) => row("td", label, both));
+    return element("table", { className: "choices" }, head, ...rows);
+  }
+}

@@ -1,0 +1,77 @@
+"use strict";
+
+const MOST_SAMPLES = 1200;
+const STACK = [WORK, TURN, DRIVE, WAIT]; // from the bottom up; who is done, is the empty space above
+
+/** What a large fleet does: how many robots work, turn, drive and wait, over time. */
+class Census {
+  #counts = null;
+
+  constructor(plan, theme) {
+    Object.assign(this, { plan, theme });
+    this.title = `What the ${plan.robots.length} robots do over time`;
+    this.samples = Math.min(plan.end, MOST_SAMPLES);
+  }
+
+  paint(context, area) {
+    const counts = (this.#counts ??= this.#count());
+    const below = new Float64Array(this.samples);
+    const { work, turn, drive, wait } = this.theme;
+    const colours = { [WORK]: work, [TURN]: turn, [DRIVE]: drive, [WAIT]: wait };
+    for (const activity of STACK) {
+      context.fillStyle = colours[activity];
+      this.#band(context, area, below, counts[activity]);
+    }
+    this.#legend(context, area, colours);
+  }
+
+  /** Robots by activity, in the middle of each sample. */
+  #count() {
+    const counts = ACTIVITY_WORDS.map(() => new Int32Array(this.samples + 1));
+    const sample = (tick) =>
+      Math.min(Math.max(Math.ceil((tick / this.plan.end) * this.samples - 0.5), 0), this.samples);
+    for (const { phases } of this.plan.robots) {
+      for (let i = 0; i < phases.begin.length; i++) {
+        counts[phases.activity[i]][sample(phases.begin[i])]++;
+        counts[phases.activity[i]][sample(phases.end(i))]--;
+      }
+    }
+    for (const row of counts) for (let i = 1; i < row.length; i++) row[i] += row[i - 1];
+    return counts;
+  }
+
+  /** Paint one activity on top of what lies below, and add it to that. */
+  #band(context, area, below, counts) {
+    const x = (sample) => area.x((sample / this.samples) * area.end);
+    const y = (robots) => area.bottom - (robots / this.plan.robots.length) * area.height;
+    context.beginPath();
+    for (let i = 0; i < this.samples; i++) {
+      const top = y(below[i] + counts[i]);
+      if (i === 0) context.moveTo(x(i), top);
+      else context.lineTo(x(i), top);
+      context.lineTo(x(i + 1), top);
+    }
+    for (let i = this.samples - 1; i >= 0; i--) {
+      context.lineTo(x(i + 1), y(below[i]));
+      context.lineTo(x(i), y(below[i]));
+      below[i] += counts[i];
+    }
+    context.closePath();
+    context.fill();
+  }
+
+  #legend(context, area, colours) {
+    context.font = this.theme.font(12.5);
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    context.fillStyle = this.theme.muted;
+    context.fillText(counted(this.plan.robots.length, "robot"), 28, area.top + 4);
+    STACK.forEach((activity, place) => {
+      const y = area.bottom - 12 - place * 22;
+      context.fillStyle = colours[activity];
+      context.fillRect(28, y - 5, 10, 10);
+      context.fillStyle = this.theme.muted;
+      context.fillText(ACTIVITY_WORDS[activity], 46, y + 0.5);
+    });
+  }
+}

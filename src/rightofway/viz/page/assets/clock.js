@@ -1,0 +1,88 @@
+"use strict";
+
+/** How many time units pass in a second. */
+const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
+
+/** A whole plan plays in about this long [s], unless the user changes the speed. */
+const PLEASANT_SECONDS = 24;
+
+/** The moment shown. Tells `tick` when it changes, `playing` when it starts, stops, or changes pace. */
+class Clock extends Observable {
+  constructor(plan) {
+    super();
+    this.end = plan.end;
+    this.tick = 0;
+    this.playing = false;
+    this.ticksPerUnit = plan.tick.denominator / plan.tick.numerator;
+    const pace = this.end / this.ticksPerUnit / PLEASANT_SECONDS;
+    this.rate = RATES.findLast((rate) => rate < 1.5 * pace) ?? RATES[0];
+    this.#plan = plan;
+  }
+
+  #events = null;
+  #plan;
+
+  /** The moment, as a whole number of ticks. */
+  get wholeTick() {
+    return Math.floor(this.tick + 1e-9);
+  }
+
+  seek(tick) {
+    this.tick = Math.min(Math.max(tick, 0), this.end);
+    this.tell("tick");
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  play() {
+    if (this.tick >= this.end) this.seek(0);
+    this.playing = true;
+    this.tell("playing");
+  }
+
+  pause() {
+    this.playing = false;
+    this.tell("playing");
+  }
+
+  setRate(rate) {
+    this.rate = rate;
+    this.tell("playing");
+  }
+
+  /** Take the next slower (-1) or faster (1) rate. */
+  changeRate(by) {
+    const index = RATES.indexOf(this.rate) + by;
+    if (RATES[index]) this.setRate(RATES[index]);
+  }
+
+  /** Let time run on. */
+  advance(seconds) {
+    this.seek(this.tick + seconds * this.rate * this.ticksPerUnit);
+    if (this.tick >= this.end) this.pause();
+  }
+
+  /** Go one whole tick back (-1) or on (1). */
+  step(by) {
+    this.pause();
+    this.seek(by < 0 ? Math.ceil(this.tick - 1e-9) - 1 : this.wholeTick + 1);
+  }
+
+  /** Go to the last (-1) or next (1) instant at which `robot`, or any robot for null, does something new. */
+  stepEvent(by, robot) {
+    this.pause();
+    const events = robot ? robot.phases.begin : (this.#events ??= eventsOf(this.#plan));
+    const index = lastAtMost(events, by < 0 ? this.tick - 1e-9 : this.tick + 1e-9);
+    this.seek(by < 0 ? events[index] : events[index + 1] ?? this.end);
+  }
+}
+
+/** All instants at which a robot does something new, in order. */
+function eventsOf(plan) {
+  const begins = new Set();
+  for (const robot of plan.robots) for (const begin of robot.phases.begin) begins.add(begin);
+  return Float64Array.from(begins).sort();
+}

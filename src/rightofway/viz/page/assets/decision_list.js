@@ -1,0 +1,70 @@
+"use strict";
+
+const REASONS = {
+  node: "fewer conflicts left",
+  robot: "done sooner",
+  settled: "others are settled",
+  only: "the only way",
+};
+
+/** All resolved conflicts, and the robots that were sent another way. */
+class DecisionList {
+  constructor(plan, clock, choice, words) {
+    Object.assign(this, { plan, clock, choice, words });
+    this.items = [
+      ...plan.reroutes.map((reroute) => this.#reroute(reroute)),
+      ...plan.decisions.map((decision, index) => this.#decision(decision, index)),
+    ];
+    this.find = document.getElementById("find-decision");
+    this.list = new VirtualList(document.getElementById("decision-list"), {
+      rowHeight: 52,
+      className: "two",
+      none: this.items.length ? "No decision fits that." : "This planner tells of no decisions.",
+      fill: (row, item) => this.#fill(row, item),
+      choose: (item) => item.choose(),
+    });
+    this.find.addEventListener("input", () => this.#select());
+    choice.on("choice", () => this.list.setChosen(this.items.find((item) => item.isChosen()) ?? null));
+    this.#select();
+  }
+
+  refresh() {
+    this.list.refresh();
+  }
+
+  #decision(decision, index) {
+    const when = `at ${this.words.time(decision.tick)}`;
+    return {
+      head: this.words.decision(decision),
+      detail: `${when} · ${counted(decision.ticks, "tick")} later · ${REASONS[decision.level]}`,
+      isChosen: () => this.choice.decisionIndex === index,
+      choose: () => {
+        this.clock.pause();
+        this.clock.seek(decision.tick);
+        this.choice.chooseDecision(index);
+      },
+    };
+  }
+
+  #reroute(reroute) {
+    return {
+      head: `${this.words.robot(reroute.robot)} was sent another way`,
+      detail: reroute.because,
+      isChosen: () => this.choice.decisionIndex < 0 && this.choice.robotIndex === reroute.robot,
+      choose: () => this.choice.chooseRobot(reroute.robot),
+    };
+  }
+
+  #select() {
+    const part = this.find.value.trim().toLowerCase();
+    this.list.setItems(this.items.filter(({ head, detail }) => `${head} ${detail}`.toLowerCase().includes(part)));
+  }
+
+  #fill(row, item) {
+    if (row.filled === item) return;
+    row.filled = item;
+    row.title = `${item.head}\n${item.detail}`;
+    const head = element("span", { className: "text name" }, item.head);
+    row.replaceChildren(head, element("span", { className: "text name" }, item.detail));
+  }
+}

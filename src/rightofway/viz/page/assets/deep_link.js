@@ -1,0 +1,43 @@
+"use strict";
+
+/** Whether the page is part of another one, such as a notebook. */
+const EMBEDDED = window.parent !== window;
+
+/** Keeps moment and choice in the address, so that a link shows what its sender saw. */
+class DeepLink {
+  #timer = 0;
+
+  constructor(plan, clock, choice) {
+    Object.assign(this, { plan, clock, choice });
+    if (EMBEDDED) return;
+    clock.on("tick", () => this.#soon());
+    choice.on("choice", () => this.#soon());
+    window.addEventListener("hashchange", () => this.read());
+  }
+
+  /** Show what the address says; returns whether it says anything. */
+  read() {
+    const asked = new URLSearchParams(location.hash.slice(1));
+    const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
+    const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
+    if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
+    else if (robot >= 0) this.choice.chooseRobot(robot);
+    const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
+    this.clock.seek(Number.parseFloat(tick) || 0);
+    return asked.size > 0;
+  }
+
+  /** Write when nothing has changed for a moment: browsers slow down pages that write often. */
+  #soon() {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#write(), 300);
+  }
+
+  #write() {
+    if (this.clock.playing) return;
+    const state = new URLSearchParams({ tick: String(Math.round(this.clock.tick * 100) / 100) });
+    if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
+    else if (this.choice.robot) state.set("robot", this.choice.robot.name);
+    history.replaceState(null, "", `#${state}`);
+  }
+}

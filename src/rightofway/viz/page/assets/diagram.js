@@ -1,0 +1,76 @@
+"use strict";
+
+/** The diagram below the slider: of the views on the plan, the one that explains most. */
+class Diagram {
+  constructor(plan, clock, choice, theme, words, use) {
+    Object.assign(this, { plan, clock, choice, theme, words });
+    this.canvas = document.getElementById("diagram");
+    this.needle = document.getElementById("needle");
+    this.heading = document.getElementById("diagram-title");
+    this.spaceTime = new SpaceTime(plan, theme, words, use, choice);
+    this.rows = new RobotRows(plan, theme);
+    this.census = new Census(plan, theme);
+    this.layer = new Layer((context, width, height) => this.#paintView(context, width, height));
+    this.#listen();
+  }
+
+  /** The view that suits what is chosen and how large the fleet is. */
+  get view() {
+    if (this.choice.robot || this.plan.line.length) return this.spaceTime;
+    return this.plan.robots.length <= MOST_ROWS ? this.rows : this.census;
+  }
+
+  /** Paint a frame: the picture if it is stale, else only the needle moves. */
+  paint() {
+    const size = fitCanvas(this.canvas);
+    if (size.changed || this.layer.stale) {
+      this.area = new Area(size.width, size.height, this.plan.end);
+      const context = this.canvas.getContext("2d");
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+      this.layer.drawOn(context, size);
+      this.heading.textContent = this.view.title;
+      this.canvas.setAttribute("aria-label", this.view.title);
+    }
+    this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;
+  }
+
+  #paintView(context, width, height) {
+    const area = new Area(width, height, this.plan.end);
+    paintAxis(context, area, this.plan, this.theme, this.words);
+    this.view.paint(context, area);
+    this.#decisions(context, area);
+  }
+
+  /** A small triangle at the top wherever somebody was given the right of way. */
+  #decisions(context, area) {
+    const { decisions } = this.plan;
+    context.fillStyle = this.theme.muted;
+    context.globalAlpha = Math.max(0.9 - decisions.length / 200, 0.2);
+    for (const decision of decisions) pointer(context, area.x(decision.tick), 3.5);
+    context.globalAlpha = 1;
+    context.fillStyle = this.theme.ink;
+    if (this.choice.decision) pointer(context, area.x(this.choice.decision.tick), 5);
+  }
+
+  /** Pressing or dragging goes to that moment; pressing a robot's name chooses it. */
+  #listen() {
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.offsetX < this.area.left - 8) this.#chooseAt(event.offsetY);
+      else {
+        canvas.setPointerCapture(event.pointerId);
+        this.clock.pause();
+        this.clock.seek(this.area.tick(event.offsetX));
+      }
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (canvas.hasPointerCapture(event.pointerId)) this.clock.seek(this.area.tick(event.offsetX));
+    });
+  }
+
+  #chooseAt(y) {
+    const robot = this.view.robotAt?.(y) ?? -1;
+    if (robot >= 0) this.choice.chooseRobot(robot);
+  }
+}

@@ -1,0 +1,123 @@
+"use strict";
+
+const RADIUS = 0.33; // of a robot, in cells
+const SMALL_RADIUS = 0.46; // where cells are small
+const SMALL_CELL = 12; // pixels
+const FEW = 80; // up to here, waiting robots point to where they want to go
+
+/** The robots: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
+class MapRobots {
+  constructor(plan, motion, theme, choice) {
+    Object.assign(this, { plan, motion, theme, choice });
+    this.inks = plan.robots.map((robot) => inkOn(robot.colour));
+  }
+
+  /** Paint all robots in map units; those that stand out come last, and so on top. */
+  paint(context, scale) {
+    const radius = Math.max(scale < SMALL_CELL ? SMALL_RADIUS : RADIUS, 1.6 / scale);
+    if (this.choice.robotIndex < 0) {
+      for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
+    } else {
+      context.globalAlpha = 0.28;
+      for (const robot of this.plan.robots) {
+        if (!this.choice.standsOut(robot.index)) this.#robot(context, robot, radius, scale);
+      }
+      context.globalAlpha = 1;
+      const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
+      for (const index of chosen) this.#chosen(context, this.plan.robots[index], radius, scale);
+    }
+  }
+
+  #chosen(context, robot, radius, scale) {
+    const [x, y] = [this.motion.x[robot.index], this.motion.y[robot.index]];
+    const grown = Math.max(radius, 6 / scale);
+    context.strokeStyle = this.theme.ink;
+    context.lineWidth = Math.max(0.025, 1.5 / scale);
+    ring(context, x, y, grown * 1.5);
+    this.#robot(context, robot, grown, scale);
+  }
+
+  #robot(context, robot, radius, scale) {
+    const i = robot.index;
+    const [x, y, activity] = [this.motion.x[i], this.motion.y[i], this.motion.activity[i]];
+    const alpha = context.globalAlpha;
+    if (activity === WAIT) this.#waiting(context, robot, x, y, radius, scale);
+    else {
+      if (activity === DONE) context.globalAlpha = alpha * 0.38;
+      context.fillStyle = robot.colour;
+      disc(context, x, y, radius);
+      if (this.choice.heat) this.#outline(context, x, y, radius, scale);
+      context.globalAlpha = alpha;
+    }
+    if (activity === WORK || activity === TURN) this.#dial(context, robot, x, y, radius, scale);
+    if (radius * scale >= 9) this.#label(context, robot, x, y, radius, scale);
+  }
+
+  /** Keeps a robot apart from a hot vertex of much the same colour. */
+  #outline(context, x, y, radius, scale) {
+    context.strokeStyle = this.theme.floor;
+    context.lineWidth = Math.max(0.04, 1 / scale);
+    ring(context, x, y, radius);
+  }
+
+  #waiting(context, robot, x, y, radius, scale) {
+    if (this.plan.robots.length <= FEW && this.choice.robotIndex < 0) this.#wish(context, robot, x, y, scale);
+    const width = Math.max(radius * 0.26, 1 / scale);
+    context.fillStyle = this.theme.floor;
+    disc(context, x, y, radius);
+    context.strokeStyle = robot.colour;
+    context.lineWidth = width;
+    ring(context, x, y, radius - width / 2);
+  }
+
+  /** A dotted line to the vertex that a waiting robot is kept from. */
+  #wish(context, robot, x, y, scale) {
+    const visit = robot.phases.visit[this.motion.phase[robot.index]];
+    const next = robot.vertices[visit + 1];
+    const { x: xs, y: ys } = this.plan.roadmap;
+    context.strokeStyle = robot.colour;
+    context.lineWidth = Math.max(0.06, 1.25 / scale);
+    context.lineCap = "round";
+    context.setLineDash([0, 0.16]);
+    context.beginPath();
+    line(context, x, y, xs[next], ys[next]);
+    context.stroke();
+    context.setLineDash([]);
+    context.lineCap = "butt";
+  }
+
+  /** Work fills a circle; turning sweeps two arcs round half of it. */
+  #dial(context, robot, x, y, radius, scale) {
+    const i = robot.index;
+    const share = this.motion.share[i];
+    const start = -Math.PI / 2;
+    context.strokeStyle = robot.colour;
+    context.lineWidth = Math.max(radius * 0.17, 1 / scale);
+    if (this.motion.activity[i] === WORK) {
+      arc(context, x, y, radius * 1.3, start, start + 2 * Math.PI * share);
+      context.globalAlpha *= 0.25;
+      ring(context, x, y, radius * 1.3);
+      context.globalAlpha *= 4;
+    } else {
+      for (const side of [0, Math.PI]) {
+        const angle = start + side + Math.PI * share;
+        arc(context, x, y, radius * 1.3, angle, angle + 0.9);
+      }
+    }
+  }
+
+  #label(context, robot, x, y, radius, scale) {
+    const size = Math.min(radius * scale * 0.78, (radius * scale * 2.6) / Math.max(robot.name.length, 2));
+    if (size < 6.5) return;
+    const hollow = this.motion.activity[robot.index] === WAIT || this.motion.activity[robot.index] === DONE;
+    context.save();
+    context.translate(x, y);
+    context.scale(1 / scale, 1 / scale);
+    context.font = this.theme.font(size, 600);
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillStyle = hollow ? this.theme.ink : this.inks[robot.index];
+    context.fillText(robot.name, 0, size * 0.04);
+    context.restore();
+  }
+}

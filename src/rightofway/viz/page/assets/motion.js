@@ -1,0 +1,53 @@
+"use strict";
+
+/** Where all robots are and what they do, at one instant. */
+class Motion {
+  constructor(plan) {
+    const count = plan.robots.length;
+    this.plan = plan;
+    this.x = new Float32Array(count);
+    this.y = new Float32Array(count);
+    this.activity = new Uint8Array(count);
+    this.share = new Float32Array(count); // of the activity that is over, 0 to 1
+    this.phase = new Int32Array(count);
+    this.counts = new Int32Array(5); // robots by activity
+    this.moveTo(0);
+  }
+
+  moveTo(tick) {
+    this.counts.fill(0);
+    for (const robot of this.plan.robots) this.#move(robot, tick);
+  }
+
+  /** While time runs on, a robot's next phase is this one or the next; else search. */
+  #find(robot, tick) {
+    const { begin } = robot.phases;
+    const last = begin.length - 1;
+    let phase = this.phase[robot.index];
+    if (tick < begin[phase]) phase = lastAtMost(begin, tick);
+    for (let step = 0; phase < last && begin[phase + 1] <= tick; step++) {
+      if (step > 3) return lastAtMost(begin, tick);
+      phase++;
+    }
+    return phase;
+  }
+
+  #move(robot, tick) {
+    const i = robot.index;
+    const phase = (this.phase[i] = this.#find(robot, tick));
+    const activity = (this.activity[i] = robot.phases.activity[phase]);
+    this.counts[activity]++;
+    const begin = robot.phases.begin[phase];
+    const share = activity === DONE ? 1 : (tick - begin) / (robot.phases.end(phase) - begin);
+    this.share[i] = Math.max(share, 0);
+    const { x, y } = this.plan.roadmap;
+    const visit = robot.phases.visit[phase];
+    const here = robot.vertices[visit];
+    this.x[i] = x[here];
+    this.y[i] = y[here];
+    if (activity !== DRIVE) return;
+    const there = robot.vertices[visit + 1];
+    this.x[i] += (x[there] - x[here]) * share;
+    this.y[i] += (y[there] - y[here]) * share;
+  }
+}

@@ -1,0 +1,54 @@
+"use strict";
+
+/** What a robot does. */
+const DRIVE = 0;
+const WAIT = 1;
+const WORK = 2;
+const TURN = 3;
+const DONE = 4;
+
+/**
+ * What a robot does when, one entry for each change: `begin[i]` to `begin[i + 1]`, during `visit[i]`.
+ *
+ * A robot stays at u for the edge's ticks and then, at one instant, is at w. For the eye it drives
+ * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive.
+ */
+function phasesOf(robot) {
+  const phases = { begin: [], activity: [], visit: [] };
+  const last = robot.vertices.length - 1;
+  let stage = 0;
+  for (let visit = 0; visit <= last; visit++) {
+    const leave = robot.leave(visit);
+    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : Infinity;
+    let now = robot.enter[visit];
+    const add = (ticks, activity) => {
+      const end = Math.min(now + ticks, go);
+      if (end > now) push(phases, now, activity, visit);
+      now = end;
+    };
+    for (; stage < robot.stages.length && robot.stages[stage].visit <= visit; stage++) {
+      if (robot.stages[stage].visit < visit) continue;
+      add(robot.stages[stage].work, WORK);
+      if (visit < last) add(robot.stages[stage].turn, TURN);
+    }
+    if (visit === last) push(phases, now, DONE, visit);
+    else {
+      if (go > now) push(phases, now, WAIT, visit);
+      if (leave > go) push(phases, go, DRIVE, visit);
+    }
+  }
+  return {
+    begin: Float64Array.from(phases.begin),
+    activity: Uint8Array.from(phases.activity),
+    visit: Int32Array.from(phases.visit),
+    end(i) {
+      return i + 1 < this.begin.length ? this.begin[i + 1] : Infinity;
+    },
+  };
+}
+
+function push(phases, begin, activity, visit) {
+  phases.begin.push(begin);
+  phases.activity.push(activity);
+  phases.visit.push(visit);
+}

@@ -1,0 +1,141 @@
+"use strict";
+
+/** Undo first differences: [3, 1, 2] is [3, 4, 6]. */
+function fromDifferences(differences, Numbers) {
+  const numbers = new Numbers(differences.length);
+  let sum = 0;
+  for (let i = 0; i < numbers.length; i++) numbers[i] = sum += differences[i];
+  return numbers;
+}
+
+/** The graph that robots drive on, laid out for drawing: x to the right, y down, one unit a cell. */
+class Roadmap {
+  constructor(raw) {
+    this.width = raw.width;
+    this.height = raw.height;
+    this.rows = raw.rows ?? null;
+    if (this.rows) this.#readGrid();
+    else this.#readNetwork(raw);
+    this.size = this.x.length;
+  }
+
+  name(vertex) {
+    return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
+  }
+
+  /** The vertex within half a unit of a point, or -1. */
+  near(x, y) {
+    if (!this.rows) return nearest(this.x, this.y, x, y, 0.5);
+    const [column, row] = [Math.round(x), Math.round(y)];
+    if (row < 0 || row >= this.height || column < 0 || column >= this.width) return -1;
+    return this.vertexAt[row * this.width + column];
+  }
+
+  #readGrid() {
+    const text = this.rows.join("");
+    this.vertexAt = new Int32Array(text.length).fill(-1);
+    const cells = [];
+    for (let cell = 0; cell < text.length; cell++) {
+      if (text[cell] === ".") this.vertexAt[cell] = cells.push(cell) - 1;
+    }
+    this.cells = Int32Array.from(cells);
+    this.x = Float32Array.from(cells, (cell) => cell % this.width);
+    this.y = Float32Array.from(cells, (cell) => Math.floor(cell / this.width));
+  }
+
+  #readNetwork(raw) {
+    this.names = raw.names;
+    this.x = Float32Array.from(raw.names, (_, vertex) => raw.points[2 * vertex]);
+    this.y = Float32Array.from(raw.names, (_, vertex) => raw.points[2 * vertex + 1]);
+    this.tails = fromDifferences(raw.tails, Int32Array);
+    this.heads = fromDifferences(raw.heads, Int32Array);
+  }
+}
+
+/** The index of the point nearest to (x, y) and within `reach`, or -1. */
+function nearest(xs, ys, x, y, reach) {
+  let best = -1;
+  let least = reach * reach;
+  for (let i = 0; i < xs.length; i++) {
+    const distance = (xs[i] - x) ** 2 + (ys[i] - y) ** 2;
+    if (distance <= least) [best, least] = [i, distance];
+  }
+  return best;
+}
+
+/** A robot and what the plan has it do. Times are ticks. */
+class Robot {
+  constructor(raw, index) {
+    this.index = index;
+    this.name = raw.name;
+    this.colour = raw.colour;
+    this.speed = raw.speed;
+    this.vertices = fromDifferences(raw.vertices, Int32Array);
+    this.enter = fromDifferences(raw.enter, Float64Array);
+    this.drive = typeof raw.drive === "number"
+      ? new Float64Array(this.vertices.length).fill(raw.drive)
+      : Float64Array.from(raw.drive);
+    this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
+    this.completion = raw.completion;
+    this.alone = raw.alone;
+    this.waits = [];
+    this.phases = phasesOf(this);
+  }
+
+  get home() {
+    return this.vertices[0];
+  }
+
+  /** Ticks lost to the others. */
+  get delay() {
+    return this.completion - this.alone;
+  }
+
+  /** When a visit ends; the last one never does. */
+  leave(visit) {
+    return visit + 1 < this.enter.length ? this.enter[visit + 1] : Infinity;
+  }
+}
+
+/** A wait with its reason: in which vertex, from when, how long, to get where, and for whom or null. */
+class Wait {
+  constructor([robot, vertex, tick, ticks, towards, forRobot]) {
+    Object.assign(this, { robot, vertex, tick, ticks, towards, forRobot });
+  }
+}
+
+/** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
+function lastAtMost(numbers, limit) {
+  let [low, high] = [0, numbers.length - 1];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (numbers[middle] <= limit) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/** All that the page knows, as payload.py wrote it. */
+class Plan {
+  constructor(raw) {
+    this.tick = { numerator: raw.tick[0], denominator: raw.tick[1] };
+    this.end = raw.end;
+    this.headway = raw.headway;
+    this.booksAhead = raw.booksAhead;
+    this.roadmap = new Roadmap(raw.map);
+    this.line = raw.line;
+    this.robots = raw.robots.map((robot, index) => new Robot(robot, index));
+    this.waits = raw.waits.map((wait) => new Wait(wait));
+    for (const wait of this.waits) this.robots[wait.robot].waits.push(wait);
+    this.planner = raw.planner;
+    this.decisions = raw.decisions;
+    this.reroutes = raw.reroutes;
+    this.metrics = raw.metrics;
+  }
+
+  /** When a visit begins to book its vertex, and when it stops. */
+  booking(robot, visit) {
+    const approach = this.booksAhead && visit > 0 ? robot.drive[visit] : 0;
+    return [robot.enter[visit] - approach, robot.leave(visit) + this.headway];
+  }
+}

@@ -1,0 +1,63 @@
+"use strict";
+
+function line(context, fromX, fromY, toX, toY) {
+  context.moveTo(fromX, fromY);
+  context.lineTo(toX, toY);
+}
+
+/** Two strokes in the middle of a way that leads in one direction only. */
+function arrowHead(context, fromX, fromY, toX, toY) {
+  const angle = Math.atan2(toY - fromY, toX - fromX);
+  const [x, y] = [(fromX + toX) / 2, (fromY + toY) / 2];
+  for (const turn of [2.6, -2.6]) {
+    line(context, x, y, x + 0.2 * Math.cos(angle + turn), y + 0.2 * Math.sin(angle + turn));
+  }
+}
+
+function disc(context, x, y, radius) {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.fill();
+}
+
+function ring(context, x, y, radius) {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.stroke();
+}
+
+function arc(context, x, y, radius, from, to) {
+  context.beginPath();
+  context.arc(x, y, radius, from, to);
+  context.stroke();
+}
+
+function field(context, x, y, side) {
+  context.beginPath();
+  context.roundRect(x - side / 2, y - side / 2, side, side, side * 0.16);
+}
+
+function diamond(context, x, y, radius) {
+  context.beginPath();
+  context.moveTo(x, y - radius);
+  context.lineTo(x + radius, y);
+  context.lineTo(x, y + radius);
+  context.lineTo(x - radius, y);
+  context.closePath();
+}
+
+/** A triangle that points down from the top edge. */
+function pointer(context, x, size) {
+  context.beginPath();
+  context.moveTo(x - size, 0);
+  context.lineTo(x + size, 0);
+  context.lineTo(x, size * 1.4);
+  context.fill();
+}
+
+/** A text cut to fit a width, with an ellipsis. */
+function shortened(context, text, width) {
+  if (context.measureText(text).width <= width) return text;
+  const share = width / context.measureText(text).width;
+  return `${text.slice(0, Math.max(Math.floor(text.length * share) - 1, 1))}…`;
+}

@@ -1,0 +1,41 @@
+"use strict";
+
+/** How much each vertex is used, and by whom when. */
+class Use {
+  #byVertex = null;
+
+  constructor(plan) {
+    this.plan = plan;
+    this.held = new Float64Array(plan.roadmap.size); // ticks, without resting at the end
+    for (const robot of plan.robots) {
+      for (let visit = 0; visit + 1 < robot.vertices.length; visit++) {
+        this.held[robot.vertices[visit]] += robot.leave(visit) - robot.enter[visit];
+      }
+    }
+    this.most = this.held.reduce((most, ticks) => Math.max(most, ticks), 1);
+  }
+
+  /** The visits at a vertex, as pairs of robot and visit. */
+  visitsAt(vertex) {
+    const { first, robots, visits } = (this.#byVertex ??= this.#sort());
+    const pairs = [];
+    for (let i = first[vertex]; i < first[vertex + 1]; i++) pairs.push([this.plan.robots[robots[i]], visits[i]]);
+    return pairs;
+  }
+
+  /** All visits in the order of their vertices, in flat arrays. */
+  #sort() {
+    const first = new Int32Array(this.plan.roadmap.size + 1);
+    for (const robot of this.plan.robots) for (const vertex of robot.vertices) first[vertex + 1]++;
+    for (let vertex = 0; vertex < this.plan.roadmap.size; vertex++) first[vertex + 1] += first[vertex];
+    const next = first.slice();
+    const [robots, visits] = [new Int32Array(first.at(-1)), new Int32Array(first.at(-1))];
+    for (const robot of this.plan.robots) {
+      robot.vertices.forEach((vertex, visit) => {
+        robots[next[vertex]] = robot.index;
+        visits[next[vertex]++] = visit;
+      });
+    }
+    return { first, robots, visits };
+  }
+}

@@ -1,0 +1,149 @@
+"use strict";
+
+const LARGEST_CELL = 200; // pixels
+const LARGEST_FITTED_CELL = 104;
+const MARGIN = 26;
+
+/**
+ * Which part of the map is shown, and how large. Dragging pans, wheel and two fingers zoom.
+ * Tells `view` when it changes, `click` and `hover` with `pointer` in map units.
+ */
+class Viewport extends Observable {
+  constructor(canvas, roadmap) {
+    super();
+    this.canvas = canvas;
+    this.roadmap = roadmap;
+    this.scale = 1; // pixels in a unit
+    this.left = 0; // pixels from the canvas to the map's origin
+    this.top = 0;
+    this.fitted = true;
+    this.pointer = { x: NaN, y: NaN };
+    this.#touches = new Map();
+    this.#listen();
+  }
+
+  #touches;
+  #dragged = 0;
+
+  toX(pixels) {
+    return (pixels - this.left) / this.scale;
+  }
+
+  toY(pixels) {
+    return (pixels - this.top) / this.scale;
+  }
+
+  /** Show the whole map. */
+  fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { width: columns, height: rows } = this.roadmap;
+    const fitting = Math.min((width - 2 * MARGIN) / columns, (height - 2 * MARGIN) / rows);
+    this.scale = Math.max(Math.min(fitting, LARGEST_FITTED_CELL), 0.1);
+    this.left = (width - (columns - 1) * this.scale) / 2;
+    this.top = (height - (rows - 1) * this.scale) / 2;
+    this.#changed(true);
+  }
+
+  /** The canvas has another size: keep the whole map in view, or what was in the middle. */
+  resized() {
+    if (this.fitted) this.fit();
+    else this.#changed(false);
+  }
+
+  /** Zoom by a factor round a point of the canvas, or its middle. */
+  zoom(factor, x = this.canvas.clientWidth / 2, y = this.canvas.clientHeight / 2) {
+    const scale = Math.min(Math.max(this.scale * factor, 0.5), LARGEST_CELL);
+    this.left = x - ((x - this.left) * scale) / this.scale;
+    this.top = y - ((y - this.top) * scale) / this.scale;
+    this.scale = scale;
+    this.#changed(false);
+  }
+
+  pan(right, down) {
+    this.left += right;
+    this.top += down;
+    this.#changed(false);
+  }
+
+  /** Bring a point into the middle unless it is in sight. */
+  show(x, y) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [right, down] = [this.left + x * this.scale, this.top + y * this.scale];
+    if (right < 0 || right > width || down < 0 || down > height) this.pan(width / 2 - right, height / 2 - down);
+  }
+
+  #changed(fitted) {
+    this.fitted = fitted;
+    this.canvas.classList.toggle("zoomed", !fitted);
+    this.tell("view");
+  }
+
+  #listen() {
+    const { canvas } = this;
+    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    canvas.addEventListener("pointerdown", (event) => this.#down(event));
+    canvas.addEventListener("pointermove", (event) => this.#move(event));
+    canvas.addEventListener("pointerup", (event) => this.#up(event));
+    canvas.addEventListener("pointercancel", (event) => this.#touches.delete(event.pointerId));
+    canvas.addEventListener("mousedown", (event) => event.preventDefault()); // or arrow keys would pan from now on
+    canvas.addEventListener("keydown", (event) => this.#key(event));
+    canvas.addEventListener("pointerleave", () => this.#point(NaN, NaN));
+  }
+
+  /** Inside another page the wheel scrolls that page, unless Ctrl is held. */
+  #wheel(event) {
+    if (EMBEDDED && !event.ctrlKey) return;
+    event.preventDefault();
+    const pace = event.deltaMode ? 0.05 : event.ctrlKey ? 0.01 : 0.0016; // by lines, by two fingers, by pixels
+    this.zoom(Math.exp(-event.deltaY * pace), event.offsetX, event.offsetY);
+  }
+
+  /** Arrow keys pan while the map has the focus. */
+  #key(event) {
+    const step = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+    if (!step || event.shiftKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.pan(...step);
+  }
+
+  #down(event) {
+    this.canvas.setPointerCapture(event.pointerId);
+    this.#touches.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    if (this.#touches.size === 1) this.#dragged = 0;
+  }
+
+  #move(event) {
+    const touch = this.#touches.get(event.pointerId);
+    this.#point(event.offsetX, event.offsetY);
+    if (!touch) return;
+    const before = this.#span();
+    const [right, down] = [event.offsetX - touch.x, event.offsetY - touch.y];
+    Object.assign(touch, { x: event.offsetX, y: event.offsetY });
+    this.#dragged += Math.abs(right) + Math.abs(down);
+    if (this.#dragged < 4) return;
+    this.canvas.classList.add("panning");
+    const share = 1 / this.#touches.size;
+    this.pan(right * share, down * share);
+    const after = this.#span();
+    if (before.length && after.length) this.zoom(after.length / before.length, after.x, after.y);
+  }
+
+  #up(event) {
+    this.#touches.delete(event.pointerId);
+    this.canvas.classList.remove("panning");
+    if (this.#dragged < 4) this.tell("click");
+  }
+
+  /** Middle and distance of two fingers; no length with one. */
+  #span() {
+    const [one, two] = this.#touches.values();
+    if (!two) return { length: 0 };
+    return { length: Math.hypot(one.x - two.x, one.y - two.y), x: (one.x + two.x) / 2, y: (one.y + two.y) / 2 };
+  }
+
+  #point(x, y) {
+    this.pointer = { x: this.toX(x), y: this.toY(y) };
+    this.tell("hover");
+  }
+}

@@ -1,0 +1,113 @@
+"use strict";
+
+/** "1 tick", "2 ticks". */
+function counted(number, thing) {
+  return `${number} ${thing}${number === 1 ? "" : "s"}`;
+}
+
+const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done"];
+
+/** A number with its thousands apart, from five digits on. */
+function grouped(number) {
+  return number < 10000 ? String(number) : String(number).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
+}
+
+/** Durations as people write them, names, and sentences made of them. */
+class Words {
+  constructor(plan) {
+    this.plan = plan;
+  }
+
+  robot(index) {
+    return this.plan.robots[index].name;
+  }
+
+  vertex(vertex) {
+    return this.plan.roadmap.name(vertex);
+  }
+
+  /** Ticks in the scenario's time unit, exactly: 3.5, or 2 1/3. */
+  time(ticks) {
+    const { numerator, denominator } = this.plan.tick;
+    const top = ticks * numerator;
+    const decimal = top / denominator;
+    const rounded = Math.round(decimal * 1000) / 1000;
+    if (rounded * denominator === top || denominator > 12) return grouped(rounded);
+    const whole = Math.floor(decimal);
+    const part = `${top - whole * denominator}/${denominator}`;
+    return whole ? `${whole} ${part}` : part;
+  }
+
+  /** A share in per cent, with as many places as help. */
+  percent(share) {
+    const percent = 100 * share;
+    return `${percent && percent < 9.95 ? percent.toFixed(1) : Math.round(percent)} %`;
+  }
+
+  /** Why a robot waits. */
+  wait(wait) {
+    const what = `waits ${counted(wait.ticks, "tick")} in ${this.vertex(wait.vertex)}`;
+    const next = this.vertex(wait.towards);
+    if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
+    return `${what} for ${this.robot(wait.forRobot)} to leave ${next}`;
+  }
+
+  /** Where two robots would have met. */
+  place(decision) {
+    const names = decision.vertices.map((vertex) => this.vertex(vertex));
+    return names.length === 1 ? names[0] : `${names[0]} to ${names.at(-1)}`;
+  }
+
+  /** The robot that goes first. */
+  first(decision) {
+    return decision.robots[0] === decision.waits ? decision.robots[1] : decision.robots[0];
+  }
+
+  /** Who waits for whom, in a line. */
+  decision(decision) {
+    const meets = decision.kind === "head-on" ? "head-on, " : "";
+    const [waits, first] = [this.robot(decision.waits), this.robot(this.first(decision))];
+    return `${waits} waits for ${first}, ${meets}${this.place(decision)}`;
+  }
+
+  /** The same in whole sentences. */
+  decisionAtLength(decision) {
+    const [i, j] = decision.robots.map((robot) => this.robot(robot));
+    const meeting = decision.kind === "head-on"
+      ? `${i} and ${j} would have met head-on on the way from ${this.place(decision)}.`
+      : `${i} and ${j} would both have been in ${this.place(decision)}.`;
+    const waits = this.robot(decision.waits);
+    const how = decision.ticks
+      ? `waits ${counted(decision.ticks, "tick")} in ${this.vertex(decision.waitsAt)}`
+      : `gives way in ${this.vertex(decision.waitsAt)}, at no loss`;
+    return `${meeting} ${waits} ${how} and lets ${this.robot(this.first(decision))} go first.`;
+  }
+
+  /** Why that one waits. */
+  reason(decision) {
+    const waits = this.robot(decision.waits);
+    const first = this.robot(this.first(decision));
+    switch (decision.level) {
+      case "node": return `${waits} waits because that leaves fewer conflicts in the whole system.`;
+      case "settled": return `${first} cannot wait: it would then meet robots that are settled already.`;
+      case "only": return `${first} cannot wait: that was impossible.`;
+      default: return this.#robotLevel(decision.completionSums ?? [null, null]);
+    }
+  }
+
+  #robotLevel([one, two]) {
+    const open = "Either way as many conflicts are left in the whole system, so the completion times decide.";
+    if (one === null || one !== two) return open;
+    return `${open} They are equal as well; then the first of the two waits.`;
+  }
+
+  /** What both choices lead to: a label, and a figure for each robot if it is the one that waits. */
+  figures(decision) {
+    const rows = [["Conflicts left", ...decision.conflictsLeft.map((count) => count ?? "impossible")]];
+    if (decision.completionSums) {
+      const sums = decision.completionSums.map((sum) => (sum === null ? "no way" : this.time(sum)));
+      rows.push(["Sum of completion times", ...sums]);
+    }
+    return rows;
+  }
+}

@@ -1,0 +1,93 @@
+"""The table as a workbook, which is where the paper's tables come from."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import openpyxl  # type: ignore[import-untyped]  # it ships no types
+
+from rightofway.viz.table.timespace import Mark, Place, Row, RowKind, TimeSpaceTable
+
+__all__ = ["workbook_of"]
+
+Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
+
+FILLS: dict[Mark | None, Any] = {
+    # Orange and light blue: apart for colour-blind eyes too.
+    "collision": PatternFill("solid", fgColor="F4B183"),
+    "wait": PatternFill("solid", fgColor="BDD7EE"),
+    None: None,
+}
+BOLD, GREY = Font(bold=True), Font(color="7F7F7F")
+FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None}
+
+LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
+    ("planned", "where the robot would be if nobody waited for anybody", GREY, None),
+    ("final", "where it is in the plan", None, None),
+    ("", "another robot has the same place", None, "collision"),
+    ("", "the robot waits", None, "wait"),
+)
+
+UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+"""Characters that no workbook may hold."""
+
+
+def workbook_of(table: TimeSpaceTable) -> bytes:
+    """Return the workbook of a table that fits into a sheet."""
+    workbook = openpyxl.Workbook(write_only=True)
+    _write_table(workbook.create_sheet("time and space"), table)
+    _write_legend(workbook.create_sheet("legend"), table)
+    content = io.BytesIO()
+    workbook.save(content)
+    return content.getvalue()
+
+
+def _write_table(sheet: Any, table: TimeSpaceTable) -> None:
+    sheet.freeze_panes = "C2"  # robots, kinds of row and ticks stay in sight
+    places = {str(run.cell.place) for row in table.rows for run in row.runs}
+    _widen(sheet, 1, 1, {"robot", *(row.robot for row in table.rows)})
+    _widen(sheet, 2, 2, set(FONTS))
+    _widen(sheet, 3, len(table.ticks) + 2, {str(table.last_tick), *places})
+    sheet.append([_cell(sheet, title, font=BOLD) for title in ("robot", "row", *table.ticks)])
+    for row in table.rows:
+        sheet.append(list(_row(sheet, row, table)))
+
+
+def _row(sheet: Any, row: Row, table: TimeSpaceTable) -> Iterator[Any]:
+    font = FONTS[row.kind]
+    yield _cell(sheet, row.robot, font=BOLD)
+    yield _cell(sheet, row.kind, font=font)
+    for place, mark in row.cells(table.first_tick, table.last_tick):
+        yield _cell(sheet, place, font=None if mark else font, mark=mark)
+
+
+def _write_legend(sheet: Any, table: TimeSpaceTable) -> None:
+    _widen(sheet, 1, 1, {name for name, *_ in LEGEND})
+    _widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
+    for name, meaning, font, mark in LEGEND:
+        sheet.append([_cell(sheet, name, font=font, mark=mark), meaning])
+    sheet.append(["tick", f"lasts {table.tick} in the scenario's time unit"])
+
+
+def _cell(sheet: Any, value: Place, *, font: Any = None, mark: Mark | None = None) -> Any:
+    text = UNPRINTABLE.sub("\ufffd", value) if isinstance(value, str) else value
+    cell = openpyxl.cell.WriteOnlyCell(sheet, text)
+    if isinstance(text, str):
+        cell.data_type = "s"  # a name that begins with = is no formula
+    if font:
+        cell.font = font
+    if FILLS[mark]:
+        cell.fill = FILLS[mark]
+    return cell
+
+
+def _widen(sheet: Any, first: int, last: int, texts: set[str]) -> None:
+    """Make columns as wide as their longest text."""
+    letter = openpyxl.utils.get_column_letter(first)
+    width = max(map(len, texts)) + 2
+    sheet.column_dimensions[letter] = openpyxl.worksheet.dimensions.ColumnDimension(
+        sheet, index=letter, min=first, max=last, width=width
+    )

@@ -1,0 +1,152 @@
+"""What pages speak of is there: other pages, files, commands, options, planners, rooms."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import get_args
+
+import click
+import pytest
+
+from rightofway.check import FaultKind
+from rightofway.cli.main import commands
+from rightofway.errors import InputError
+from rightofway.io import scenario_of, schema
+from rightofway.io.yaml_text import parse_yaml
+from rightofway.planners.registry import PLANNERS
+from tests.docs.pages import DOCS, PAGES, ROOT, Block, blocks, title_of
+
+LINK = re.compile(r"!?\[[^\]]*\]\((?!https?:|#)(?P<file>[^)#\s]+)(?:#(?P<anchor>[^)\s]+))?\)")
+CODE = re.compile(r"`([^`\n]+)`")
+
+
+def prose(page: Path) -> str:
+    """Return a page without its fenced blocks."""
+    return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+
+
+def anchors(page: Path) -> set[str]:
+    """Return what its headings can be linked by."""
+    heads = re.findall(r"^#+ (.*)$", prose(page), re.M)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=title_of)
+def test_every_link_leads_somewhere(page: Path) -> None:
+    for link in LINK.finditer(prose(page)):
+        target = page.parent / link["file"]
+        assert target.exists(), f"{title_of(page)} links to {link['file']}"
+        if link["anchor"]:
+            included = {"contributing.md": ROOT / "CONTRIBUTING.md"}.get(target.name, target)
+            assert link["anchor"] in anchors(included), f"{title_of(page)} links to {link[0]}"
+
+
+def command_lines(page: Path) -> Iterator[list[str]]:
+    """Yield the words behind every ``rightofway`` in code."""
+    for block in blocks(page):
+        if block.language in {"sh", "console"}:
+            yield from (
+                text.split()[1:] for text in re.findall(r"\brightofway [a-z].*", block.text)
+            )
+    for code in CODE.findall(prose(page)):
+        if code.startswith("rightofway "):
+            yield code.split()[1:]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=title_of)
+def test_every_command_and_option_in_code_exists(page: Path) -> None:
+    for words in command_lines(page):
+        command = commands.commands.get(words[0])
+        assert command is not None, f"{title_of(page)}: rightofway {words[0]}"
+        for word in words:
+            if word.startswith("--"):
+                assert word.partition("=")[0] in options_of(command), f"{title_of(page)}: {words}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=title_of)
+def test_every_option_in_a_sentence_exists(page: Path) -> None:
+    known = {"--help", *(name for each in _commands() for name in options_of(each))}
+    for code in CODE.findall(prose(page)):
+        if code.startswith("--"):
+            assert code.split()[0].partition("=")[0] in known, f"{title_of(page)}: {code}"
+
+
+def _commands() -> list[click.Command]:
+    return [commands, *commands.commands.values()]
+
+
+def options_of(command: click.Command) -> set[str]:
+    return {"--help", *(name for parameter in command.params for name in parameter.opts)}
+
+
+def test_the_page_on_the_command_line_has_every_command() -> None:
+    page = (DOCS / "command-line.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^```\{command-help\} (\w+)$", page, re.M)
+    assert sorted(shown) == sorted(commands.commands)
+
+
+def test_every_planner_of_ours_has_a_page_with_its_options_and_a_line_in_the_changelog() -> None:
+    index = (DOCS / "planners" / "index.md").read_text(encoding="utf-8")
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    for spec in PLANNERS:
+        page = (DOCS / "planners" / f"{spec.name}.md").read_text(encoding="utf-8")
+        assert f"```{{planner-options}} {spec.name}\n" in page
+        assert f"\n{spec.name}\n" in index
+        assert f"`{spec.name}`" in changelog
+
+
+@pytest.mark.parametrize("kind", ["scenario", "plan"])
+def test_the_page_on_formats_has_every_part_of_the_schema(kind: str) -> None:
+    page = (DOCS / "formats.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"^```\{document-keys\} \w+ (\w+)$", page, re.M))
+    assert f"```{{document-keys}} {kind}\n" in page
+    assert set(schema(kind)["$defs"]) - {"ScenarioDocument"} <= shown  # type: ignore[arg-type]
+
+
+def scenarios() -> list[tuple[str, Block]]:
+    return [
+        (f"{title_of(page)}:{block.line}", block)
+        for page in PAGES
+        for block in blocks(page)
+        if block.language == "yaml" and block.text.startswith("format: rightofway-scenario")
+    ]
+
+
+@pytest.mark.parametrize("block", [block for _, block in scenarios()], ids=dict(scenarios()))
+def test_every_scenario_in_a_page_can_be_read(block: Block) -> None:
+    try:
+        scenario_of(parse_yaml(block.text))
+    except InputError as error:
+        pytest.fail(str(error))
+
+
+def test_the_page_on_architecture_names_every_room_and_header() -> None:
+    page = (DOCS / "architecture.md").read_text(encoding="utf-8")
+    package = ROOT / "src" / "rightofway"
+    rooms = [path.name for path in package.iterdir() if (path / "__init__.py").exists()]
+    headers = [path.name for path in (ROOT / "cpp" / "include" / "rightofway").glob("*.hpp")]
+    tests = [path.name for path in (ROOT / "tests").iterdir() if path.is_dir()]
+    missing = [
+        name for name in (*rooms, *headers, *tests)
+        if f"`{name}`" not in page and not name.startswith("_")
+    ]  # fmt: skip
+    assert missing == []
+
+
+def test_the_page_on_the_model_has_every_kind_of_fault() -> None:
+    page = (DOCS / "model.md").read_text(encoding="utf-8")
+    _, _, judge = page.partition("## What the judge looks for")
+    assert re.findall(r"^\| `([a-z ]+)` \|", judge, re.M) == list(get_args(FaultKind))
+
+
+def test_the_quick_start_of_the_readme_is_two_commands() -> None:
+    """`.ci/run` takes its first and second line."""
+    starts = [block for block in blocks(ROOT / "README.md") if block.info == ("sh", "quick-start")]
+    assert [len(start.text.splitlines()) for start in starts] == [2]
+
+
+def test_pictures_of_the_documentation_are_small() -> None:
+    for picture in (DOCS / "images").iterdir():
+        assert picture.stat().st_size < 200_000, picture.name

@@ -1,0 +1,170 @@
+"""What is written is read back the same, whatever it is."""
+
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.io import (
+    dump_plan,
+    dump_scenario,
+    load,
+    load_plan,
+    plan_of,
+    save_plan,
+    save_scenario,
+    scenario_of,
+)
+from rightofway.io.exact import exact, written
+from rightofway.model import (
+    Decision,
+    Edge,
+    Plan,
+    PlannerRun,
+    Reroute,
+    Roadmap,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    Tick,
+    Track,
+    VertexId,
+    roadmap_of_edges,
+    roadmap_of_grid,
+)
+
+names = st.one_of(
+    st.text(min_size=1, max_size=8).filter(str.isprintable),
+    st.sampled_from(["1", "1e5", "1.5", "true", "no", "null", "~", "=", "<<", "- a", "a: b", "#"]),
+    st.sampled_from([" ", "a ", "'", '"', "@", "!x", "&a", "*a", "1:30", "0x1", "2026-01-02", "|"]),
+)
+lengths = st.fractions(Fraction(1, 60), 60, max_denominator=60)
+times = st.fractions(0, 60, max_denominator=60)
+turns = st.one_of(st.none(), times)
+
+
+@st.composite
+def grids(draw: st.DrawFn) -> Roadmap:
+    rows, columns = draw(st.integers(1, 5)), draw(st.integers(2, 5))
+    cells = draw(st.lists(st.sampled_from("..@"), min_size=rows * columns, max_size=rows * columns))
+    cells[:2] = ".."
+    lines = ["".join(cells[row * columns : (row + 1) * columns]) for row in range(rows)]
+    return roadmap_of_grid(lines, cell_size=draw(lengths))
+
+
+@st.composite
+def drawn_roadmaps(draw: st.DrawFn) -> Roadmap:
+    places = st.floats(-1e9, 1e9)
+    positions = draw(st.dictionaries(names, st.tuples(places, places), min_size=2, max_size=5))
+    pairs = st.tuples(st.sampled_from(list(positions)), st.sampled_from(list(positions)))
+    ends = draw(st.lists(pairs.filter(lambda pair: pair[0] != pair[1]), unique=True, max_size=8))
+    return roadmap_of_edges(
+        positions, [Edge(tail=tail, head=head, length=draw(lengths)) for tail, head in ends]
+    )
+
+
+@st.composite
+def scenarios(draw: st.DrawFn) -> Scenario:
+    roadmap = draw(st.one_of(grids(), drawn_roadmaps()))
+    rules = Rules(
+        occupancy=draw(st.sampled_from(["one", "both"])),
+        headway=draw(times),
+        turn=draw(turns if roadmap.grid is None else st.one_of(turns, st.just("cell"))),
+        laps=draw(st.integers(1, 3)),
+        rotations=draw(st.booleans()),
+    )
+    vertices = st.integers(0, roadmap.n_vertices - 1).map(VertexId)
+    stops = st.builds(Stop, at=vertices, work=times)
+    robots = tuple(
+        Robot(
+            name=name,
+            home=VertexId(home),
+            stops=tuple(draw(st.lists(stops, min_size=1, max_size=3))),
+            speed=draw(lengths),
+            turn=draw(turns),
+            ends=draw(st.sampled_from([None, "home"])),
+            laps=draw(st.sampled_from([None, 2])),
+        )
+        for home, name in enumerate(draw(st.lists(names, min_size=1, max_size=2, unique=True)))
+    )
+    return Scenario(roadmap=roadmap, robots=robots, rules=rules)
+
+
+options = st.recursive(
+    st.one_of(st.none(), st.booleans(), st.integers(-(2**63), 2**63), st.text(), st.floats(-1, 1)),
+    lambda inner: st.one_of(st.lists(inner, max_size=2), st.dictionaries(st.text(), inner)),
+    max_leaves=4,
+)
+
+
+@st.composite
+def plans(draw: st.DrawFn) -> Plan:
+    scenario = draw(scenarios())
+    robots = st.integers(0, len(scenario.robots) - 1)
+    vertices = st.integers(0, scenario.roadmap.n_vertices - 1).map(VertexId)
+    ticks = st.integers(-(2**40), 2**40).map(Tick)
+    counts = st.tuples(st.one_of(st.none(), ticks), st.one_of(st.none(), ticks))
+    pair = draw(st.tuples(robots, robots))
+    decision: st.SearchStrategy[Decision] = st.builds(
+        Decision,
+        tick=ticks,
+        kind=st.sampled_from(["vertex", "head-on"]),
+        vertices=st.lists(vertices, max_size=3).map(tuple),
+        robots=st.just(pair),
+        waits=st.sampled_from(pair),
+        waits_at=vertices,
+        ticks=ticks,
+        level=st.sampled_from(["node", "robot", "only"]),
+        conflicts_left=counts,
+        completion_sums=st.one_of(st.none(), counts),
+    )
+    words = st.text(max_size=8).filter(str.isprintable)
+    run = PlannerRun(
+        name=draw(names),
+        options=draw(st.dictionaries(st.text(), options, max_size=2)),
+        seed=draw(st.integers(0, 2**64)),
+        status=draw(words),
+        seconds=draw(st.one_of(st.none(), st.integers(0, 99), st.sampled_from([0.25, 1e-6]))),
+        decisions=tuple(draw(st.lists(decision, max_size=2))),
+        reroutes=tuple(draw(st.lists(st.builds(Reroute, robot=robots, because=words), max_size=2))),
+    )
+    track = st.lists(st.tuples(vertices, ticks), min_size=1, max_size=6)
+    tracks = tuple(Track.of(*zip(*draw(track), strict=True)) for _ in scenario.robots)
+    return Plan(scenario=scenario, tracks=tracks, run=run)
+
+
+@given(st.fractions(-(10**18), 10**18, max_denominator=10**18))
+def test_fractions(number: Fraction) -> None:
+    assert exact(written(number)) == number
+
+
+@given(scenarios())
+def test_scenario_documents(scenario: Scenario) -> None:
+    assert scenario_of(dump_scenario(scenario)) == scenario
+
+
+@given(scenarios(), st.sampled_from(["a.yaml", "a.json"]))
+def test_scenario_files(scenario: Scenario, name: str) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, name)
+        save_scenario(scenario, path)
+        assert load(path) == scenario
+
+
+@given(plans())
+@settings(max_examples=60)
+def test_plans(plan: Plan) -> None:
+    assert plan_of(dump_plan(plan, seconds=True)) == plan
+    with tempfile.TemporaryDirectory() as folder:
+        one, other = Path(folder, "one.json"), Path(folder, "other.json")
+        save_plan(plan, one, seconds=True)
+        loaded = load_plan(one)
+        assert loaded == plan
+        save_plan(loaded, other, seconds=True)
+        assert one.read_bytes() == other.read_bytes()
+
+

@@ -1,0 +1,281 @@
+"""Scenario documents become scenarios: every way to write one, and what each means."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.io import dump_scenario, load, read, save_scenario, scenario_of
+from rightofway.model import Rules, Scenario, Stop
+from tests.fleets import grid_fleet
+
+DOOR = ["...", "@.@", "..."]
+
+
+def document(**parts: Any) -> dict[str, Any]:
+    """Return a scenario document of the door, with parts replaced."""
+    return {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": DOOR},
+        "robots": [{"name": "R1", "home": "N0", "target": "N6"}],
+    } | parts
+
+
+def one_robot(**keys: Any) -> dict[str, Any]:
+    return document(robots=[{"name": "R1", "home": "N0", "target": "N6"} | keys])
+
+
+def test_what_is_left_out_follows_the_paper() -> None:
+    assert scenario_of(document()) == grid_fleet(DOOR, [("N0", "N6")])
+
+
+def test_a_place_is_a_number_or_row_and_column() -> None:
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N6"},
+        {"name": "R2", "home": [0, 2], "stops": [{"at": [2, 2], "work": 3}, {"at": "N4"}]},
+    ]
+    scenario = scenario_of(document(robots=robots))
+    vertex = scenario.roadmap.vertex
+    assert scenario.robots[1].home == vertex("N2")
+    assert scenario.robots[1].stops == (
+        Stop(at=vertex("N8"), work=Fraction(3)),
+        Stop(at=vertex("N4")),
+    )
+
+
+def test_target_and_work_are_short_for_one_stop() -> None:
+    short = scenario_of(one_robot(work="1/2"))
+    long = [{"name": "R1", "home": "N0", "stops": [{"at": "N6", "work": 0.5}]}]
+    assert scenario_of(document(robots=long)) == short
+
+
+def test_a_float_counts_as_the_decimal_that_was_written() -> None:
+    assert scenario_of(one_robot(speed=0.1)).robots[0].speed == Fraction(1, 10)
+
+
+def test_decimals_of_files_are_exact(tmp_path: Path) -> None:
+    for name, text in [
+        ("a.yaml", json.dumps(one_robot()).replace('"N6"', '"N6", "speed": 0.1')),
+        ("a.json", json.dumps(one_robot()).replace('"N6"', '"N6", "speed": 0.1')),
+        ("a.txt", json.dumps(one_robot()).replace('"N6"', '"N6", "speed": 0.1')),
+    ]:
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        assert load(tmp_path / name).robots[0].speed == Fraction(1, 10)
+
+
+def test_rules_and_what_a_robot_decides_for_itself() -> None:
+    rules = {"occupancy": "both", "headway": "1/2", "turn": "cell", "return": "none"}
+    own = {"turn": 0, "return": "home", "laps": 2}
+    scenario = scenario_of(one_robot(**own) | {"rules": rules | {"laps": 1, "rotations": False}})
+    assert scenario.rules == Rules(
+        occupancy="both",
+        headway=Fraction(1, 2),
+        turn="cell",
+        ends="none",
+        laps=1,
+        rotations=False,
+    )
+    robot = scenario.robots[0]
+    assert (robot.turn, robot.ends, robot.laps) == (0, "home", 2)
+
+
+def test_a_grid_may_be_a_block_of_text() -> None:
+    assert scenario_of(document(map={"grid": "...\n@.@\n...\n"})) == scenario_of(document())
+
+
+def test_cells_have_the_size_that_was_given() -> None:
+    scenario = scenario_of(document(map={"grid": DOOR, "cell_size": "1/2"}))
+    assert scenario.roadmap.lengths == (Fraction(1, 2),)
+
+
+def test_a_file_is_found_beside_the_scenario(tmp_path: Path) -> None:
+    (tmp_path / "maps").mkdir()
+    rows = "\n".join(DOOR)
+    (tmp_path / "maps" / "door.map").write_text(
+        f"type octile\nheight 3\nwidth 3\nmap\n{rows}\n", encoding="utf-8"
+    )
+    path = tmp_path / "door.json"
+    path.write_text(json.dumps(document(map={"file": "maps/door.map"})), encoding="utf-8")
+    assert load(path) == scenario_of(document())
+
+
+def test_a_document_that_is_in_no_folder_may_read_no_file() -> None:
+    with pytest.raises(InputError) as caught:
+        scenario_of(document(map={"file": "/etc/hostname"}), source="page")
+    assert str(caught.value) == (
+        "page: map.file: '/etc/hostname' is relative to no file"
+        " (write the contents into the document)"
+    )
+
+
+def test_a_floor_is_cut_as_small_as_the_fastest_robot_needs() -> None:
+    # Speeds 1 and 2: cells of 1/2. The table covers x 1 to 2 and y 0 to 1/2: two cells of row 0.
+    floor = {"size": [3, 1], "obstacles": [{"name": "table", "rect": [1, 0, 1, 0.5]}]}
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N5", "speed": 1},
+        {"name": "R2", "home": "N6", "target": "N5", "speed": 2},
+    ]
+    scenario = scenario_of(document(map={"floor": floor}, robots=robots))
+    assert scenario.roadmap.grid is not None
+    assert scenario.roadmap.grid.lines() == ("..@@..", "......")
+    assert scenario.roadmap.lengths == (Fraction(1, 2),)
+    given = scenario_of(document(map={"floor": floor, "cell_size": 0.5}, robots=robots))
+    assert given == scenario
+    named = scenario_of(document(map={"floor": floor, "cell_size": "clustered"}, robots=robots))
+    assert named == scenario
+
+
+def test_a_floor_may_have_more_cells_if_it_says_so() -> None:
+    # 1/10 in a floor of 200 by 51: 2000 x 510 = 1 020 000 cells, more than a million.
+    floor = {"size": [200, 51]}
+    robots = [{"name": "R1", "home": "N0", "target": "N5", "speed": 10}]
+    with pytest.raises(InputError, match=r"map\.cell_size: .*2000 x 510 = 1020000 cells"):
+        scenario_of(document(map={"floor": floor}, robots=robots))
+    scenario = scenario_of(document(map={"floor": floor | {"max_cells": 1_020_000}}, robots=robots))
+    assert scenario.roadmap.n_vertices == 1_020_000
+
+
+def test_a_roadmap_may_be_drawn() -> None:
+    drawn = {
+        "vertices": {"dock": [0, 0], "shelf": [0.3, 0.4], "gate": [1, "1/2"]},
+        "edges": [
+            ["dock", "shelf"],
+            ["shelf", "gate", 2.5],
+            {"from": "gate", "to": "dock", "length": "10/3", "both_ways": False},
+        ],
+    }
+    robots = [{"name": "R1", "home": "dock", "target": "gate"}]
+    roadmap = scenario_of(document(map={"roadmap": drawn}, robots=robots)).roadmap
+
+    def length(tail: str, head: str) -> Fraction | None:
+        edge = roadmap.edge(roadmap.vertex(tail), roadmap.vertex(head))
+        return None if edge is None else roadmap.lengths[roadmap.length_class[edge]]
+
+    assert roadmap.labels == ("dock", "shelf", "gate")
+    assert np.array_equal(roadmap.positions, [[0, 0], [0.3, 0.4], [1, 0.5]])
+    assert length("dock", "shelf") == length("shelf", "dock") == Fraction(1, 2)  # 3, 4, 5
+    assert length("gate", "shelf") == Fraction(5, 2)
+    assert (length("gate", "dock"), length("dock", "gate")) == (Fraction(10, 3), None)
+
+
+def test_speeds_and_work_are_dealt_out_in_turn(tmp_path: Path) -> None:
+    rows = [f"0\thall.map\t4\t2\t{x}\t0\t{x}\t1\t0" for x in range(4)]
+    (tmp_path / "hall.scen").write_text("\n".join(["version 1", *rows]), encoding="utf-8")
+    fleet = {"scen": "hall.scen", "count": 3, "speeds": [1, "1/2"], "work": [0, 5], "laps": 2}
+    scenario = scenario_of(document(map={"grid": ["....", "...."]}, robots=fleet), base=tmp_path)
+    assert [
+        (robot.name, robot.home, robot.speed, robot.stops, robot.laps) for robot in scenario.robots
+    ] == [
+        ("R1", 0, 1, (Stop(at=scenario.roadmap.vertex("N4")),), 2),
+        ("R2", 1, Fraction(1, 2), (Stop(at=scenario.roadmap.vertex("N5"), work=Fraction(5)),), 2),
+        ("R3", 2, 1, (Stop(at=scenario.roadmap.vertex("N6")),), 2),
+    ]
+    everyone = document(map={"grid": ["....", "...."]}, robots={"scen": "hall.scen"})
+    assert len(scenario_of(everyone, base=tmp_path).robots) == 4
+
+
+def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path: Path) -> None:
+    path = tmp_path / "floor.json"
+    # A cell takes R1 500/999 = 1000/1998 and R2 1/2 = 999/1998: the tick is 1/1998.
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N5", "speed": "999/1000"},
+        {"name": "R2", "home": "N1", "target": "N5", "speed": 1},
+    ]
+    floor = document(map={"floor": {"size": [12, 8]}, "cell_size": 0.5}, robots=robots)
+    path.write_text(json.dumps(floor), encoding="utf-8")
+    loaded = read(path)
+    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 1/2",)
+    # A cell takes R1 1000/1999 = 2000/3998 and R2 1999/3998: too many ticks to be exact.
+    robots[0]["speed"] = "1999/2000"
+    path.write_text(json.dumps(floor), encoding="utf-8")
+    assert read(path).notes[1] == (
+        "durations are rounded up to 1/1000 of the shortest;"
+        " give speeds with smaller denominators to be exact"
+    )
+
+
+def test_at_most_fifty_problems_are_told() -> None:
+    robots = [{"name": "R", "home": "N0", "target": "N6", "speed": 0}] * 60
+    with pytest.raises(InputError) as caught:
+        scenario_of(document(robots=robots))
+    told = str(caught.value).splitlines()
+    assert len(told) == 51
+    assert told[-1] == "and 10 more (mend these first)"
+
+
+def test_durations_too_far_apart_for_64_bits_are_refused() -> None:
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N6", "speed": 1e9},
+        {"name": "R2", "home": "N2", "target": "N6", "work": 1e9},
+    ]
+    with pytest.raises(InputError, match=r"robots: a duration of \d+ ticks of 1/1000000000 is too"):
+        scenario_of(document(robots=robots))
+
+
+def test_names_that_are_like_messages_do_not_confuse_them() -> None:
+    name = "R of robots[7] already"
+    robots = [
+        {"name": name, "home": "N0", "target": "N6"},
+        {"name": name, "home": "N2", "target": "N6"},
+    ]
+    with pytest.raises(InputError) as caught:
+        scenario_of(document(robots=robots))
+    assert str(caught.value) == (
+        f"robots[1].name: {name} is the name of robots[0] already (give each its own)"
+    )
+
+
+def fleet_of_all_kinds() -> Scenario:
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N6", "speed": "1/3", "turn": "cell"},
+        {"name": "R2", "home": "N2", "stops": [{"at": "N8", "work": 2}, {"at": "N4"}], "laps": 2},
+    ]
+    return scenario_of(document(robots=robots, rules={"headway": "1/2"}))
+
+
+YAML = """\
+format: rightofway-scenario/1
+map:
+  grid: |
+    ...
+    @.@
+    ...
+  cell_size: 1
+robots:
+- {name: R1, home: N0, target: N6, work: 0, speed: 1/3, turn: cell}
+- name: R2
+  home: N2
+  stops:
+  - {at: N8, work: 2}
+  - {at: N4, work: 0}
+  speed: 1
+  laps: 2
+rules: {occupancy: one, headway: 1/2, return: home, laps: 1, rotations: true}
+"""
+
+
+def test_yaml_is_written_as_people_would(tmp_path: Path) -> None:
+    scenario = fleet_of_all_kinds()
+    save_scenario(scenario, tmp_path / "a.yaml")
+    assert (tmp_path / "a.yaml").read_text(encoding="utf-8") == YAML
+    assert load(tmp_path / "a.yaml") == scenario
+
+
+def test_json_has_a_row_or_a_robot_on_a_line(tmp_path: Path) -> None:
+    scenario = fleet_of_all_kinds()
+    save_scenario(scenario, tmp_path / "a.json")
+    text = (tmp_path / "a.json").read_text(encoding="utf-8")
+    assert '\n      "@.@",\n' in text
+    assert '\n    {"name": "R1", "home": "N0", "target": "N6", "work": 0, "speed": "1/3", ' in text
+    assert text.endswith('"rotations": true}\n}\n')
+    assert json.loads(text) == dump_scenario(scenario)
+    assert load(tmp_path / "a.json") == scenario
+
+
+def test_another_suffix_is_no_scenario(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"the suffix '\.txt' is no scenario's"):
+        save_scenario(fleet_of_all_kinds(), tmp_path / "a.txt")

@@ -1,0 +1,91 @@
+"""The JSON Schemas say what the readers take."""
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.io import dump_plan, load, plan_of, schema
+from rightofway.io.documents import read_document
+from rightofway.model import Plan, PlannerRun, Track
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted((ROOT / "examples").glob("*.yaml"))
+BY_SHAPE = [
+    "missing-keys",
+    "no-format",
+    "speeds",
+    "two-of-a-kind",
+    "unknown-keys",
+    "version",
+    "wrong-types",
+]
+
+
+def fits(document: Any, kind: Any) -> bool:
+    validator = jsonschema.Draft202012Validator(schema(kind))
+    return bool(validator.is_valid(document))
+
+
+@pytest.mark.parametrize("kind", ["scenario", "plan"])
+def test_a_schema_is_a_schema_and_says_what_each_key_is_for(kind: Any) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema(kind))
+    assert schema(kind)["properties"]["format"]["const"] == f"rightofway-{kind}/1"
+    for document in (schema(kind), *schema(kind)["$defs"].values()):
+        for described in document.get("properties", {}).values():
+            assert described["description"]
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_fits(path: Path) -> None:
+    assert fits(read_document(path), "scenario")
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_plan_that_is_written_fits(path: Path) -> None:
+    scenario = load(path)
+    homes = tuple(Track.of([robot.home], [0]) for robot in scenario.robots)
+    plan = Plan(scenario=scenario, tracks=homes, run=PlannerRun(name="nobody moves"))
+    assert fits(dump_plan(plan), "plan")
+    assert plan_of(dump_plan(plan)) == plan
+
+
+@pytest.mark.parametrize("name", BY_SHAPE)
+def test_what_is_bad_by_its_shape_does_not_fit(name: str) -> None:
+    assert not fits(read_document(ROOT / "tests" / "data" / "bad" / f"{name}.yaml"), "scenario")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("speed", 0),
+        ("speed", -1),
+        ("speed", "-1/2"),
+        ("speed", "fast"),
+        ("speed", None),
+        ("speed", True),
+        ("work", -1),
+        ("turn", "cel"),
+        ("return", "away"),
+        ("laps", 0),
+        ("laps", 1.5),
+        ("home", 5),
+        ("home", [1]),
+        ("home", [0.5, 1]),
+        ("name", ""),
+        ("stops", []),
+    ],
+)
+def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
+    document = copy.deepcopy(read_document(EXAMPLES[1]))
+    assert fits(document, "scenario")
+    document["robots"][0][key] = value
+    assert not fits(document, "scenario")
+
+
+def test_there_is_no_schema_of_anything_else() -> None:
+    with pytest.raises(InputError, match=r"'fleet' is no kind of document \(give scenario or plan"):
+        schema("fleet")  # type: ignore[arg-type]

@@ -1,0 +1,111 @@
+"""Flowtime, makespan, gap, waiting and detours, counted by hand."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+
+import pytest
+
+from rightofway.errors import NoPlanExists
+from rightofway.metrics import completions_of, measure
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from tests.fleets import PAPER, grid_fleet, paper_scenario
+
+DOOR = ["...", "@.@", "..."]
+ONE_WAY = Rules(ends="none")
+
+OUT_AND_BACK = "N0 N1 N4 N7 N6 N7 N4 N1 N0"
+
+
+def plan_of(scenario: Scenario, *trips: tuple[str, Sequence[int]]) -> Plan:
+    """Make a plan of trips: names of vertices, and when each is entered."""
+    vertex = scenario.roadmap.vertex
+    tracks = (Track.of([vertex(name) for name in names.split()], enter) for names, enter in trips)
+    return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="by hand"))
+
+
+def test_a_published_plan_measures_as_its_table_says() -> None:
+    """Table 4: alone each robot is home at tick 9; R1 waits one tick, so it is home at 10."""
+    plan = plan_of(
+        paper_scenario(PAPER[0]),
+        (OUT_AND_BACK, [0, 2, 3, 4, 5, 7, 8, 9, 10]),
+        ("N2 N1 N4 N7 N8 N7 N4 N1 N2", [0, 1, 2, 3, 4, 6, 7, 8, 9]),
+    )
+    metrics = measure(plan)
+    assert metrics.as_dict() == {
+        "flowtime": 19,
+        "makespan": 10,
+        "lower_bound": 18,
+        "waiting": 1,
+        "moves": 16,
+        "completions": [10, 9],
+        "alone": [9, 9],
+    }
+    assert metrics.gap == pytest.approx(1 / 18)
+    assert metrics.detours == 0
+
+
+def test_files_get_plain_integers() -> None:
+    plan = plan_of(grid_fleet(DOOR, [("N0", "N1")]), ("N0 N1 N0", [0, 1, 3]))
+    assert json.loads(json.dumps(measure(plan).as_dict()))["flowtime"] == 3
+
+
+def test_one_way_the_last_work_belongs_to_the_completion() -> None:
+    scenario = grid_fleet(DOOR, [("N0", "N4")], rules=ONE_WAY, work=[5])
+    metrics = measure(plan_of(scenario, ("N0 N1 N4", [0, 1, 4])))
+    # There at tick 4 after 2 ticks of waiting, and 5 of work; no turning.
+    assert (metrics.flowtime, metrics.lower_bound, metrics.waiting) == (9, 7, 2)
+
+
+def test_a_longer_way_is_a_detour_and_no_waiting() -> None:
+    scenario = grid_fleet(["...", "..."], [("N0", "N2")], rules=ONE_WAY)
+    metrics = measure(plan_of(scenario, ("N0 N3 N4 N5 N2", [0, 1, 2, 3, 5])))
+    # Five ticks instead of two: two more to drive, one of waiting in N5.
+    assert (metrics.flowtime, metrics.lower_bound) == (5, 2)
+    assert (metrics.detours, metrics.waiting, metrics.moves) == (2, 1, 4)
+    assert metrics.gap == 1.5
+
+
+def test_work_and_turning_are_no_waiting() -> None:
+    # 3 of work and 1 of turning in N1, then home.
+    scenario = grid_fleet(DOOR, [("N0", "N1")], work=[3])
+    assert measure(plan_of(scenario, ("N0 N1 N0", [0, 1, 6]))).waiting == 0
+    assert measure(plan_of(scenario, ("N0 N1 N0", [0, 1, 8]))).waiting == 2
+
+
+def test_nothing_to_do_has_no_gap() -> None:
+    scenario = grid_fleet(DOOR, [("N0", "N0")], rules=ONE_WAY)
+    assert measure(plan_of(scenario, ("N0", [0]))).gap == 0
+
+
+def test_doing_something_where_nothing_is_needed_has_no_finite_gap() -> None:
+    scenario = grid_fleet(DOOR, [("N0", "N0")], rules=ONE_WAY)
+    assert measure(plan_of(scenario, ("N0 N1 N0", [0, 1, 2]))).gap == math.inf
+
+
+def test_work_counts_where_it_is_done_first() -> None:
+    """R1 works in N1, makes room, and comes back to end there with its work done."""
+    scenario = grid_fleet(DOOR, [("N0", "N1")], rules=ONE_WAY, work=[3])
+    plan = plan_of(scenario, ("N0 N1 N4 N1", [0, 1, 6, 7]))
+    assert completions_of(scenario, plan.tracks) == (7,)
+
+
+def test_without_a_way_there_is_no_bound() -> None:
+    scenario = grid_fleet([".@."], [("N0", "N2")])
+    plan = plan_of(scenario, ("N0", [0]))
+    with pytest.raises(NoPlanExists, match=r"^R1: no way leads from N0 to N2 \("):
+        measure(plan)
+
+
+def test_times_are_ticks_of_the_fleet() -> None:
+    # Speeds 1 and 2/3: edges of 1 and 3/2, so that a tick is 1/2 and they take 2 and 3.
+    scenario = grid_fleet(
+        ["..", ".."],
+        [("N0", "N1"), ("N2", "N3")],
+        rules=ONE_WAY,
+        speeds=[Fraction(1), Fraction(2, 3)],
+    )
+    assert measure(plan_of(scenario, ("N0 N1", [0, 2]), ("N2 N3", [0, 3]))).completions == (2, 3)

@@ -1,0 +1,157 @@
+"""The shortest completion of a robot that has the floor to itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.errors import NoPlanExists
+from rightofway.metrics import alone_completions
+from rightofway.model import (
+    Edge,
+    Roadmap,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    VertexId,
+    roadmap_of_edges,
+    roadmap_of_grid,
+)
+
+GRID = ["....", "@@@.", "...."]
+"""From N0 to N8 it is 3 cells east, 2 south and 3 west: 8 edges."""
+
+
+def alone(
+    roadmap: Roadmap,
+    stops: Sequence[tuple[str, int]],
+    *,
+    home: str = "N0",
+    speed: Fraction = Fraction(1),
+    rules: Rules | None = None,
+) -> int:
+    """Return the shortest completion of R1 with stops of (place, work)."""
+    robot = Robot(
+        name="R1",
+        home=roadmap.vertex(home),
+        stops=tuple(Stop(at=roadmap.vertex(at), work=Fraction(work)) for at, work in stops),
+        speed=speed,
+    )
+    scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=rules or Rules())
+    return alone_completions(scenario)[0]
+
+
+def on_grid(stops: Sequence[tuple[str, int]], rules: Rules | None = None) -> int:
+    return alone(roadmap_of_grid(GRID), stops, rules=rules)
+
+
+def test_a_round_trip_is_there_work_turning_and_back() -> None:
+    assert on_grid([("N8", 5)]) == 8 + 5 + 1 + 8
+
+
+def test_one_way_nobody_turns() -> None:
+    assert on_grid([("N8", 5)], Rules(ends="none")) == 8 + 5
+
+
+def test_stops_are_visited_in_their_order() -> None:
+    # N3 is 3 away, N8 5 further, N11 3 back from there, home 5 from there; three stops to turn at.
+    assert on_grid([("N3", 1), ("N8", 2), ("N11", 4)]) == 3 + 5 + 3 + 5 + (1 + 2 + 4) + 3
+
+
+def test_stops_at_one_vertex_share_a_visit() -> None:
+    assert on_grid([("N1", 2), ("N1", 3)]) == 1 + (2 + 1 + 3 + 1) + 1
+    assert on_grid([("N1", 2), ("N1", 3)], Rules(ends="none")) == 1 + 2 + 3
+
+
+def test_work_at_home_before_leaving_counts() -> None:
+    assert on_grid([("N0", 4), ("N1", 0)]) == (4 + 1) + 1 + 1 + 1
+
+
+def test_work_at_home_alone_needs_no_turning() -> None:
+    assert on_grid([("N0", 4)]) == 4
+
+
+def test_between_laps_a_robot_turns_at_home() -> None:
+    # Three laps of 1 there, 1 turning, 1 back, and 2 turnings at home between them.
+    assert on_grid([("N1", 0)], Rules(laps=3)) == 3 * 3 + 2
+
+
+SHORTCUT = [("A", "B", 1), ("B", "C", 1), ("A", "C", 5), ("C", "A", 7)]
+"""Two short edges beat a long one; the way back is one edge."""
+
+
+def shortcut() -> Roadmap:
+    edges = [Edge(tail=tail, head=head, length=Fraction(length)) for tail, head, length in SHORTCUT]
+    return roadmap_of_edges(dict.fromkeys("ABC", (0.0, 0.0)), edges)
+
+
+def test_the_shortest_way_is_the_quickest_not_the_one_of_fewest_edges() -> None:
+    assert alone(shortcut(), [("C", 0)], home="A") == (1 + 1) + 7
+
+
+def test_ways_differ_there_and_back() -> None:
+    assert alone(shortcut(), [("C", 0)], home="A", rules=Rules(ends="none")) == 1 + 1
+
+
+@pytest.mark.parametrize("length", [1, 2])
+def test_a_place_without_a_way_back_is_named(length: int) -> None:
+    """Once with all edges equally long, once not: the two are searched differently."""
+    edges = [
+        Edge(tail="dock", head="shelf", length=Fraction(1)),
+        Edge(tail="shelf", head="cellar", length=Fraction(length)),
+    ]
+    roadmap = roadmap_of_edges(dict.fromkeys(("dock", "shelf", "cellar"), (0.0, 0.0)), edges)
+    with pytest.raises(NoPlanExists) as raised:
+        alone(roadmap, [("shelf", 0)], home="dock")
+    assert str(raised.value) == (
+        "R1: no way leads from shelf to dock (open one, or give the robot other places)"
+    )
+
+
+@st.composite
+def fleets(draw: st.DrawFn) -> tuple[Scenario, Scenario]:
+    """Draw a fleet on one-way edges of equal length; then with an edge apart, of another length."""
+    n_vertices = draw(st.integers(2, 12))
+    names = [f"P{k}" for k in range(n_vertices)]
+    ring = [(k, (k + 1) % n_vertices) for k in range(n_vertices)]  # so that each place is reached
+    place = st.integers(0, n_vertices - 1)
+    more = draw(st.lists(st.tuples(place, place), max_size=20))
+    ends = dict.fromkeys((tail, head) for tail, head in ring + more if tail != head)
+    edges = [Edge(tail=names[a], head=names[b], length=Fraction(2)) for a, b in ends]
+    apart = Edge(tail="here", head="there", length=Fraction(1))
+    targets = draw(st.lists(place, min_size=n_vertices, max_size=n_vertices))
+    robots = tuple(
+        Robot(name=name, home=VertexId(k), stops=(Stop(at=VertexId(targets[k])),))
+        for k, name in enumerate(names)
+    )
+    positions = {name: (float(k), 0.0) for k, name in enumerate(names)}
+    apart_too = positions | {"here": (0.0, 9.0), "there": (1.0, 9.0)}
+    return (
+        Scenario(roadmap=roadmap_of_edges(positions, edges), robots=robots),
+        Scenario(roadmap=roadmap_of_edges(apart_too, [*edges, apart]), robots=robots),
+    )
+
+
+@settings(max_examples=60, deadline=None)
+@given(fleets())
+def test_counting_edges_for_all_at_once_agrees_with_dijkstra(
+    pair: tuple[Scenario, Scenario],
+) -> None:
+    """An edge of length 2 is one tick, or two of the shorter ticks that an edge of 1 asks for."""
+    equal, unequal = map(alone_completions, pair)
+    assert unequal == tuple(2 * ticks for ticks in equal)
+
+
+def test_more_robots_than_bits_of_a_block_are_counted_right() -> None:
+    """Robots on a line of 400 cells, each going k places on: that is k ticks."""
+    roadmap = roadmap_of_grid(["." * 400])
+    robots = tuple(
+        Robot(name=f"R{k}", home=VertexId(k), stops=(Stop(at=VertexId(2 * k)),)) for k in range(200)
+    )
+    scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
+    assert alone_completions(scenario) == tuple(range(200))

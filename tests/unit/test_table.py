@@ -1,0 +1,243 @@
+"""The time/space table against the paper's, and its marks, windows and text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from rightofway.check import check
+from rightofway.errors import InputError
+from rightofway.model import (
+    Edge,
+    Plan,
+    PlannerRun,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    Track,
+    VertexId,
+    roadmap_of_edges,
+)
+from rightofway.viz.table import Row, TimeSpaceTable, as_text, table_of
+from tests.fleets import PAPER, grid_fleet, paper_scenario
+
+CASES = {case["name"]: case for case in PAPER}
+
+WAYS_OUT = {
+    "door": {"R1": [0, 1, 4, 7, 6], "R2": [2, 1, 4, 7, 8]},
+    "cross": {"R1": [0, 5, 10, 11, 12, 13, 14, 19], "R2": [4, 3, 2, 7, 12, 17, 22]},
+}
+"""The paper's routes, from home to target; robots return the same way."""
+
+
+def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
+    """Make a plan of cells and enter."""
+    vertex = scenario.roadmap.vertex
+    tracks = (Track.of([vertex(f"N{cell}") for cell in cells], enter) for cells, enter in trips)
+    return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="by hand"))
+
+
+def leisurely(case: dict[str, Any]) -> Plan:
+    """Return the routes of a case at times that leave room for everything."""
+    ways = WAYS_OUT[case["name"].split("-")[0]].values()
+    trips = [(way + way[-2::-1], range(0, 100 * (2 * len(way) - 1), 100)) for way in ways]
+    return plan_of(paper_scenario(case), *trips)
+
+
+def published(name: str) -> Plan:
+    """Return the final rows of a case as a plan: a visit begins where the node changes."""
+    trips = []
+    for row in CASES[name]["final"].values():
+        enter = [tick for tick, cell in enumerate(row) if not tick or row[tick - 1] != cell]
+        trips.append(([row[tick] for tick in enter], enter))
+    return plan_of(paper_scenario(CASES[name]), *trips)
+
+
+def rows(table: TimeSpaceTable, kind: str) -> dict[str, Row]:
+    return {row.robot: row for row in table.rows if row.kind == kind}
+
+
+def marked(row: Row, mark: str) -> list[int]:
+    return [tick for run in row.runs if run.cell.mark == mark for tick in range(run.start, run.end)]
+
+
+@pytest.mark.parametrize("case", PAPER, ids=list(CASES))
+def test_planned_rows_are_the_published_ones(case: dict[str, Any]) -> None:
+    """All eight tables; some are printed in part, so the printed ticks are compared."""
+    found, first = rows(table_of(leisurely(case)), "planned"), case["first_tick"]
+    for robot, row in case["planned"].items():
+        assert found[robot].places[first : first + len(row)] == row
+
+
+@pytest.mark.parametrize("name", ["door-1", "door-3", "cross-3"])
+def test_both_rows_of_a_whole_table_are_the_published_ones(name: str) -> None:
+    plan = published(name)
+    assert check(plan).ok
+    for kind in ("planned", "final"):
+        found = {robot: row.places for robot, row in rows(table_of(plan), kind).items()}
+        assert found == CASES[name][kind]
+
+
+def test_collisions_are_marked_in_planned_rows_and_waits_in_final_ones() -> None:
+    """Table 4: the door both ways; R1 waits at home in tick 0."""
+    table = table_of(published("door-1"))
+    for row in rows(table, "planned").values():
+        assert marked(row, "collision") == [1, 2, 3, 6, 7, 8]
+        assert marked(row, "wait") == []
+    final = rows(table, "final")
+    assert [marked(final["R1"], "wait"), marked(final["R2"], "wait")] == [[0], []]
+
+
+def test_a_conflict_left_in_the_plan_is_marked_in_its_final_row() -> None:
+    scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
+    # R2 passes N1 in [2, 3), where R1 is from tick 1 on for ever.
+    table = table_of(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 3])))
+    assert marked(rows(table, "final")["R2"], "collision") == [2]
+
+
+def test_a_collision_outdoes_a_wait() -> None:
+    scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
+    # R2 waits in N1 in [2, 4), which is R1's for ever.
+    table = table_of(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 5])))
+    final = rows(table, "final")["R2"]
+    assert (marked(final, "collision"), marked(final, "wait")) == ([2, 3, 4], [0])
+
+
+def test_a_row_ends_at_the_completion() -> None:
+    # One way: in N1 from tick 1, and 3 of work.
+    scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"), work=[3])
+    table = table_of(plan_of(scenario, ([0, 1], [0, 1])))
+    assert table.last_tick == 4
+    assert table.rows[0].places == [0, 1, 1, 1, 1]
+
+
+def test_a_window_shows_only_its_ticks() -> None:
+    table = table_of(published("door-1"), first_tick=3, last_tick=5)
+    assert list(table.ticks) == [3, 4, 5]
+    assert [row.places for row in table.rows] == [[7, 6, 6], [4, 7, 6], [7, 8, 8], [7, 8, 8]]
+
+
+def test_a_window_after_the_end_has_empty_rows() -> None:
+    table = table_of(published("door-1"), first_tick=10, last_tick=12)
+    assert [row.places for row in table.rows] == [[], [0], [], []]
+
+
+def test_chosen_robots_come_in_the_scenarios_order_with_all_their_collisions() -> None:
+    table = table_of(published("door-1"), robots=["R2"])
+    assert [(row.robot, row.kind) for row in table.rows] == [("R2", "planned"), ("R2", "final")]
+    assert marked(table.rows[0], "collision") == [1, 2, 3, 6, 7, 8]
+    both = table_of(published("door-1"), robots=["R2", "R1"])
+    assert [row.robot for row in both.rows] == ["R1", "R1", "R2", "R2"]
+
+
+@pytest.mark.parametrize(
+    ("window", "message"),
+    [
+        ({"robots": ["R22"]}, "robots: no robot is named 'R22' (did you mean 'R2'?)"),
+        ({"first_tick": -1}, "first_tick: -1 is negative (give 0 or more)"),
+        (
+            {"first_tick": 5, "last_tick": 4},
+            "last_tick: 4 is before the first tick, 5 (give 5 or more)",
+        ),
+    ],
+)
+def test_what_cannot_be_shown_is_refused(window: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError) as raised:
+        table_of(published("door-1"), **window)
+    assert str(raised.value) == message
+
+
+TABLE_4 = """\
+tick         0   1   2   3   4   5   6   7   8   9  10
+R1 planned   0   1*  4*  7*  6   6   7*  4*  1*  0
+R1 final     0=  0   1   4   7   6   6   7   4   1   0
+R2 planned   2   1*  4*  7*  8   8   7*  4*  1*  2
+R2 final     2   1   4   7   8   8   7   4   1   2
+
+* two robots in one place   = waits"""
+
+
+def test_the_text_of_table_4() -> None:
+    assert as_text(table_of(published("door-1"))) == TABLE_4
+
+
+IN_BLOCKS = """\
+tick         8   9
+R1 planned   1*  0
+R1 final     4   1
+R2 planned   1*  2
+R2 final     1   2
+
+tick        10
+R1 final     0
+
+* two robots in one place"""
+
+
+def test_text_comes_in_blocks_that_fit_without_rows_that_have_ended() -> None:
+    text = as_text(table_of(published("door-1"), first_tick=8), width=19)
+    assert text == IN_BLOCKS
+    assert max(map(len, text.splitlines()[:-2])) <= 19
+
+
+def test_a_terminal_too_narrow_for_a_tick_still_gets_one() -> None:
+    text = as_text(table_of(published("door-1"), first_tick=9, last_tick=10), width=1)
+    assert [line for line in text.splitlines() if "R1 final" in line] == [
+        "R1 final     1",
+        "R1 final     0",
+    ]
+
+
+def named() -> Plan:
+    """One robot on a roadmap whose vertices have names; a tick is 1/2."""
+    edges = [
+        Edge(tail="dock", head="棚", length=Fraction(1)),
+        Edge(tail="棚", head="dock", length=Fraction(3, 2)),
+    ]
+    scenario = Scenario(
+        roadmap=roadmap_of_edges({"dock": (0.0, 0.0), "棚": (1.0, 0.0)}, edges),
+        robots=(Robot(name="Zoë", home=VertexId(0), stops=(Stop(at=VertexId(1)),)),),
+    )
+    track = Track.of([0, 1, 0], [0, 2, 6])
+    return Plan(scenario=scenario, tracks=(track,), run=PlannerRun(name="by hand"))
+
+
+def test_vertices_with_names_are_shown_by_name() -> None:
+    assert table_of(named()).rows[0].places == ["dock", "dock", "棚", "棚", "棚", "dock"]
+
+
+def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_told() -> None:
+    """Drives 2 and 3 ticks; the plan waits one tick in between."""
+    assert as_text(table_of(named())) == (
+        "tick            0     1     2     3     4     5     6\n"
+        "Zoë planned  dock  dock    棚    棚    棚  dock\n"
+        "Zoë final    dock  dock    棚=   棚    棚    棚  dock\n"
+        "\n"
+        "= waits   a tick lasts 1/2"
+    )
+
+
+def test_a_table_of_a_thousand_years_is_made_but_not_written_out() -> None:
+    scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
+    table = table_of(plan_of(scenario, ([0, 1], [0, 10**11])))
+    assert table.last_tick == 10**11
+    with pytest.raises(InputError, match=r"choose fewer: first_tick, last_tick"):
+        as_text(table)
+    assert as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2)).startswith(
+        "tick"
+    )
+
+
+def test_a_table_of_too_many_robots_is_not_written_out() -> None:
+    scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
+    table = table_of(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
+    with pytest.raises(InputError) as raised:
+        as_text(table)
+    assert str(raised.value) == (
+        "table: 120 rows of 20001 ticks are more than 2000000 cells"
+        " (choose fewer robots, or fewer ticks: robots, first_tick, last_tick)"
+    )

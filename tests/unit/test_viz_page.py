@@ -1,0 +1,146 @@
+"""The page as a file: whole, closed to the network, safe whatever names a plan brings."""
+
+import base64
+import hashlib
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rightofway.viz import frame_of, page_of, payload_of, write_page
+from tests.viewer.plans import crowd, door, hostile, loop
+
+EVIL = "</script><script>hacked=1</script><!--<img src=x onerror=hacked=1>\u2028&amp;'\"{{title}}"
+
+
+class Elements(HTMLParser):
+    """Collects tags, attributes, and the text in script elements."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.texts: dict[str, list[str]] = {}
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += attrs
+
+    def handle_data(self, data: str) -> None:
+        self.texts.setdefault(self.tags[-1] if self.tags else "", []).append(data)
+
+
+def payload_in(page: str) -> Any:
+    found = re.search(r'<script type="application/json" id="plan">(.*?)</script>', page, re.DOTALL)
+    assert found
+    return json.loads(found[1])
+
+
+def test_the_page_carries_the_payload() -> None:
+    assert payload_in(page_of(door())) == json.loads(json.dumps(payload_of(door())))
+
+
+def test_a_small_plan_makes_a_small_page() -> None:
+    assert len(page_of(door()).encode()) < 150_000
+
+
+def test_names_bring_no_element_and_no_attribute_with_them() -> None:
+    harmless, evil = Elements(page_of(hostile("x"))), Elements(page_of(hostile(EVIL)))
+    assert evil.tags == harmless.tags
+    assert [name for name, _ in evil.attributes] == [name for name, _ in harmless.attributes]
+
+
+def test_names_come_through_as_they_are() -> None:
+    payload = payload_in(page_of(hostile(EVIL)))
+    assert payload["robots"][0]["name"] == EVIL
+    assert payload["map"]["names"][0] == EVIL
+    assert payload["reroutes"][0]["because"] == EVIL
+
+
+def test_a_name_that_is_no_valid_unicode_can_be_written(tmp_path: Path) -> None:
+    write_page(hostile("half \ud800"), tmp_path / "page.html")
+    assert payload_in((tmp_path / "page.html").read_text("utf-8"))["robots"][0]["name"][-1] == (
+        "\ud800"
+    )
+
+
+def test_only_our_own_scripts_and_style_may_run() -> None:
+    page = page_of(door())
+    policy = dict(re.findall(r"([a-z]+-src) ([^;\"]*)", page))
+    scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    digests = [
+        base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts
+    ]
+    assert policy["default-src"] == "'none'"
+    assert policy["script-src"].split() == [f"'sha256-{digest}'" for digest in digests]
+    assert "unsafe" not in "".join(policy.values())
+
+
+def test_the_page_names_no_address() -> None:
+    page = page_of(door()).replace("http://www.w3.org/2000/svg", "")  # a name, not an address
+    assert not re.search(r"https?://|//[a-z]+\.|@import|url\(", page)
+
+
+def test_every_script_is_on_the_page_and_short() -> None:
+    page = page_of(door())
+    assets = Path(page_of.__code__.co_filename).parent / "assets"
+    for script in assets.glob("*.js"):
+        text = script.read_text("utf-8")
+        assert text in page
+        assert text.count("\n") < 400
+
+
+def test_long_lists_are_written_as_differences() -> None:
+    robot = payload_of(door())["robots"][0]
+    assert robot["vertices"] == [0, 1, 2, 2, -1, 1, -2, -2, -1]
+    assert robot["enter"] == [0, 2, 1, 1, 1, 2, 1, 1, 1]
+
+
+def test_a_thousand_robots_take_less_than_two_megabytes() -> None:
+    assert len(page_of(crowd(1000)).encode()) < 2_000_000
+
+
+def test_waits_tell_for_whom() -> None:
+    # R1 waits in vertex 0 from tick 0 for 1 tick, to get to 1, for R2
+    assert payload_of(door())["waits"] == [[0, 0, 0, 1, 1, 1]]
+
+
+def test_stages_tell_which_visit_serves_them() -> None:
+    # vertex, work, turning, visit: the stop c, then the way home
+    assert payload_of(loop())["robots"][0]["stages"] == [[2, 4, 2, 2], [0, 0, 2, 4]]
+
+
+def test_edges_of_several_lengths_are_told_one_by_one() -> None:
+    assert payload_of(loop())["robots"][0]["drive"] == [0, 2, 2, 3, 2]
+    assert payload_of(door())["robots"][0]["drive"] == 1
+
+
+@pytest.mark.parametrize(("occupancy", "ahead"), [("one", False), ("both", True)])
+def test_the_rule_of_occupancy_is_told(occupancy: str, *, ahead: bool) -> None:
+    assert payload_of(loop(occupancy=occupancy))["booksAhead"] is ahead
+
+
+def test_a_page_replaces_what_was_there(tmp_path: Path) -> None:
+    target = tmp_path / "page.html"
+    target.write_text("old")
+    write_page(door(), target)
+    assert target.read_text("utf-8") == page_of(door())
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_page_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="directory"):
+        write_page(door(), tmp_path / "nowhere" / "page.html")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_notebook_shows_the_page_in_a_sandbox() -> None:
+    frame = frame_of(hostile(EVIL))
+    elements = Elements(frame)
+    assert elements.tags == ["iframe"]
+    assert dict(elements.attributes)["sandbox"] == "allow-scripts"
+    assert dict(elements.attributes)["srcdoc"] == page_of(hostile(EVIL))

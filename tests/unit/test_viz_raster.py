@@ -1,0 +1,119 @@
+"""Pictures and films: what is where on them."""
+
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from rightofway.errors import InputError
+from rightofway.model import Plan
+from rightofway.viz import Film, write_gif, write_png
+from rightofway.viz.palette import DARK, LIGHT, robot_colours
+from tests.viewer.plans import crowd, door, hostile, loop
+
+BLUE, CORAL = robot_colours(2)
+MARGIN = 24
+
+
+def colour_at(path: Path, x: float, y: float, scale: int = 40) -> str:
+    """Return the colour at (column, row) of the map."""
+    with Image.open(path) as image:
+        pixel = image.convert("RGB").getpixel(
+            (MARGIN + round((x + 0.5) * scale), MARGIN + round((y + 0.5) * scale))
+        )
+    assert isinstance(pixel, tuple)
+    return "#" + bytes(int(channel) for channel in pixel).hex()
+
+
+def test_walls_floor_and_paper_are_where_the_grid_has_them(tmp_path: Path) -> None:
+    write_png(door(), tmp_path / "a.png", scale=40)
+    assert colour_at(tmp_path / "a.png", 0, 1) == LIGHT.wall
+    assert colour_at(tmp_path / "a.png", 0.8, 1.3) == LIGHT.floor
+    assert colour_at(tmp_path / "a.png", -1, -1) == LIGHT.paper
+
+
+def test_the_size_is_that_of_the_grid(tmp_path: Path) -> None:
+    write_png(door(), tmp_path / "a.png", scale=40)
+    with Image.open(tmp_path / "a.png") as image:
+        assert image.size == (3 * 40 + 2 * MARGIN, 3 * 40 + 2 * MARGIN)
+
+
+def test_robots_are_where_they_are_at_the_tick(tmp_path: Path) -> None:
+    # tick 4: R1 has entered N7 and leaves it, R2 has entered N8 and turns
+    write_png(door(), tmp_path / "a.png", 4, scale=40)
+    assert colour_at(tmp_path / "a.png", 1 - 0.25, 2) == BLUE
+    assert colour_at(tmp_path / "a.png", 2 - 0.25, 2) == CORAL
+
+
+def test_a_waiting_robot_is_hollow(tmp_path: Path) -> None:
+    write_png(door(), tmp_path / "a.png", 0, scale=40)
+    assert colour_at(tmp_path / "a.png", 0, 0.15) == LIGHT.floor  # R1, beside its name
+    assert colour_at(tmp_path / "a.png", 2, 0.25) == CORAL  # R2 drives
+
+
+def test_the_dark_theme_is_dark(tmp_path: Path) -> None:
+    write_png(door(), tmp_path / "a.png", scale=40, theme=DARK)
+    assert colour_at(tmp_path / "a.png", 0, 1) == DARK.wall
+
+
+@pytest.mark.parametrize("plan", [door(), loop(), crowd(8), crowd(90)])
+def test_the_diagram_comes_below(tmp_path: Path, plan: Plan) -> None:
+    """Each fleet has a diagram of its own kind: lines, rows, a census."""
+    write_png(plan, tmp_path / "a.png", 3, scale=8)
+    write_png(plan, tmp_path / "b.png", 3, scale=8, diagram=True)
+    with Image.open(tmp_path / "a.png") as bare, Image.open(tmp_path / "b.png") as full:
+        assert full.height > bare.height + 26
+        below = full.crop((0, bare.height, full.width, full.height))
+        assert len(below.getcolors(1 << 24) or []) > 4
+
+
+def test_a_negative_tick_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"tick: -1 is negative \(give 0 or more\)"):
+        write_png(door(), tmp_path / "a.png", -1)
+
+
+@pytest.mark.parametrize("scale", [0, 1e5])
+def test_a_picture_without_sense_is_refused(tmp_path: Path, scale: float) -> None:
+    with pytest.raises(InputError, match="scale: makes a picture of"):
+        write_png(door(), tmp_path / "a.png", scale=scale)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_short_film_has_eight_pictures_for_a_tick(tmp_path: Path) -> None:
+    # 10 ticks: 80 steps, 81 pictures, each of 50 ms, the last one of 1.5 s
+    film = write_gif(door(), tmp_path / "a.gif", scale=20)
+    assert film == Film(frames=81, ticks_per_frame=Fraction(1, 8), seconds=80 * 0.05 + 1.5)
+    with Image.open(tmp_path / "a.gif") as image:
+        assert getattr(image, "n_frames", 1) == 81
+
+
+def test_a_long_film_goes_in_larger_steps(tmp_path: Path) -> None:
+    film = write_gif(door(), tmp_path / "a.gif", max_frames=5, scale=20)
+    assert film == Film(frames=5, ticks_per_frame=Fraction(10, 4), seconds=4 * 0.05 + 1.5)
+
+
+def test_a_film_ends_with_the_robots_at_home(tmp_path: Path) -> None:
+    write_gif(door(), tmp_path / "a.gif", max_frames=3, scale=40)
+    with Image.open(tmp_path / "a.gif") as image:
+        image.seek(2)
+        image.convert("RGB").save(tmp_path / "last.png")
+    paper, home = LIGHT.floor, colour_at(tmp_path / "last.png", 0, 0.25)
+    assert home not in {paper, BLUE}  # done: faint
+
+
+def test_a_film_of_one_picture_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"max_frames: 1 is less than a film \(give 2 or more\)"):
+        write_gif(door(), tmp_path / "a.gif", max_frames=1)
+
+
+def test_any_name_can_be_drawn(tmp_path: Path) -> None:
+    write_png(hostile("half \ud800"), tmp_path / "a.png", diagram=True, scale=60)
+    assert (tmp_path / "a.png").exists()
+
+
+def test_the_page_needs_no_pillow() -> None:
+    code = "import sys, rightofway.viz.page, rightofway.viz; sys.exit('PIL' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,157 @@
+"""Plans written by hand, to be looked at; no planner made them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from rightofway.model import (
+    Decision,
+    Edge,
+    Plan,
+    PlannerRun,
+    Reroute,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    Tick,
+    Track,
+    VertexId,
+    roadmap_of_edges,
+    roadmap_of_grid,
+)
+
+__all__ = ["DOOR", "crowd", "door", "hostile", "loop"]
+
+DOOR = ("...", "@.@", "...")
+"""Vertices 0 to 6 are named N0, N1, N2, N4, N6, N7, N8."""
+
+
+def door() -> Plan:
+    """Return the paper's Table 4: R1 waits one tick in N0, until R2 has left N1."""
+    roadmap = roadmap_of_grid(DOOR)
+    robots = tuple(
+        Robot(name=name, home=roadmap.vertex(home), stops=(Stop(at=roadmap.vertex(target)),))
+        for name, home, target in (("R1", "N0", "N6"), ("R2", "N2", "N8"))
+    )
+    decision = Decision(
+        tick=Tick(1),
+        kind="vertex",
+        vertices=(roadmap.vertex("N1"),),
+        robots=(0, 1),
+        waits=0,
+        waits_at=roadmap.vertex("N0"),
+        ticks=Tick(1),
+        level="robot",
+        conflicts_left=(0, 0),
+        completion_sums=(19, 19),
+    )
+    return Plan(
+        scenario=Scenario(roadmap=roadmap, robots=robots),
+        tracks=(
+            Track.of([0, 1, 3, 5, 4, 5, 3, 1, 0], [0, 2, 3, 4, 5, 7, 8, 9, 10]),
+            Track.of([2, 1, 3, 5, 6, 5, 3, 1, 2], [0, 1, 2, 3, 4, 6, 7, 8, 9]),
+        ),
+        run=PlannerRun(name="two-level", status="waits only", decisions=(decision,)),
+    )
+
+
+def loop(*, occupancy: str = "one", names: tuple[str, ...] = ("a", "b", "c", "d")) -> Plan:
+    """Return one robot on a roadmap of four vertices, with work of 2 and turning of 1 at ``c``.
+
+    The tick is half a unit: the short edges take 1 unit, the long one from ``c`` to ``d`` 3/2. The
+    edge from ``d`` to ``a`` leads one way only.
+    """
+    a, b, c, d = names
+    lengths = {(a, b): 2, (b, a): 2, (b, c): 2, (c, b): 2, (c, d): 3, (d, c): 3, (d, a): 2}
+    roadmap = roadmap_of_edges(
+        {a: (0, 0), b: (2, 0), c: (2, 2), d: (-1, 2)},
+        [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
+    )
+    robot = Robot(
+        name="Cart", home=VertexId(0), stops=(Stop(at=VertexId(2), work=Fraction(2)),),
+        speed=Fraction(2), turn=Fraction(1),
+    )  # fmt: skip
+    rules = Rules(occupancy="both") if occupancy == "both" else Rules()
+    # ticks: 2 to b, 2 to c; there 4 of work, 2 of turning, 1 of waiting, 3 of driving; 2 to a
+    return Plan(
+        scenario=Scenario(roadmap=roadmap, robots=(robot,), rules=rules),
+        tracks=(Track.of([0, 1, 2, 3, 0], [0, 2, 4, 14, 16]),),
+        run=PlannerRun(name="by hand", reroutes=(Reroute(robot=0, because="just so"),)),
+    )
+
+
+def hostile(name: str) -> Plan:
+    """Return a plan in which everything that may have a name has this one."""
+    roadmap = roadmap_of_edges(
+        {name: (0, 0), "b": (1, 0)},
+        [
+            Edge(tail=name, head="b", length=Fraction(1)),
+            Edge(tail="b", head=name, length=Fraction(1)),
+        ],
+    )
+    robot = Robot(name=name, home=VertexId(0), stops=(Stop(at=VertexId(1)),))
+    run = PlannerRun(name=name, status=name, reroutes=(Reroute(robot=0, because=name),))
+    tracks = (Track.of([0, 1, 0], [0, 1, 2]),)
+    return Plan(scenario=Scenario(roadmap=roadmap, robots=(robot,)), tracks=tracks, run=run)
+
+
+def crowd(robots: int, *, decisions: int = 0) -> Plan:
+    """Return a warehouse of 161 by 63 cells with many robots that run free: they do collide.
+
+    Every third row is an aisle, and so are the first of every ten columns. A robot drives along its
+    row to the next such column, along that to the row of its stop, and there to its stop; after 3
+    units of work the same way back.
+    """
+    columns, rows = 161, 63
+    aisle = "." * columns
+    shelf = "".join("." if column % 10 == 0 else "@" for column in range(columns))
+    roadmap = roadmap_of_grid([shelf if row % 3 else aisle for row in range(rows)])
+    cells = [(3 * (index % 21), index // 21 * 3 + 1) for index in range(robots)]
+    ways = []
+    for index, (row, column) in enumerate(cells):
+        goal_row, goal_column = 3 * ((index * 8 + 5) % 21), (column * 7 + 11 * index) % columns
+        cross = column - column % 10
+        corners = [(row, column), (row, cross), (goal_row, cross), (goal_row, goal_column)]
+        ways.append([roadmap.vertex(f"N{r * columns + c}") for r, c in _straight(corners)])
+    fleet = tuple(
+        Robot(name=f"Robot {index + 1}", home=way[0], stops=(Stop(at=way[-1], work=Fraction(3)),))
+        for index, way in enumerate(ways)
+    )
+    tracks = tuple(_there_and_back(way) for way in ways)
+    run = PlannerRun(
+        name="free",
+        decisions=tuple(_decision(index, ways[2 * index][1]) for index in range(decisions)),
+    )
+    return Plan(scenario=Scenario(roadmap=roadmap, robots=fleet), tracks=tracks, run=run)
+
+
+def _straight(corners: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    cells = [corners[0]]
+    for row, column in corners[1:]:
+        while cells[-1] != (row, column):
+            (r, c) = cells[-1]
+            down, right = (row > r) - (row < r), (column > c) - (column < c)
+            cells.append((r + down, c + right))
+    return cells
+
+
+def _there_and_back(way: list[VertexId]) -> Track:
+    """Drive a way, work 3 ticks and turn 1, and drive back; a tick for an edge."""
+    last = len(way) - 1
+    back = [last + 4 + step for step in range(1, last + 1)]
+    return Track.of([*way, *way[-2::-1]], [*range(last + 1), *back])
+
+
+def _decision(index: int, vertex: VertexId) -> Decision:
+    return Decision(
+        tick=Tick(index % 40),
+        kind="vertex",
+        vertices=(vertex,),
+        robots=(2 * index, 2 * index + 1),
+        waits=2 * index,
+        waits_at=vertex,
+        ticks=Tick(1),
+        level="node",
+        conflicts_left=(3, 5),
+    )
