@@ -69,6 +69,16 @@ __all__ = [
 ]
 
 
+def _page_in_a_notebook(plan: Plan) -> str:
+    from rightofway.viz import frame_of
+
+    return frame_of(plan)
+
+
+# Notebooks look for this on the plan, but the model knows nothing of pages.
+Plan._repr_html_ = _page_in_a_notebook  # type: ignore[attr-defined]
+
+
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

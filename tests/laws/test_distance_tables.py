@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.oracles.distances import Edge, distances_to
 
 from rightofway._core import DistanceTables
+from tests.oracles.distances import Edge, distances_to
 
 law = settings(max_examples=150, derandomize=True, deadline=None)
 

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from rightofway._core import PrecedenceGraph
 from tests.oracles import precedence as oracle
 from tests.oracles.precedence import Right, System
 
-from rightofway._core import PrecedenceGraph
-
 law = settings(max_examples=120, derandomize=True, deadline=None)
-main_law = settings(law, max_examples=400)
+main_law = settings(law, max_examples=300)
 
 
 class Step(NamedTuple):

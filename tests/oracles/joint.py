@@ -1,4 +1,4 @@
-"""Whether a whole fleet can get through its trips, by trying every step from every configuration."""
+"""Whether a whole fleet can get through its trips: every step from every configuration."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ def is_step(
 
 
 def _rotates(moves: dict[int, int]) -> bool:
-    for start in moves:
-        place = moves[start]
+    for start, head in moves.items():
+        place = head
         while place in moves and place != start:
             place = moves[place]
-            if place == moves[start]:
+            if place == head:
                 break  # round a circle that does not hold the start
         if place == start:
             return True

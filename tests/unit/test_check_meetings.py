@@ -280,6 +280,33 @@ def test_faults_come_by_tick_then_by_robots() -> None:
     )
 
 
+def test_the_earliest_faults_are_listed_whoever_makes_them() -> None:
+    """R1 jumps at tick 3, R2 at tick 2, R3 at tick 1."""
+    ends = [("N0", "N2"), ("N3", "N5"), ("N6", "N8")]
+    trips = [([0, 2], [0, 3]), ([3, 5], [0, 2]), ([6, 8], [0, 1])]
+    plan = plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips)
+    assert told(check(plan, limit=2)) == [("jump", (2,), (6, 8), 1), ("jump", (1,), (3, 5), 2)]
+
+
+def test_a_limit_holds_for_all_kinds_together() -> None:
+    ends = [("N3", "N7"), ("N0", "N5"), ("N6", "N8")]
+    trips = [([3, 4, 7], [0, 3, 5]), ([0, 1, 4, 5], [0, 1, 2, 4]), ([6, 8], [0, 3])]
+    report = check(plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips), limit=1)
+    assert told(report) == [("vertex conflict", (0, 1), (4,), 3)]
+    assert report.counts == {"jump": 1, "vertex conflict": 1}
+
+
+def test_a_visit_without_length_books_nothing() -> None:
+    """R2 enters N4 and leaves it at tick 2, which is too fast already."""
+    report = judged(([3, 4, 5], [0, 1, 4]), ([1, 4, 7], [0, 2, 2]))
+    assert told(report) == [("too fast", (1,), (4, 7), 2)]
+
+
+def test_a_robot_does_not_swap_with_itself() -> None:
+    report = judged(([3, 4, 3], [0, 1, 1]))
+    assert told(report) == [("too fast", (0,), (4, 3), 1)]
+
+
 def test_a_plan_without_fault_says_so() -> None:
     assert str(judged(([0, 1], [0, 1]))) == "no fault"
 

@@ -11,7 +11,16 @@ import pytest
 
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import completions_of, measure
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.model import (
+    Plan,
+    PlannerRun,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    Track,
+    roadmap_of_grid,
+)
 from tests.fleets import PAPER, grid_fleet, paper_scenario
 
 DOOR = ["...", "@.@", "..."]
@@ -91,6 +100,16 @@ def test_work_counts_where_it_is_done_first() -> None:
     scenario = grid_fleet(DOOR, [("N0", "N1")], rules=ONE_WAY, work=[3])
     plan = plan_of(scenario, ("N0 N1 N4 N1", [0, 1, 6, 7]))
     assert completions_of(scenario, plan.tracks) == (7,)
+
+
+def test_a_visit_serves_only_what_it_has_time_for() -> None:
+    """Twice 2 of work at N1; the first visit has 3 ticks, which is one work and its turning."""
+    roadmap = roadmap_of_grid(DOOR)
+    stop = Stop(at=roadmap.vertex("N1"), work=Fraction(2))
+    robot = Robot(name="R1", home=roadmap.vertex("N0"), stops=(stop, stop))
+    scenario = Scenario(roadmap=roadmap, robots=(robot,), rules=ONE_WAY)
+    plan = plan_of(scenario, ("N0 N1 N4 N1", [0, 1, 5, 6]))
+    assert completions_of(scenario, plan.tracks) == (6 + 2,)
 
 
 def test_without_a_way_there_is_no_bound() -> None:

@@ -65,6 +65,17 @@ def test_a_wait_begins_when_the_work_is_done(leave: int, wait: list[Told]) -> No
     assert told(([3, 4, 3], [0, 1, leave]), ends="home", to=4, work=2) == wait
 
 
+def test_a_stay_too_short_for_work_and_turning_is_waiting() -> None:
+    # 2 ticks in N4 at first, but work and turning take 3; so they are done the second time.
+    trip = ([3, 4, 5, 4, 3], [0, 1, 4, 5, 9])
+    assert told(trip, ends="home", to=4, work=2) == [(0, 4, 1, 2, None)]
+
+
+def test_nobody_waits_for_himself() -> None:
+    """R1 comes back as the headway it left behind is over."""
+    assert told(([3, 4, 3], [0, 1, 3]), headway=Fraction(2)) == [(0, 4, 1, 1, None)]
+
+
 def test_waits_come_by_tick_then_by_robot() -> None:
     found = told(([3, 4, 5], [0, 3, 5]), ([0, 1, 2], [0, 2, 4]))
     assert [(robot, tick) for robot, _, tick, *_ in found] == [(0, 0), (1, 0), (1, 2), (0, 3)]

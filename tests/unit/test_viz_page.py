@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from rightofway.errors import InputError
 from rightofway.viz import frame_of, page_of, payload_of, write_page
 from tests.viewer.plans import crowd, door, hostile, loop
 
@@ -133,7 +134,7 @@ def test_a_page_replaces_what_was_there(tmp_path: Path) -> None:
 
 
 def test_a_page_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="directory"):
+    with pytest.raises(InputError, match="there is no directory"):
         write_page(door(), tmp_path / "nowhere" / "page.html")
     assert list(tmp_path.iterdir()) == []
 

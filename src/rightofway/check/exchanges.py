@@ -97,7 +97,7 @@ def judge_rotations(visits: Visits, words: Words, sieve: Sieve) -> None:
 
 
 def _circles(leaving: Mapping[int, _Move]) -> Iterator[list[int]]:
-    """Yield the circles of three or more vertices, from the vertex of the first robot on."""
+    """Yield the circles of three or more vertices, each from the vertex where it is come upon."""
     reached: dict[int, int] = {}  # vertex: where the walk began that came by first
     for start in leaving:
         vertex, path = start, []
@@ -107,8 +107,7 @@ def _circles(leaving: Mapping[int, _Move]) -> Iterator[list[int]]:
             vertex = leaving[vertex].head
         circle = path[path.index(vertex) :] if reached.get(vertex) == start else []
         if len(circle) >= FEWEST:
-            first = min(range(len(circle)), key=lambda place: leaving[circle[place]].robot)
-            yield circle[first:] + circle[:first]
+            yield circle
 
 
 def _rotation(tick: Tick, circle: list[int], leaving: Mapping[int, _Move], words: Words) -> Fault:

@@ -57,8 +57,8 @@ class _Bookings:
 def _bookings(visits: Visits, headway: int, *, approaches: bool) -> _Bookings:
     """Return all bookings that last at all, by vertex and start."""
     start = visits.enter
-    if approaches:
-        start = start - np.where(visits.first, 0, np.roll(visits.drive, 1))
+    if approaches:  # a first visit has none: it follows another robot's last one, without a drive
+        start = start - np.roll(visits.drive, 1)
     bookings = _Bookings(
         robot=visits.robot,
         vertex=visits.vertex,

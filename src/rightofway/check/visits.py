@@ -31,8 +31,8 @@ class Visits:
         Who and where; int64, shape (n,).
     enter, leave
         From when to when [ticks]; shape (n,). A last visit leaves later than anything happens.
-    first, last
-        Whether it is its robot's first or last visit; bool, shape (n,).
+    last
+        Whether it is its robot's last visit; bool, shape (n,).
     known
         Whether the roadmap has the vertex; bool, shape (n,).
     edge
@@ -45,7 +45,6 @@ class Visits:
     vertex: NDArray[np.int64]
     enter: NDArray[Any]
     leave: NDArray[Any]
-    first: NDArray[np.bool_]
     last: NDArray[np.bool_]
     known: NDArray[np.bool_]
     edge: NDArray[np.int64]
@@ -68,7 +67,6 @@ def visits_of(plan: Plan) -> Visits:
         vertex=vertex,
         enter=enter,
         leave=np.where(last, enter.max() + 1, np.roll(enter, -1)),
-        first=np.roll(last, 1),
         last=last,
         known=(vertex >= 0) & (vertex < roadmap.n_vertices),
         edge=edge,

@@ -1,14 +1,12 @@
-"""Text files: read whole and strictly, written whole or not at all."""
+"""Text files, read strictly."""
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from pathlib import Path
 
 from rightofway.errors import InputError
 
-__all__ = ["MAX_BYTES", "read_text", "write_text"]
+__all__ = ["MAX_BYTES", "read_text"]
 
 MAX_BYTES = 2**29
 """A larger file than this is refused."""
@@ -60,40 +58,3 @@ def _decoded(data: bytes, source: str) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         message = f"line {line}: byte {data[error.start]:#x} is not UTF-8 (save the file as UTF-8)"
         raise InputError.at("", message, source) from None
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file whole: at every moment it holds either what it held before, or the new text.
-
-    Raises
-    ------
-    InputError
-        If it cannot be written.
-    """
-    try:
-        if path.exists() and not path.is_file():
-            path.write_text(text, encoding="utf-8", newline="\n")  # a device, like /dev/stdout
-        else:
-            _replace(path.resolve(), text)
-    except (OSError, ValueError, RuntimeError) as error:  # a loop of links is a RuntimeError
-        raise InputError.at("", _why_unwritable(error, path), str(path)) from None
-
-
-def _replace(path: Path, text: str) -> None:
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        beside.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            beside.unlink()
-        raise
-
-
-def _why_unwritable(error: Exception, path: Path) -> str:
-    if isinstance(error, IsADirectoryError):
-        return "this is a directory (give a file name in it)"
-    if isinstance(error, FileNotFoundError):
-        return f"there is no directory {str(path.parent)!r} (make it first)"
-    reason = error.strerror if isinstance(error, OSError) else str(error)
-    return f"the file cannot be written: {reason} (check the path and its permissions)"

@@ -70,7 +70,7 @@ def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
 
 
 def _check_depth(data: Any) -> None:
-    level = [data]
+    level = [data] if isinstance(data, dict | list) else []
     for _ in range(MAX_DEPTH):
         level = [
             child

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rightofway.errors import InputError, Problem
+from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
-from rightofway.io.files import read_text, write_text
+from rightofway.io.files import read_text
 from rightofway.io.words import shown
 from rightofway.model import Grid, Roadmap, Scenario
 
@@ -166,7 +167,7 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """
     grid = _grid_of(roadmap)
     header = ("type octile", f"height {grid.rows}", f"width {grid.columns}", "map")
-    write_text(Path(path), "\n".join((*header, *grid.lines())) + "\n")
+    write_whole(path, "\n".join((*header, *grid.lines())) + "\n")
 
 
 def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
@@ -208,7 +209,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
         "\t".join(map(str, (0, map_name, grid.columns, grid.rows, *cells, 0)))
         for cells in _starts_and_goals(scenario, grid)
     )
-    write_text(Path(path), "\n".join(("version 1", *rows)) + "\n")
+    write_whole(path, "\n".join(("version 1", *rows)) + "\n")
     return tuple(_left_out(scenario, grid))
 
 

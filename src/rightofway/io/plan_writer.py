@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, NoPlanExists
+from rightofway.files import write_whole
 from rightofway.io.exact import written
-from rightofway.io.files import write_text
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.layout import json_text
 from rightofway.io.scenario_writer import dump_scenario
@@ -58,7 +58,7 @@ def save_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     InputError
         As for `dump_plan`, or if the file cannot be written.
     """
-    write_text(Path(path), plan_text(plan, seconds=seconds))
+    write_whole(path, plan_text(plan, seconds=seconds))
 
 
 def plan_text(plan: Plan, *, seconds: bool = False) -> str:
@@ -85,7 +85,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
         "options": dict(sorted(run.options.items())),
         "seed": run.seed,
         "status": run.status,
-        "seconds": run.seconds if seconds else None,
+        "seconds": float(run.seconds) if seconds and run.seconds is not None else None,
         "decisions": [_decision(decision, scenario) for decision in run.decisions],
         "reroutes": [
             {"robot": scenario.robots[reroute.robot].name, "because": reroute.because}

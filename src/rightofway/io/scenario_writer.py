@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
+from rightofway.files import write_whole
 from rightofway.io.exact import written
-from rightofway.io.files import write_text
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layout import json_text
 from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
@@ -43,9 +43,9 @@ def save_scenario(scenario: Scenario, path: Path | str) -> None:
     path = Path(path)
     document = dump_scenario(scenario)
     if path.suffix.lower() == ".json":
-        write_text(path, json_text(document))
+        write_whole(path, json_text(document))
     elif path.suffix.lower() in {".yaml", ".yml"}:
-        write_text(path, _yaml_text(document))
+        write_whole(path, _yaml_text(document))
     else:
         message = f"the suffix {path.suffix!r} is no scenario's (end the name in .yaml or .json)"
         raise InputError.at("", message, str(path))

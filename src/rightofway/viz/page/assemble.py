@@ -16,8 +16,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from rightofway.files import write_whole
 from rightofway.model import Plan
-from rightofway.viz.files import write_whole
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
@@ -73,10 +73,10 @@ def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
 
     Raises
     ------
-    OSError
+    InputError
         If the file cannot be written.
     """
-    write_whole(path, page_of(plan).encode())
+    write_whole(path, page_of(plan))
 
 
 def _title(plan: Plan) -> str:

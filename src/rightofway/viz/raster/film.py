@@ -11,8 +11,8 @@ from fractions import Fraction
 from PIL import Image
 
 from rightofway.errors import InputError
+from rightofway.files import write_whole
 from rightofway.model import Plan
-from rightofway.viz.files import write_whole
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.ground import draw_ground
 from rightofway.viz.raster.pen import Pen
@@ -80,9 +80,8 @@ def write_gif(
     Raises
     ------
     InputError
-        For fewer than two frames, or a scale that makes pictures empty or too large to draw.
-    OSError
-        If the file cannot be written.
+        For fewer than two frames, a scale that makes pictures empty or too large to draw, or a file
+        that cannot be written.
     """
     if max_frames <= 1:
         raise InputError.at("max_frames", f"{max_frames} is less than a film (give 2 or more)")

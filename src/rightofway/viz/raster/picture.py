@@ -8,8 +8,8 @@ import os
 from PIL import Image
 
 from rightofway.errors import InputError
+from rightofway.files import write_whole
 from rightofway.model import Plan
-from rightofway.viz.files import write_whole
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.diagram import Diagram
 from rightofway.viz.raster.ground import draw_ground
@@ -55,9 +55,8 @@ def write_png(
     Raises
     ------
     InputError
-        For a tick below 0, or a scale that makes the picture empty or too large to draw.
-    OSError
-        If the file cannot be written.
+        For a tick below 0, a scale that makes the picture empty or too large to draw, or a file that
+        cannot be written.
     """
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")

@@ -6,7 +6,7 @@ import csv
 import io
 import os
 
-from rightofway.viz.files import write_whole
+from rightofway.files import write_whole
 from rightofway.viz.table.timespace import MAX_CELLS, TimeSpaceTable
 
 __all__ = ["MAX_TICKS_OF_SHEET", "write_csv", "write_xlsx"]
@@ -37,7 +37,7 @@ def write_csv(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["robot", "row", *table.ticks])
     writer.writerows([row.robot, row.kind, *row.places] for row in table.rows)
-    write_whole(path, text.getvalue().encode())
+    write_whole(path, text.getvalue())
 
 
 def write_xlsx(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:

@@ -29,7 +29,7 @@ class Diagram {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       this.layer.drawOn(context, size);
-      this.heading.textContent = this.view.title;
+      this.heading.textContent = this.heading.title = this.view.title;
       this.canvas.setAttribute("aria-label", this.view.title);
     }
     this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;

@@ -46,18 +46,18 @@ class MapRobots {
       if (activity === DONE) context.globalAlpha = alpha * 0.38;
       context.fillStyle = robot.colour;
       disc(context, x, y, radius);
-      if (this.choice.heat) this.#outline(context, x, y, radius, scale);
+      if (this.choice.heat) this.#outline(context, scale);
       context.globalAlpha = alpha;
     }
     if (activity === WORK || activity === TURN) this.#dial(context, robot, x, y, radius, scale);
     if (radius * scale >= 9) this.#label(context, robot, x, y, radius, scale);
   }
 
-  /** Keeps a robot apart from a hot vertex of much the same colour. */
-  #outline(context, x, y, radius, scale) {
+  /** Keeps a robot that was just drawn apart from a hot vertex of much the same colour. */
+  #outline(context, scale) {
     context.strokeStyle = this.theme.floor;
     context.lineWidth = Math.max(0.04, 1 / scale);
-    ring(context, x, y, radius);
+    context.stroke();
   }
 
   #waiting(context, robot, x, y, radius, scale) {

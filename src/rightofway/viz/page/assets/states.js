@@ -16,6 +16,8 @@ class States {
   constructor(motion) {
     this.motion = motion;
     this.#counts = ACTIVITY_WORDS.map(() => element("b"));
+    const digits = String(motion.plan.robots.length).length;
+    for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
     const rows = ACTIVITY_WORDS.map((word, activity) => {
       const sign = document.createElementNS("http://www.w3.org/2000/svg", "svg");
       sign.setAttribute("viewBox", "0 0 16 16");

@@ -1,0 +1,44 @@
+"""Running the command line in the test's own process, in a directory of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from rightofway.cli.main import run
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended: its exit code, standard output and standard error."""
+
+    code: int
+    out: str
+    err: str
+
+
+Cli = Callable[..., Ended]
+
+
+@pytest.fixture
+def cli(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Cli:
+    """Return a function that runs a command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*args: object) -> Ended:
+        code = run([str(arg) for arg in args])
+        captured = capsys.readouterr()
+        return Ended(code, captured.out, captured.err)
+
+    return call
+
+
+@pytest.fixture
+def door() -> Path:
+    """Return the paper's door."""
+    return EXAMPLES / "door.yaml"

@@ -1,0 +1,239 @@
+"""The commands as a user meets them: results, messages, exit codes, files."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rightofway.cli.main import commands
+from tests.cli.conftest import EXAMPLES, Cli
+
+STUCK = """format: rightofway-scenario/1
+map: {grid: ["...."]}
+robots:
+  - {name: R1, home: N0, target: N3}
+  - {name: R2, home: N3, target: N0}
+"""
+
+SWAP = """format: rightofway-scenario/1
+map: {grid: ["...", "@.@", "..."]}
+robots:
+  - {name: R1, home: N0, target: N6}
+  - {name: R2, home: N2, target: N8, speed: 1/2, work: 3}
+"""
+
+
+def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
+    ended = cli("plan", door)
+    assert ended.code == 0
+    assert "planner   two-level: waits only" in ended.out
+    assert "flowtime  19 ticks, 5.6% above the lower bound 18" in ended.out
+    assert "R1 waits 1 tick in N0 at tick 0, for R2 to leave N1." in ended.out
+    assert max(map(len, ended.out.splitlines())) <= 80
+
+
+def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: Path) -> None:
+    ended = cli("plan", door, "--log")
+    words = " ".join(ended.out.split())
+    assert "tick 1, N1: R1 waits 1 tick in N0, R2 goes first." in words
+    assert "robot level: 0 conflicts are left if R1 waits, 0 if R2 does." in words
+    assert "Their work takes 19 ticks together if R1 waits, 19 if R2 does." in words
+
+
+def test_the_table_stands_under_the_summary(cli: Cli, door: Path) -> None:
+    assert (
+        "R1 final     0=  0   1   4   7   6   6   7   4   1   0" in cli("plan", door, "--table").out
+    )
+
+
+def test_the_summary_for_programs_has_the_same_numbers(cli: Cli, door: Path) -> None:
+    data = json.loads(cli("plan", door, "--json").out)
+    assert data["metrics"]["flowtime"] == 19
+    assert data["robots"][0] == {"name": "R1", "completion": 10, "alone": 9, "waiting": 1}
+    assert data["waits"] == [{"robot": "R1", "vertex": "N0", "tick": 0, "ticks": 1, "for": "R2"}]
+
+
+def test_a_plan_goes_to_a_file_or_to_standard_output_and_only_there(cli: Cli, door: Path) -> None:
+    cli("plan", door, "-o", "plan.json")
+    ended = cli("plan", door, "-o", "-")
+    assert ended.out == Path("plan.json").read_text(encoding="utf-8")
+    assert json.loads(ended.out)["format"] == "rightofway-plan/1"
+    assert ended.err == ""
+
+
+@pytest.mark.parametrize("example", ["door", "crossroad", "floor", "warehouse"])
+def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> None:
+    path = EXAMPLES / f"{example}.yaml"
+    assert cli("plan", path, "-o", "plan.json", "--show", "page.html").code == 0
+    ended = cli("check", "plan.json")
+    assert (ended.code, "no fault" in ended.out) == (0, True)
+    assert Path("page.html").read_text(encoding="utf-8").startswith("<!doctype html>")
+
+
+def test_the_same_input_gives_the_same_bytes(cli: Cli) -> None:
+    for name in ("a", "b"):
+        cli("plan", EXAMPLES / "warehouse.yaml", "-o", f"{name}.json", "--show", f"{name}.html")
+    for suffix in (".json", ".html"):
+        assert Path(f"a{suffix}").read_bytes() == Path(f"b{suffix}").read_bytes()
+
+
+def test_swaps_that_were_left_in_are_told_and_the_plan_is_written(cli: Cli) -> None:
+    Path("swap.yaml").write_text(SWAP, encoding="utf-8")
+    ended = cli("plan", "swap.yaml", "-o", "plan.json", "--option", "swaps=leave")
+    assert ended.code == 1
+    assert "the plan still has 1 fault: 1 swap conflict" in ended.err
+    report = cli("check", "plan.json", "--json")
+    assert report.code == 1
+    fault = json.loads(report.out)["faults"][0]
+    assert (fault["kind"], fault["robots"], fault["tick"]) == ("swap conflict", ["R1", "R2"], 7)
+
+
+def test_what_is_impossible_ends_with_1_and_leaves_files_alone(cli: Cli) -> None:
+    Path("stuck.yaml").write_text(STUCK, encoding="utf-8")
+    Path("plan.json").write_text("precious", encoding="utf-8")
+    ended = cli("plan", "stuck.yaml", "-o", "plan.json")
+    assert (ended.code, ended.out) == (1, "")
+    assert ended.err.startswith("no plan exists: ")
+    assert Path("plan.json").read_text(encoding="utf-8") == "precious"
+
+
+def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
+    ended = cli("plan", EXAMPLES / "warehouse.yaml", "--time-limit", "0.000001")
+    assert ended.code == 3
+    assert "time ran out" in ended.err
+    assert "--time-limit" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["plan", "nowhere.yaml"], "nowhere.yaml: there is no such file"),
+        (["plan", EXAMPLES], "this is a directory"),
+        (["plan", EXAMPLES / "door.yaml", "--planner", "twolevel"], "did you mean 'two-level'?"),
+        (["plan", EXAMPLES / "door.yaml", "--option", "swap=leave"], "did you mean 'swaps'?"),
+        (["plan", EXAMPLES / "door.yaml", "--option", "swaps"], "'swaps' is not name=value"),
+        (["plan", EXAMPLES / "door.yaml", "--time-limit", "0"], "0.0 is not in the range"),
+        (["plan", EXAMPLES / "door.yaml", "-o", "no/plan.json"], "there is no directory 'no'"),
+        (["plan", EXAMPLES / "door.yaml", "--show", "no/page.html"], "no/page.html"),
+        (["show", EXAMPLES / "door.yaml", "-o", "door.jpg"], "'door.jpg' is no .html, .png or"),
+        (["table", EXAMPLES / "door.yaml"], "is not known here"),
+        (["schema", "robot"], "'robot' is not one of"),
+        (["plot"], "No such command 'plot'"),
+    ],
+)
+def test_bad_use_ends_with_2_and_one_message(cli: Cli, args: list[object], message: str) -> None:
+    ended = cli(*args)
+    assert ended.code == 2
+    assert message in ended.err
+    assert "Traceback" not in ended.err
+    assert ended.out == ""
+    assert list(Path.cwd().iterdir()) == []
+
+
+def test_every_fault_of_a_scenario_is_told_with_its_file(cli: Cli) -> None:
+    Path("bad.yaml").write_text(
+        STUCK.replace("home: N3", "home: N9").replace("target: N3", "target: N3, speed: 0"),
+        encoding="utf-8",
+    )
+    lines = cli("plan", "bad.yaml").err.splitlines()
+    assert len(lines) == 2
+    assert lines[0].startswith("bad.yaml: robots[0].speed: 0 is not positive")
+    assert lines[1].startswith("bad.yaml: robots[1].home: ")
+
+
+def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:
+    cli("plan", door, "-o", "plan.json")
+    assert cli("show", "plan.json", "-o", "a.png", "--tick", "3", "--diagram").code == 0
+    ended = cli("show", door, "-o", "a.gif")
+    assert "planned with two-level" in ended.err
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+    assert Path("a.gif").read_bytes().startswith(b"GIF89a")
+
+
+def test_a_table_goes_to_csv_and_xlsx(cli: Cli, door: Path) -> None:
+    cli("plan", door, "-o", "plan.json")
+    assert cli("table", "plan.json", "-o", "t.csv", "--robots", "R2", "--to", "3").code == 0
+    with Path("t.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    assert [row[-4:] for row in rows[1:]] == [["2", "1", "4", "7"]] * 2
+    assert cli("table", "plan.json", "-o", "t.xlsx").code == 0
+    assert Path("t.xlsx").read_bytes().startswith(b"PK")
+
+
+def test_convert_there_and_back_keeps_the_scenario(cli: Cli, door: Path) -> None:
+    cli("convert", door, "door.json")
+    cli("convert", "door.json", "again.yaml")
+    cli("convert", "again.yaml", "twice.json")
+    assert Path("door.json").read_bytes() == Path("twice.json").read_bytes()
+
+
+def test_convert_to_a_scen_names_what_it_leaves_out(cli: Cli, door: Path) -> None:
+    ended = cli("convert", door, "door.scen")
+    assert ended.code == 0
+    assert "left out: " in ended.err
+    assert Path("door.map").read_text(encoding="utf-8").startswith("type octile\nheight 3")
+    assert cli("plan", "door.scen").code == 0
+
+
+def test_standard_input_is_read_for_a_dash(door: Path) -> None:
+    with door.open("rb") as file:
+        ended = subprocess.run(
+            [sys.executable, "-m", "rightofway", "plan", "-", "-o", "-"],
+            stdin=file, capture_output=True, check=True,
+        )  # fmt: skip
+    assert json.loads(ended.stdout)["metrics"]["flowtime"] == 19
+
+
+def test_a_reader_that_goes_away_is_no_error() -> None:
+    command = f"{sys.executable} -m rightofway schema plan | head -1"
+    ended = subprocess.run(["sh", "-c", command], capture_output=True, check=True)
+    assert (ended.stdout, ended.stderr) == (b"{\n", b"")
+
+
+def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
+    """Many robots that all want to get past each other keep the planner busy for long."""
+    side = 100
+    rows = "\n".join(f"    {'.' * side}" for _ in range(side))
+    robots = "\n".join(
+        f"  - {{name: R{k}, home: [{k % 10}, {k // 10}], target: [{99 - k // 10}, {k // 10}]}}"
+        for k in range(1000)
+    )
+    path = tmp_path / "many.yaml"
+    path.write_text(
+        f"format: rightofway-scenario/1\nmap:\n  grid: |\n{rows}\nrobots:\n{robots}\n",
+        encoding="utf-8",
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-m", "rightofway", "plan", str(path), "--time-limit", "300"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    time.sleep(5)
+    os.kill(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert (process.returncode, out, err.strip()) == (130, b"", b"interrupted")
+
+
+@pytest.mark.parametrize("name", sorted(commands.commands))
+def test_every_command_has_help_with_an_example(cli: Cli, name: str) -> None:
+    ended = cli(name, "--help")
+    assert ended.code == 0
+    assert f"rightofway {name} " in ended.out.split("Example")[1]
+    assert max(map(len, ended.out.splitlines())) <= 80
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = (
+        "import sys; from rightofway.cli.main import run; run(['plan', '--help']);"
+        "print(sorted({'pydantic', 'yaml', 'rich', 'PIL', 'openpyxl', 'rightofway._core'}"
+        " & set(sys.modules)), file=sys.stderr)"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert ended.stderr.strip() == "[]"
