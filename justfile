@@ -51,4 +51,4 @@ docs:
 # Install for work on the code: edits to Python files are live, `just develop` again after C++
 develop:
     pip install scikit-build-core nanobind
-    pip install --no-build-isolation -e '.[dev,docs,viewer]'
+    pip install --no-build-isolation -e '.[dev,docs]'

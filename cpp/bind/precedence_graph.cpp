@@ -114,6 +114,23 @@ Returns
 tuple[int, int, int, int] or None
     ``(tick, kind, visit_a, visit_b)``, or None if no conflict is left.)";
 
+constexpr auto withdraw_doc = R"(Set a robot aside.
+
+Parameters
+----------
+robot : int
+    It becomes inactive, and its rights of way are taken back.
+
+Raises
+------
+ValueError
+    If the robot does not exist.
+
+Notes
+-----
+All others get the earliest times that keep their rights of way, which then are kept for good: marks
+from before can not be gone back to.)";
+
 constexpr auto cycle_doc = R"(Explain the last refusal.
 
 Returns
@@ -239,6 +256,7 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
         .def("checkpoint", &Graph::checkpoint,
              "Return a mark for ``rollback``: the number of rights of way given so far.")
         .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
+        .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
         .def("rights_of_way", &rights_of_way,
              "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");
 }

@@ -98,9 +98,9 @@ void PrecedenceGraph::recount() {
 }
 
 void PrecedenceGraph::rollback(std::int64_t mark) {
-    if (mark < 0 || mark > checkpoint()) {
+    if (mark < n_kept_ || mark > checkpoint()) {
         reject("mark", mark,
-               "is not in 0.." + std::to_string(checkpoint()) +
+               "is not in " + std::to_string(n_kept_) + ".." + std::to_string(checkpoint()) +
                    " (what was taken back cannot be gone back to)");
     }
     if (mark == checkpoint()) {
@@ -114,6 +114,23 @@ void PrecedenceGraph::rollback(std::int64_t mark) {
         index_.move(x, timetable_);
         earliest_.forget(routes_.robot(x));
     });
+}
+
+void PrecedenceGraph::withdraw(RobotId robot) {
+    require_id("robot", robot, n_robots());
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        conflicts_ -= index_.remove(x);
+    }
+    routes_.deactivate(robot);
+    timetable_.withdraw(robot);
+    n_kept_ = checkpoint();
+    conflicts_before_.assign(rights_of_way().size(), 0);
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        conflicts_ += index_.add(x, timetable_);
+    }
+    for (RobotId r = 0; r < n_robots(); ++r) {
+        earliest_.forget(r);
+    }
 }
 
 }  // namespace rightofway

@@ -1,6 +1,8 @@
 #include "rightofway/timetable.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace rightofway {
 
@@ -10,10 +12,12 @@ Timetable::Timetable(const Routes& routes)
       latest_right_(routes.n_visits(), none),
       raise_(routes.n_visits(), 0),
       cause_(routes.n_visits(), none) {
-    for (VisitId x = 0; x < routes.n_visits(); ++x) {
-        if (!routes.is_last(x)) {
-            enter_[x + 1] = enter_[x] + routes.least(x);
-        }
+    run_freely();
+}
+
+void Timetable::run_freely() {
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
     }
 }
 
@@ -147,11 +151,15 @@ void Timetable::forget_raises() {
     deferred_.clear();
 }
 
-void Timetable::accept(VisitId a, VisitId b) {
+void Timetable::record(VisitId a, VisitId b) {
     trail_mark_.push_back(trail_.size());
     next_right_.push_back(latest_right_[a]);
     latest_right_[a] = static_cast<std::int32_t>(rights_.size());
     rights_.push_back({a, b});
+}
+
+void Timetable::accept(VisitId a, VisitId b) {
+    record(a, b);
     for (const VisitId x : changed_) {
         trail_.push_back({x, enter_[x]});
         enter_[x] += raise_[x];
@@ -170,6 +178,51 @@ void Timetable::rollback(std::size_t n_rights) {
         rights_.pop_back();
         next_right_.pop_back();
         trail_mark_.pop_back();
+    }
+}
+
+void Timetable::withdraw(RobotId robot) {
+    std::vector<VisitId> in_old_order(enter_.size());
+    std::iota(in_old_order.begin(), in_old_order.end(), 0);
+    std::stable_sort(in_old_order.begin(), in_old_order.end(),
+                     [this](VisitId left, VisitId right) { return enter_[left] < enter_[right]; });
+    const std::vector<RightOfWay> rights = std::move(rights_);
+    rights_.clear();
+    next_right_.clear();
+    trail_.clear();
+    trail_mark_.clear();
+    std::fill(latest_right_.begin(), latest_right_.end(), none);
+    for (const auto& [first, second] : rights) {
+        if (routes_.robot(first) != robot && routes_.robot(second) != robot) {
+            record(first, second);
+        }
+    }
+    run_freely();
+    run_again(in_old_order);
+}
+
+// Pushes every visit behind what it waits for. In the old order of time nothing waits for a later
+// visit, so one round does, and more only where rotations make visits wait for each other at one
+// instant.
+void Timetable::run_again(std::span<const VisitId> in_old_order) {
+    bool has_changed = true;
+    const auto push = [this, &has_changed](VisitId visit, Tick earliest) {
+        has_changed = has_changed || enter_[visit] < earliest;
+        enter_[visit] = std::max(enter_[visit], earliest);
+    };
+    while (has_changed) {
+        has_changed = false;
+        for (const VisitId x : in_old_order) {
+            if (!routes_.is_last(x)) {
+                push(x + 1, enter_[x] + routes_.least(x));
+            }
+            if (routes_.is_first(x)) {
+                continue;
+            }
+            for (std::int32_t k = latest_right_[x - 1]; k != none; k = next_right_[k]) {
+                push(rights_[k].second, enter_[x] + routes_.gap_before(rights_[k].second));
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 """The Python pages: signatures as they are written, and names that lead to where they are told.
 
-Left to itself autodoc spells out what annotations stand for, so that ``FaultKind`` becomes a list of
-a dozen words, and names every type after the module it is defined in, which has no page.
+Left to itself autodoc spells out what annotations stand for, so that ``FaultKind`` becomes a list
+of a dozen words, and names every type after the module it is defined in, which has no page.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -43,9 +43,8 @@ def _parts(parameters: Iterable[Parameter]) -> Iterator[str]:
         if each.kind is Parameter.KEYWORD_ONLY and before is not Parameter.KEYWORD_ONLY:
             yield "*"
         before = each.kind
-        annotation = _words(each.annotation)
-        default = "" if each.default is each.empty else _default(each.default)
-        yield f"{each.name}: {annotation}{f' = {default}' if default else ''}"
+        text = f"{each.name}: {_words(each.annotation)}"
+        yield text if each.default is each.empty else f"{text} = {_default(each.default)}"
 
 
 def _words(annotation: Any) -> str | None:

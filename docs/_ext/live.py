@@ -1,7 +1,8 @@
 """Parts of pages that are taken from the program itself, so that they cannot drift from it.
 
-``command-help`` shows what ``--help`` prints, ``planner-options`` and ``planner-list`` come from the
-registry, ``document-keys`` from the JSON Schema of a format, ``public-names`` from ``__all__``.
+``command-help`` shows what ``--help`` prints, ``planner-options`` and ``planner-list`` come from
+the registry, ``document-keys`` from the JSON Schema of a format, ``public-names`` from ``__all__``,
+``native-headers`` from the comments that C++ headers begin with.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -9,6 +10,8 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
+from itertools import takewhile
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -23,6 +26,8 @@ from rightofway.planners import registered
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
+
+ROOT = Path(__file__).parents[2]
 
 Row = Sequence[str]
 
@@ -77,7 +82,9 @@ class PlannerList(LiveDirective):
 
     def lines(self, *_: str) -> Iterable[str]:
         """Return a table."""
-        rows = [(f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in registered().values()]
+        rows = [
+            (f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in registered().values()
+        ]
         return table(("planner", "what it does"), rows)
 
 
@@ -126,7 +133,9 @@ def _defaults() -> dict[str, dict[str, Any]]:
     rules, robot = Rules(), Robot(name="R1", home=0, stops=(Stop(at=0),))  # type: ignore[arg-type]
     return {
         "RulesDocument": {
-            **{name: getattr(rules, name) for name in ("occupancy", "headway", "laps", "rotations")},
+            **{
+                name: getattr(rules, name) for name in ("occupancy", "headway", "laps", "rotations")
+            },
             "return": rules.ends,
         },
         "RobotDocument": {"speed": robot.speed, "work": robot.stops[0].work},
@@ -169,11 +178,31 @@ def _public(name: str, value: Any) -> Row:
     return f"{{py:obj}}`{name} <rightofway.{where}>`", summary
 
 
+class NativeHeaders(LiveDirective):
+    """The headers of the native core, with what each says of itself first."""
+
+    required_arguments = 0
+
+    def lines(self, *_: str) -> Iterable[str]:
+        """Return a table."""
+        headers = sorted((ROOT / "cpp" / "include" / "rightofway").glob("*.hpp"))
+        return table(
+            ("header", "what it is"), ((f"`{each.name}`", _opening(each)) for each in headers)
+        )
+
+
+def _opening(header: Path) -> str:
+    """Return the first paragraph of the comment that a file begins with."""
+    lines = header.read_text(encoding="utf-8").splitlines()
+    return " ".join(line[3:] for line in takewhile(lambda line: line.startswith("// "), lines))
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directives."""
     app.add_directive("command-help", CommandHelp)
     app.add_directive("planner-list", PlannerList)
     app.add_directive("planner-options", PlannerOptions)
     app.add_directive("document-keys", DocumentKeys)
+    app.add_directive("native-headers", NativeHeaders)
     app.add_directive("public-names", PublicNames)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

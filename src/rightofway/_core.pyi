@@ -322,6 +322,26 @@ class PrecedenceGraph:
             If there are fewer rights of way now than at the mark.
         """
 
+    def withdraw(self, robot: int) -> None:
+        """
+        Set a robot aside.
+
+        Parameters
+        ----------
+        robot : int
+            It becomes inactive, and its rights of way are taken back.
+
+        Raises
+        ------
+        ValueError
+            If the robot does not exist.
+
+        Notes
+        -----
+        All others get the earliest times that keep their rights of way, which then are kept for good: marks
+        from before can not be gone back to.
+        """
+
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
         Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].

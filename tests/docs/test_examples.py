@@ -54,13 +54,13 @@ def run_python(block: Block, names: dict[str, Any], where: str) -> None:
 
 
 def run_console(block: Block, where: str) -> None:
-    """Run each line behind ``$``; the lines up to the next are what it prints, ``…`` for anything."""
-    for example in re.split(r"^\$ ", block.text, flags=re.M)[1:]:
+    """Run each line behind ``$``; the lines up to the next are its output, ``…`` for anything."""
+    for example in re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]:
         command, _, expected = example.partition("\n")
         printed = shell(command)
         pattern = ".*".join(map(re.escape, expected.split("…")))
         message = f"{where}: $ {command}\nprinted\n{printed}\nnot\n{expected}"
-        assert re.fullmatch(pattern, printed, re.S), message
+        assert re.fullmatch(pattern, printed, re.DOTALL), message
 
 
 def shell(command: str) -> str:

@@ -10,9 +10,10 @@ from rightofway.model import Decision, Plan
 from tests.docs.pages import DOCS
 from tests.fleets import PAPER, paper_scenario
 
+
 def written_rows() -> list[list[str]]:
     page = (DOCS / "paper.md").read_text(encoding="utf-8")
-    table = re.search(r"^\| case \|.*\n\|[- |]*\n((?:\|.*\n)+)", page, re.M)
+    table = re.search(r"^\| case \|.*\n\|[- |]*\n((?:\|.*\n)+)", page, re.MULTILINE)
     assert table is not None
     lines = table[1].splitlines()
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]

@@ -62,7 +62,7 @@ scalars = st.one_of(
     st.booleans(),
     st.integers(-3, 12),
     st.integers(),
-    st.decimals(allow_nan=True),
+    st.decimals(allow_nan=False),
     st.floats(),
     st.text(max_size=6),
     st.sampled_from(["N0", "N7", "N999", "R1", "home", "none", "cell", "one", "both", "clustered"]),

@@ -5,6 +5,7 @@ The kernel keeps everything up to date from what has changed; the twin starts af
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -236,3 +237,20 @@ def test_marks_nest_and_can_be_gone_back_to_more_than_once(
         check(system, rights, kernel)
         if step.right is not None:
             take(step, rights, kernel)
+
+
+@law
+@given(runs(), st.integers(0, 3))
+def test_who_is_withdrawn_is_as_if_never_there_and_the_others_keep_their_rights(
+    run: tuple[System, list[Step]], who: int
+) -> None:
+    system, steps = run
+    rights: list[Right] = []
+    kernel = system.kernel()
+    for step in steps:
+        take(step, rights, kernel)
+    robot = who % len(system.routes)
+    kernel.withdraw(robot)
+    active = tuple(on and r != robot for r, on in enumerate(system.active))
+    kept = [right for right in rights if robot not in {system.robot[x] for x in right}]
+    check(replace(system, active=active), kept, kernel)

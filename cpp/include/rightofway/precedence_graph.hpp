@@ -54,6 +54,11 @@ class PrecedenceGraph {
     std::int64_t checkpoint() const { return static_cast<std::int64_t>(rights_of_way().size()); }
     void rollback(std::int64_t mark);
 
+    // Sets a robot aside: it meets nobody any more, its rights of way are taken back, and the
+    // others get the earliest times that keep theirs. What was given so far stays: a rollback
+    // below the number of rights of way that are left is refused.
+    void withdraw(RobotId robot);
+
   private:
     void check_pair(VisitId a, VisitId b) const;
     template <class Use>
@@ -65,6 +70,7 @@ class PrecedenceGraph {
     ConflictIndex index_;
     EarliestConflicts earliest_;
     Tick conflicts_ = 0;
+    std::int64_t n_kept_ = 0;             // rights of way that no rollback can take back
     std::vector<Tick> conflicts_before_;  // per right of way
 };
 

@@ -35,6 +35,7 @@ class Routes {
     VisitId first_of(RobotId robot) const { return first_visit_[robot]; }
     VisitId last_of(RobotId robot) const { return first_visit_[robot + 1] - 1; }
     bool is_active(RobotId robot) const { return active_[robot] != 0; }
+    void deactivate(RobotId robot) { active_[robot] = 0; }
     Tick longest_approach(RobotId robot) const { return longest_approach_[robot]; }
 
     RobotId robot(VisitId visit) const { return robot_[visit]; }

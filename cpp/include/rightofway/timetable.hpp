@@ -53,6 +53,10 @@ class Timetable {
     // Takes rights of way back, the latest first, until so many are left.
     void rollback(std::size_t n_rights);
 
+    // Takes back all rights of way of one robot, wherever they stand, and gives everybody the
+    // earliest times that keep the others. What is left can not be rolled back any more.
+    void withdraw(RobotId robot);
+
     // The visits whose enter the last precede or rollback changed, each once.
     std::span<const VisitId> changed() const { return changed_; }
 
@@ -75,6 +79,9 @@ class Timetable {
     void raise_by(VisitId visit, Tick delta, VisitId cause);
     void explain(VisitId source);
     void accept(VisitId a, VisitId b);
+    void record(VisitId a, VisitId b);
+    void run_freely();
+    void run_again(std::span<const VisitId> in_old_order);
     void forget_raises();
     void restore_enters(std::size_t trail_length);
     static bool is_later(const Raise& left, const Raise& right);

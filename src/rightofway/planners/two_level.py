@@ -120,17 +120,11 @@ class _Fleet:
         self.aside: dict[int, str] = {}
         self.settled: set[int] = set()
         self.decisions: list[Decision] = []
-        self.graph = self.free_running()
-
-    def free_running(self) -> PrecedenceGraph:
-        """Return the routes of all robots that are not set aside, with no right of way."""
-        scenario = self.task.scenario
-        return PrecedenceGraph(
-            self.routes,
-            headway=planning_headway(scenario),
-            books_ahead=scenario.rules.occupancy == "both",
+        self.graph = PrecedenceGraph(
+            routes,
+            headway=planning_headway(task.scenario),
+            books_ahead=task.scenario.rules.occupancy == "both",
             forbid_swaps=self.by_segment,
-            active=[robot not in self.aside for robot in range(len(self.routes))],
         )
 
     def settle_all(self) -> None:
@@ -247,11 +241,7 @@ class _Fleet:
         robot = max(meeting.robots, key=lambda one: (self.graph.conflicts_of(one, everyone), one))
         self.aside[robot] = why
         self.settled.discard(robot)
-        rights, graph = self.graph.rights_of_way(), self.graph
-        self.graph = self.free_running()
-        for first, second in rights:
-            if robot not in (graph.place(first)[0], graph.place(second)[0]):
-                self.graph.give_way(first, second)
+        self.graph.withdraw(robot)
 
     def decisions_that_hold(self, rerouted: Sequence[int]) -> list[Decision]:
         """Return the decisions between robots that stayed on their routes."""

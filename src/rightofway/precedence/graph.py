@@ -59,8 +59,6 @@ class PrecedenceGraph:
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     forbid_swaps
         Whether a swap counts as a conflict (the published method does not see them).
-    active
-        The robots that take part; all by default. The others are as if they were not there.
     """
 
     def __init__(
@@ -70,7 +68,6 @@ class PrecedenceGraph:
         headway: Tick,
         books_ahead: bool,
         forbid_swaps: bool = True,
-        active: Sequence[bool] | None = None,
     ) -> None:
         self.routes = tuple(routes)
         lengths = [len(route) for route in routes]
@@ -86,7 +83,7 @@ class PrecedenceGraph:
             np.array(drive if books_ahead else [0] * len(drive), np.int64),
             int(headway),
             forbid_swaps,
-            np.array([True] * len(routes) if active is None else active, np.uint8),
+            np.ones(len(routes), np.uint8),
         )
 
     def visit(self, robot: int, index: int) -> Visit:
@@ -125,6 +122,13 @@ class PrecedenceGraph:
     def rollback(self, mark: int) -> None:
         """Take back every right of way given since the mark."""
         self._kernel.rollback(mark)
+
+    def withdraw(self, robot: int) -> None:
+        """Set a robot aside: it meets nobody any more, and nobody waits for it.
+
+        The others keep the rights of way among each other, for good.
+        """
+        self._kernel.withdraw(robot)
 
     def conflicts_left(self) -> int:
         """Return the conflicts in the whole system: ticks of overlap, and swaps."""

@@ -55,8 +55,8 @@ def write_png(
     Raises
     ------
     InputError
-        For a tick below 0, a scale that makes the picture empty or too large to draw, or a file that
-        cannot be written.
+        For a tick below 0, a scale that makes the picture empty or too large to draw, or a file
+        that cannot be written.
     """
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")

@@ -28,9 +28,8 @@ def write_csv(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
     Raises
     ------
     InputError
-        If the table is too large.
-    OSError
-        If the file cannot be written; one that was there before is untouched.
+        If the table is too large, or the file cannot be written; one that was there before is
+        untouched.
     """
     table.refuse_more_than(MAX_CELLS)
     text = io.StringIO(newline="")
@@ -53,9 +52,8 @@ def write_xlsx(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
     Raises
     ------
     InputError
-        If the table is too large for a sheet.
-    OSError
-        If the file cannot be written; one that was there before is untouched.
+        If the table is too large for a sheet, or the file cannot be written; one that was there
+        before is untouched.
     """
     table.refuse_more_than(MAX_TICKS_OF_SHEET)
     from rightofway.viz.table.workbook import workbook_of
