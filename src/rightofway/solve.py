@@ -80,10 +80,7 @@ def solve(
 
 
 def _refuse_faults(plan: Plan, draft: Draft) -> None:
-    faults = [
-        fault
-        for fault in check(plan).faults
-        if not (draft.keeps_swaps and fault.kind == "swap conflict")
-    ]
-    if faults:
-        raise InvalidPlan(f"{plan.run.name} made a plan with faults, first: {faults[0].message}")
+    report = check(plan)
+    bad = [kind for kind in report.counts if kind != "swap conflict" or not draft.keeps_swaps]
+    if bad:
+        raise InvalidPlan(f"{plan.run.name} made a plan with {report}")
