@@ -14,7 +14,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
+from click.testing import CliRunner
 from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.util.docutils import SphinxDirective
@@ -66,13 +66,11 @@ class CommandHelp(LiveDirective):
 
     def lines(self, *path: str) -> Iterable[str]:
         """Return a code block."""
-        command: click.Command = commands
-        context = click.Context(command, info_name="rightofway", max_content_width=80)
-        for name in path:
-            assert isinstance(command, click.Group)
-            command = command.commands[name]
-            context = click.Context(command, info_name=name, parent=context, max_content_width=80)
-        return ["```text", *command.get_help(context).splitlines(), "```"]
+        terminal = CliRunner(env={"COLUMNS": "80"})
+        printed = terminal.invoke(
+            commands, [*path, "--help"], prog_name="rightofway", catch_exceptions=False
+        )
+        return ["```text", *printed.output.splitlines(), "```"]
 
 
 class PlannerList(LiveDirective):

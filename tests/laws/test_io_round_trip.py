@@ -3,7 +3,6 @@
 import tempfile
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -166,5 +165,3 @@ def test_plans(plan: Plan) -> None:
         assert loaded == plan
         save_plan(loaded, other, seconds=True)
         assert one.read_bytes() == other.read_bytes()
-
-

@@ -67,7 +67,9 @@ def test_anything_else_is_refused_with_the_reason(value: object, reason: str) ->
 
 
 def test_a_coordinate_may_have_the_digits_of_any_float() -> None:
-    assert float(exact("1.2246467991473532e-16", digits=COORDINATE_DIGITS)) == 1.2246467991473532e-16
+    assert (
+        float(exact("1.2246467991473532e-16", digits=COORDINATE_DIGITS)) == 1.2246467991473532e-16
+    )
 
 
 def test_fractions_are_written_as_they_are_read() -> None:

@@ -31,6 +31,6 @@ def test_the_warehouse_deals_out_three_speeds_and_work_up_to_twenty() -> None:
     assert len(robots) == 50
     assert {robot.speed for robot in robots} == {Fraction(1), Fraction(1, 2), Fraction(1, 3)}
     works = {robot.stops[0].work for robot in robots}
-    assert (min(works), max(works)) == (0, 20)
+    assert (min(works), max(works)) == (Fraction(0), Fraction(20))
     # Three speeds and eleven work times: every pair occurs within 33 robots.
     assert len({(robot.speed, robot.stops[0].work) for robot in robots}) == 33

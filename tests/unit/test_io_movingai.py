@@ -95,7 +95,10 @@ def test_what_is_wrong_with_a_scen_is_told_with_its_line(
 def test_a_scen_by_itself_is_classic_mapf(hall: Path) -> None:
     scenario = load(hall)
     assert scenario.rules == Rules(turn=Fraction(0), ends="none")
-    assert [(robot.name, robot.speed) for robot in scenario.robots] == [("R1", 1), ("R2", 1)]
+    assert [(robot.name, robot.speed) for robot in scenario.robots] == [
+        ("R1", Fraction(1)),
+        ("R2", Fraction(1)),
+    ]
     name = scenario.roadmap.name
     assert [(name(robot.home), name(robot.stops[0].at)) for robot in scenario.robots] == [
         ("N1", "N5"),

@@ -25,7 +25,7 @@ from tests.fleets import grid_fleet
 
 
 def door_plan() -> Plan:
-    """Return the paper's first case: R1 waits one tick at home (vertices of N0 ... without walls)."""
+    """Return the paper's first case: R1 waits one tick at home."""
     scenario = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
     n0, n1, n2, n4, n6, n7, n8 = range(7)
     decision = Decision(

@@ -5,7 +5,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from rightofway.errors import InputError
@@ -80,7 +79,7 @@ def test_rules_and_what_a_robot_decides_for_itself() -> None:
         rotations=False,
     )
     robot = scenario.robots[0]
-    assert (robot.turn, robot.ends, robot.laps) == (0, "home", 2)
+    assert (robot.turn, robot.ends, robot.laps) == (Fraction(0), "home", 2)
 
 
 def test_a_grid_may_be_a_block_of_text() -> None:
@@ -140,7 +139,7 @@ def test_a_floor_may_have_more_cells_if_it_says_so() -> None:
 
 
 def test_a_roadmap_may_be_drawn() -> None:
-    drawn = {
+    drawn: dict[str, Any] = {
         "vertices": {"dock": [0, 0], "shelf": [0.3, 0.4], "gate": [1, "1/2"]},
         "edges": [
             ["dock", "shelf"],
@@ -156,7 +155,7 @@ def test_a_roadmap_may_be_drawn() -> None:
         return None if edge is None else roadmap.lengths[roadmap.length_class[edge]]
 
     assert roadmap.labels == ("dock", "shelf", "gate")
-    assert np.array_equal(roadmap.positions, [[0, 0], [0.3, 0.4], [1, 0.5]])
+    assert roadmap.positions.tolist() == [[0, 0], [0.3, 0.4], [1, 0.5]]
     assert length("dock", "shelf") == length("shelf", "dock") == Fraction(1, 2)  # 3, 4, 5
     assert length("gate", "shelf") == Fraction(5, 2)
     assert (length("gate", "dock"), length("dock", "gate")) == (Fraction(10, 3), None)
@@ -181,7 +180,7 @@ def test_speeds_and_work_are_dealt_out_in_turn(tmp_path: Path) -> None:
 def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path: Path) -> None:
     path = tmp_path / "floor.json"
     # A cell takes R1 500/999 = 1000/1998 and R2 1/2 = 999/1998: the tick is 1/1998.
-    robots = [
+    robots: list[dict[str, Any]] = [
         {"name": "R1", "home": "N0", "target": "N5", "speed": "999/1000"},
         {"name": "R2", "home": "N1", "target": "N5", "speed": 1},
     ]

@@ -109,7 +109,10 @@ def test_json_words_for_no_number_stay_words() -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("{\n1", "line 2: Expecting property name enclosed in double quotes (check the JSON there)"),
+        (
+            "{\n1",
+            "line 2: Expecting property name enclosed in double quotes (check the JSON there)",
+        ),
         ("[1] 2", "line 1: Extra data (check the JSON there)"),
         pytest.param("[" * 100_000, "values are nested more than 64 deep", id="open"),
         pytest.param("[" * 65 + "]" * 65, "values are nested more than 64 deep", id="closed"),

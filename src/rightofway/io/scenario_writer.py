@@ -84,9 +84,8 @@ def _grid(grid: Grid) -> dict[str, Any]:
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     name = roadmap.name
-    vertices = {
-        name(vertex): [float(x), float(y)] for vertex, (x, y) in enumerate(roadmap.positions)
-    }
+    positions = (roadmap.positions + 0.0).tolist()  # has no -0.0: it would be read as 0.0
+    vertices = {name(vertex): position for vertex, position in enumerate(positions)}
     edges = [
         {
             "from": name(tail),

@@ -5,7 +5,7 @@ from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
 from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.model.robot import Robot, Stop, TripEnd, Turn
-from rightofway.model.route import Route, edge_ticks, route_along, route_through
+from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
@@ -43,6 +43,7 @@ __all__ = [
     "roadmap_of_edges",
     "roadmap_of_grid",
     "route_along",
+    "route_of",
     "route_through",
     "steps_per_unit",
 ]

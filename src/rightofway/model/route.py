@@ -6,11 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+
 from rightofway.model.itinerary import Itinerary, Stage, least_dwell
+from rightofway.model.plan import Track
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Route", "edge_ticks", "route_along", "route_through"]
+__all__ = ["Route", "edge_ticks", "route_along", "route_of", "route_through"]
+
+_FOR_EVER = 2**62
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,18 +61,11 @@ def route_along(
         included. A stage at the vertex where the robot already is has a leg of that one vertex.
     """
     vertices = [itinerary.home]
-    served: list[list[Stage]] = [[]]
-    for stage, leg in zip(itinerary.stages, legs, strict=True):
+    serves = []
+    for leg in legs:
         vertices += leg[1:]
-        served += [[] for _ in leg[1:]]
-        served[-1].append(stage)
-    last = len(vertices) - 1
-    dwell = [least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served)]
-    drive = [
-        edge_ticks(roadmap, itinerary, tail, head)
-        for tail, head in pairwise(vertices)
-    ]
-    return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
+        serves.append(len(vertices) - 1)
+    return _route(roadmap, itinerary, vertices, serves)
 
 
 def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Route:
@@ -82,13 +80,51 @@ def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[Ver
     vertices
         Where it goes, visit by visit.
     """
-    legs: list[list[VertexId]] = []
-    begin = 0
+    for_ever = [_FOR_EVER] * len(vertices)
+    return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, for_ever))
+
+
+def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
+    """Keep where a robot goes and what it does there, and forget when.
+
+    Parameters
+    ----------
+    roadmap
+        The graph the track runs on.
+    itinerary
+        What the robot has to do.
+    track
+        Where it is, when; keeps the rules. Each stage is served as early as a visit lasts long
+        enough, the last one in the last visit.
+    """
+    vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
+    drive = [edge_ticks(roadmap, itinerary, tail, head) for tail, head in pairwise(vertices)]
+    spare = [*(np.diff(track.enter) - np.array(drive, np.int64)).tolist(), _FOR_EVER]
+    return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, spare))
+
+
+def _serving(itinerary: Itinerary, vertices: Sequence[VertexId], spare: list[int]) -> list[int]:
+    """Return the visit that serves each stage, given how long each visit may be worked in."""
+    visit, serves = 0, []
     for stage in itinerary.stages[:-1]:
-        end = vertices.index(stage.vertex, begin)
-        legs.append(list(vertices[begin : end + 1]))
-        begin = end
-    return route_along(roadmap, itinerary, [*legs, vertices[begin:]])
+        need = stage.work + stage.turn
+        while vertices[visit] != stage.vertex or spare[visit] < need:
+            visit += 1
+        spare[visit] -= need
+        serves.append(visit)
+    return [*serves, len(vertices) - 1]
+
+
+def _route(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
+) -> Route:
+    served: list[list[Stage]] = [[] for _ in vertices]
+    for stage, visit in zip(itinerary.stages, serves, strict=True):
+        served[visit].append(stage)
+    last = len(vertices) - 1
+    dwell = (least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served))
+    drive = (edge_ticks(roadmap, itinerary, tail, head) for tail, head in pairwise(vertices))
+    return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
 
 
 def edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: int, head: int) -> Tick:

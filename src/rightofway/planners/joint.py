@@ -7,8 +7,6 @@ and the earliest timetable that keeps them is a plan, for any speeds, work times
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,16 +52,7 @@ def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
         headway=planning_headway(scenario),
         books_ahead=scenario.rules.occupancy == "both",
     )
-    order: dict[VertexId, list[tuple[int, int]]] = {}
-    for robot, arrival in enumerate(arrivals):
-        for index, step in enumerate(arrival):
-            visit = graph.visit(robot, index)
-            order.setdefault(graph.vertex(visit), []).append((step, visit))
-    for visits in order.values():
-        in_turn = [visit for _, visit in sorted(visits)]
-        for first, second in pairwise(in_turn):
-            if graph.place(first)[0] != graph.place(second)[0]:
-                graph.give_way(first, second)
+    graph.keep_order(arrivals)
     return graph.tracks()
 
 

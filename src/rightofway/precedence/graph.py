@@ -10,14 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
 from rightofway import _core
-from rightofway.model import Route, Tick, Track, VertexId
+from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
 
-__all__ = ["Meeting", "PrecedenceGraph", "Visit"]
+__all__ = ["Meeting", "PrecedenceGraph", "Visit", "graph_of"]
 
 Visit = int
 """A visit's number in the graph: the robots' routes one behind the other."""
@@ -111,6 +112,26 @@ class PrecedenceGraph:
         """
         return self._kernel.precede(first, second)
 
+    def keep_order(self, when: Sequence[Sequence[int]]) -> None:
+        """Give the right of way at every vertex in an order in which all visits can take place.
+
+        Parameters
+        ----------
+        when
+            For each robot, a number for each of its visits; of two visits to one vertex, the one
+            with the smaller number goes first. The ticks of a plan, or steps.
+        """
+        at: dict[VertexId, list[tuple[int, Visit]]] = {}
+        for robot, numbers in enumerate(when):
+            for index, number in enumerate(numbers):
+                visit = self.visit(robot, index)
+                at.setdefault(self.vertex(visit), []).append((number, visit))
+        for visits in at.values():
+            for (_, first), (_, second) in pairwise(sorted(visits)):
+                if self._robot[first] != self._robot[second]:
+                    possible = self.give_way(first, second)
+                    assert possible, "what took place in some order can take place in it again"
+
     def rights_of_way(self) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) in the order they were given."""
         return [(first, second) for first, second in self._kernel.rights_of_way().tolist()]
@@ -172,3 +193,30 @@ class PrecedenceGraph:
             Track(vertices=np.array(route.vertices, np.int32), enter=enter)
             for route, enter in zip(self.routes, parts, strict=True)
         ]
+
+
+def graph_of(scenario: Scenario, tracks: Sequence[Track]) -> PrecedenceGraph:
+    """Return the precedence graph of a plan: its routes, and its order of visits at every vertex.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        A plan that keeps the rules, by any planner.
+
+    Notes
+    -----
+    No robot is later in the timetable of the graph than in the plan.
+    """
+    itineraries = scenario.timing.itineraries
+    graph = PrecedenceGraph(
+        [
+            route_of(scenario.roadmap, itinerary, track)
+            for itinerary, track in zip(itineraries, tracks, strict=True)
+        ],
+        headway=scenario.timing.headway,
+        books_ahead=scenario.rules.occupancy == "both",
+    )
+    graph.keep_order([track.enter.tolist() for track in tracks])
+    return graph
