@@ -35,7 +35,7 @@ from rightofway.planners.joint import plan_jointly
 from rightofway.planners.rerouting import reroute
 from rightofway.planners.routing import shortest_routes
 from rightofway.planners.task import Draft, Task, planning_headway
-from rightofway.precedence import Meeting, PrecedenceGraph, Segment, head_on_segment
+from rightofway.precedence import Meeting, PrecedenceGraph, Segment, graph_of, head_on_segment
 from rightofway.search import Distances
 
 __all__ = ["two_level"]
@@ -86,8 +86,11 @@ def two_level(task: Task) -> Draft:
     rerouted = reroute(task, distances, tracks, list(fleet.aside))
     if rerouted is None:
         return _all_together(task, distances)
+    ordered = [track for _, track in sorted(tracks.items())]
+    if rerouted:  # whoever waited for a robot that goes another way need not wait any more
+        ordered = graph_of(task.scenario, ordered).tracks()
     return Draft(
-        tracks=tuple(track for _, track in sorted(tracks.items())),
+        tracks=tuple(ordered),
         status=_status(task.scenario, rerouted),
         decisions=tuple(fleet.decisions_that_hold(rerouted)),
         reroutes=tuple(
