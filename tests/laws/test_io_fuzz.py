@@ -162,7 +162,7 @@ def test_any_data(data: Any) -> None:
 
 
 @given(st.text(alphabet="[]{}:-,&*!|>'\"\n #ab1.~?%@`\t", max_size=40))
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 def test_any_text(text: str) -> None:
     accepts(parse_yaml, text)
     accepts(parse_json, text)

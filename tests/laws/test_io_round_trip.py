@@ -142,11 +142,13 @@ def test_fractions(number: Fraction) -> None:
 
 
 @given(scenarios())
+@settings(deadline=None)
 def test_scenario_documents(scenario: Scenario) -> None:
     assert scenario_of(dump_scenario(scenario)) == scenario
 
 
 @given(scenarios(), st.sampled_from(["a.yaml", "a.json"]))
+@settings(deadline=None)
 def test_scenario_files(scenario: Scenario, name: str) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, name)
@@ -155,7 +157,7 @@ def test_scenario_files(scenario: Scenario, name: str) -> None:
 
 
 @given(plans())
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 def test_plans(plan: Plan) -> None:
     assert plan_of(dump_plan(plan, seconds=True)) == plan
     with tempfile.TemporaryDirectory() as folder:

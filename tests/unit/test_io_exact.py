@@ -1,5 +1,6 @@
 """Numbers are read exactly as they are written, or refused."""
 
+import sys
 from decimal import Decimal
 from fractions import Fraction
 
@@ -80,8 +81,13 @@ def test_numbers_too_large_to_hold_stay_text() -> None:
     assert whole("12") == 12
     assert decimal("0.10") == Decimal("0.10")
     digits = "9" * 41
-    assert (whole(digits), decimal("1e251"), decimal(f"0.{digits}")) == (
-        digits,
-        "1e251",
-        f"0.{digits}",
-    )
+    for token in ("1e309", "1e-401", f"0.{digits}"):
+        assert decimal(token) == token
+    assert whole(digits) == digits
+
+
+def test_every_float_is_a_decimal_that_is_kept() -> None:
+    for number in (sys.float_info.max, sys.float_info.min, 5e-324):
+        kept = decimal(repr(number))
+        assert isinstance(kept, Decimal)
+        assert float(kept) == number

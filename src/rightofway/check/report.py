@@ -26,20 +26,20 @@ FaultKind = Literal[
 ]
 """The ways a plan can be wrong.
 
-==================  ===============================================================================
-``unknown vertex``  a visit is at a vertex that the roadmap does not have
-``wrong home``      the first visit is not at home, or not from tick 0
-``backwards``       a visit ends before it begins
-``jump``            no edge joins two visits, or one vertex is entered twice in a row
-``too fast``        an edge is driven in less than the robot's ticks for it
-``work cut short``  a stop is visited, but never for long enough to work and turn
-``stop missed``     a stop is not visited after the one before it
-``wrong end``       the last visit is not where the trip ends
-``vertex conflict`` two robots book one vertex at the same time
-``headway``         they would not without the headway: one comes too soon after the other
-``swap conflict``   two robots exchange two vertices at the same instant
-``rotation``        three or more robots move round a circle at one instant, where rules forbid it
-==================  ===============================================================================
+===================  ===============================================================================
+``unknown vertex``   a visit is at a vertex that the roadmap does not have
+``wrong home``       the first visit is not at home, or not from tick 0
+``backwards``        a visit ends before it begins
+``jump``             no edge joins two visits, or one vertex is entered twice in a row
+``too fast``         an edge is driven in less than the robot's ticks for it
+``work cut short``   a stop is visited, but never for long enough to work and turn
+``stop missed``      a stop is not visited after the one before it
+``wrong end``        the last visit is not where the trip ends
+``vertex conflict``  two robots book one vertex at the same time
+``headway``          they would not without the headway: one comes too soon after the other
+``swap conflict``    two robots exchange two vertices at the same instant
+``rotation``         three or more robots move round a circle at one instant, where rules forbid it
+===================  ===============================================================================
 """
 
 
@@ -99,7 +99,7 @@ class Report:
 
     @property
     def summary(self) -> str:
-        """One line: the number of faults of each kind."""
+        """The number of faults of each kind, in a line."""
         kinds = ", ".join(f"{count} {kind}" for kind, count in self.counts.items())
         return f"{self.total} fault{'s' * (self.total != 1)}: {kinds}" if kinds else "no fault"
 

@@ -40,6 +40,6 @@ def convert(source: str, target: str) -> None:
         return
     map_path = Path(target).with_suffix(".map")
     for loss in write_scen(scenario, target, map_name=map_path.name):
-        say(f"left out: {loss}")
+        say(loss)
     write_map(scenario.roadmap, map_path)
     say(f"wrote {target} and {map_path}")

@@ -153,7 +153,7 @@ def _decision(plan: Plan, one: Decision) -> Iterator[str]:
 def _reason(one: Decision, names: list[str]) -> str:
     i, j = (names[robot] for robot in one.robots)
     if_i, if_j = one.conflicts_left
-    left = f"{if_i} conflicts are left if {i} waits, {if_j} if {j} does"
+    left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"
     if one.level == "only":
         other = names[one.robots[0] if one.waits == one.robots[1] else one.robots[1]]
         return f"only choice: {other} cannot wait here."

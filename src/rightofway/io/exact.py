@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -23,7 +24,7 @@ PATTERN = r"[+-]?([0-9]+/[0-9]+|([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?)"
 LONGEST_TOKEN = 40
 """A number of more characters stays text when a file is read; whoever needs a number refuses it."""
 
-LARGEST_EXPONENT = 250
+LARGEST_EXPONENT = 400
 """The same for a decimal with a larger exponent."""
 
 _NUMBER = re.compile(PATTERN.replace("([eE][+-]?[0-9]+)", "([eE](?P<exponent>[+-]?[0-9]+))"))
@@ -92,4 +93,4 @@ def decimal(token: str) -> Decimal | str:
     _, _, exponent = token.lower().partition("e")
     if len(token) > LONGEST_TOKEN or abs(int(exponent or "0")) > LARGEST_EXPONENT:
         return token
-    return Decimal(token)
+    return Decimal(token) if math.isfinite(float(token)) else token

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from rightofway.errors import InputError, Problem
@@ -25,16 +27,16 @@ def parse_json(text: str) -> Any:
         For a fault in the syntax, a key given twice, or too deep a nesting.
     """
     doubled: list[tuple[dict[str, Any], str]] = []
+    data = _loaded(text, partial(_mapping, doubled))
+    _check_depth(data)
+    if doubled:
+        raise InputError(_twice(data, mapping, key) for mapping, key in doubled)
+    return data
 
-    def mapping_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        mapping = dict(pairs)
-        if len(mapping) < len(pairs):
-            counts = Counter(key for key, _ in pairs)
-            doubled.extend((mapping, key) for key, count in counts.items() if count > 1)
-        return mapping
 
+def _loaded(text: str, mapping_of: Callable[[list[tuple[str, Any]]], dict[str, Any]]) -> Any:
     try:
-        data = json.loads(
+        return json.loads(
             text,
             object_pairs_hook=mapping_of,
             parse_float=decimal,
@@ -46,10 +48,17 @@ def parse_json(text: str) -> Any:
         raise InputError.at("", message) from None
     except RecursionError:
         raise _too_deep() from None
-    _check_depth(data)
-    if doubled:
-        raise InputError(_twice(data, mapping, key) for mapping, key in doubled)
-    return data
+
+
+def _mapping(
+    doubled: list[tuple[dict[str, Any], str]], pairs: list[tuple[str, Any]]
+) -> dict[str, Any]:
+    """Return a mapping; note it in ``doubled`` with each key that is given twice."""
+    mapping = dict(pairs)
+    if len(mapping) < len(pairs):
+        counts = Counter(key for key, _ in pairs)
+        doubled += [(mapping, key) for key, count in counts.items() if count > 1]
+    return mapping
 
 
 def _twice(data: Any, mapping: dict[str, Any], key: str) -> Problem:

@@ -117,8 +117,8 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     drafts = fleet.drafts(ground, faults) if fleet and ground else []
     scenario = _assembled(ground, drafts, rules, faults) if drafts and ground else None
     faults.stop(document)
-    assert scenario is not None
-    assert ground is not None
+    assert scenario is not None, "or there was a fault"
+    assert ground is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=(*ground.notes(), *_clock_notes(scenario)))
 
 

@@ -55,20 +55,18 @@ def _yaml_text(document: dict[str, Any]) -> str:
     import yaml
 
     class Dumper(yaml.SafeDumper):
-        """Draws a grid as a block of rows."""
+        """Writes text of several lines as a block."""
 
-    class Block(str):
-        __slots__ = ()
+        def represent_str(self, data: str) -> yaml.ScalarNode:
+            tag = "tag:yaml.org,2002:str"
+            return self.represent_scalar(tag, data, style="|" if "\n" in data else None)
 
-    Dumper.add_representer(
-        Block,
-        lambda dumper, text: dumper.represent_scalar("tag:yaml.org,2002:str", text, style="|"),
-    )
+    Dumper.add_representer(str, Dumper.represent_str)
     shape = document["map"]
     if "grid" in shape:
-        document = {**document, "map": {**shape, "grid": Block("\n".join(shape["grid"]) + "\n")}}
+        shape = {**shape, "grid": "\n".join(shape["grid"]) + "\n"}
     text: str = yaml.dump(
-        document,
+        {**document, "map": shape},
         Dumper=Dumper,
         default_flow_style=None,  # what holds no mapping or list itself stays on one line
         sort_keys=False,

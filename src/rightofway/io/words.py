@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from decimal import Decimal
 from fractions import Fraction
 
@@ -11,6 +11,9 @@ __all__ = ["is_printable", "nearest", "place_of", "shown"]
 
 FEW = 4
 """Items of a list that a message shows."""
+
+MANY = 500
+"""Known words that are searched for the one that was meant."""
 
 LONGEST = 60
 """Characters of a value that a message shows."""
@@ -28,7 +31,9 @@ def shown(value: object) -> str:
         return _list_shown(value)
     if isinstance(value, int) and value.bit_length() > LONGEST * 3:
         return f"a number of {value.bit_length()} bits"
-    written = str(value) if isinstance(value, int | Decimal | Fraction) else ascii_repr(value)
+    if isinstance(value, str):
+        value = value[: 2 * LONGEST]  # its repr would be as long as it is
+    written = str(value) if isinstance(value, int | Decimal | Fraction) else repr(value)
     return written if len(written) <= LONGEST else f"{written[: LONGEST - 1]}…"
 
 
@@ -37,19 +42,17 @@ def _list_shown(items: list[object] | tuple[object, ...]) -> str:
     return f"a list of {len(items)}" if is_long else f"[{', '.join(map(shown, items))}]"
 
 
-def ascii_repr(value: object) -> str:
-    """Return the repr of a value; anything that no terminal could print is escaped in it."""
-    return repr(value[: 2 * LONGEST] if isinstance(value, str) else value)
-
-
 def is_printable(text: str) -> bool:
     """Return whether a name may stand in tables and messages: not empty, no control codes."""
     return bool(text) and text.isprintable()
 
 
-def nearest(word: object, known: Iterable[str]) -> str | None:
-    """Return the known word that was probably meant."""
-    return next(iter(difflib.get_close_matches(str(word), list(known), n=1)), None)
+def nearest(word: object, known: Collection[str]) -> str | None:
+    """Return the known word that was probably meant; None where the search would take long."""
+    text = str(word)
+    if len(text) > LONGEST or len(known) > MANY:
+        return None
+    return next(iter(difflib.get_close_matches(text, known, n=1)), None)
 
 
 def place_of(parts: Iterable[str | int]) -> str:

@@ -1,7 +1,7 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
 from rightofway.planners.registry import DEFAULT, Option, PlannerSpec, find, registered
-from rightofway.planners.task import Deadline, Draft, Planner, Task
+from rightofway.planners.task import Deadline, Draft, Planner, Task, planning_headway
 
 __all__ = [
     "DEFAULT",
@@ -12,5 +12,6 @@ __all__ = [
     "PlannerSpec",
     "Task",
     "find",
+    "planning_headway",
     "registered",
 ]
