@@ -14,7 +14,8 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto table_doc = R"(Who has booked which vertex when; no two bookings of a vertex overlap.
+constexpr auto table_doc =
+    R"(Who has booked which vertex when; no two robots' bookings of a vertex overlap.
 
 Parameters
 ----------
@@ -40,7 +41,7 @@ robot : int
 Raises
 ------
 ValueError
-    If there is no such vertex, the booking is empty, or it overlaps another one.)";
+    If there is no such vertex, the booking is empty, or it overlaps another robot's.)";
 
 constexpr auto release_doc = R"(Take back all that a robot has booked.
 

@@ -30,13 +30,19 @@ void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
         reject("end", time.end, "is not after start, " + std::to_string(time.start));
     }
     auto& here = at_[vertex];
-    const auto next = std::lower_bound(here.begin(), here.end(), time.start, ends_by);
-    if (next != here.end() && next->time.start < time.end) {
-        reject("start", time.start,
-               "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
-                   std::to_string(next->robot));
+    const auto first = std::lower_bound(here.begin(), here.end(), time.start, ends_by);
+    Booking whole = time;
+    auto last = first;
+    for (; last != here.end() && last->time.start < time.end; ++last) {
+        if (last->robot != robot) {
+            reject("start", time.start,
+                   "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
+                       std::to_string(last->robot));
+        }
+        whole.start = std::min(whole.start, last->time.start);
+        whole.end = std::max(whole.end, last->time.end);
     }
-    here.insert(next, {time, robot});
+    here.insert(here.erase(first, last), {whole, robot});
     if (of_.size() <= static_cast<std::size_t>(robot)) {
         of_.resize(static_cast<std::size_t>(robot) + 1);
     }

@@ -42,6 +42,18 @@ TEST_CASE("bookings may touch but not overlap") {
     CHECK(table.at(0).size() == 2);
 }
 
+TEST_CASE("a robot that comes back before its booking is over books on") {
+    BookingTable table(1);
+    table.book(0, {0, 4}, 7);
+    table.book(0, {6, 8}, 7);
+    table.book(0, {3, 7}, 7);
+    REQUIRE(table.at(0).size() == 1);
+    CHECK(table.at(0).front().time.start == 0);
+    CHECK(table.at(0).front().time.end == 8);
+    table.release(7);
+    CHECK(table.at(0).empty());
+}
+
 TEST_CASE("a robot gives back all it has booked and nothing else") {
     BookingTable table(2);
     table.book(0, {0, 1}, 4);

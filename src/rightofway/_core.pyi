@@ -349,7 +349,7 @@ class PrecedenceGraph:
 
 class BookingTable:
     """
-    Who has booked which vertex when; no two bookings of a vertex overlap.
+    Who has booked which vertex when; no two robots' bookings of a vertex overlap.
 
     Parameters
     ----------
@@ -380,7 +380,7 @@ class BookingTable:
         Raises
         ------
         ValueError
-            If there is no such vertex, the booking is empty, or it overlaps another one.
+            If there is no such vertex, the booking is empty, or it overlaps another robot's.
         """
 
     def release(self, robot: int) -> None:

@@ -36,8 +36,9 @@ class BookingTable {
     VertexId n_vertices() const { return static_cast<VertexId>(at_.size()); }
     std::span<const BookedBy> at(VertexId vertex) const { return at_[vertex]; }
 
+    // A robot that comes back to a vertex before its booking of it is over books on without a gap.
     // Throws std::invalid_argument for an unknown vertex, an empty booking, or one that overlaps
-    // another (so that the table is always one of a fleet without conflicts).
+    // another robot's (so that the table is always one of a fleet without conflicts).
     void book(VertexId vertex, const Booking& time, RobotId robot);
 
     // Takes back all that a robot has booked.

@@ -7,6 +7,7 @@
 3      no plan was found: time ran out, or the planner gave up
 70     a defect of ours
 130    interrupted
+141    whoever read the results went away
 =====  ===================================================================
 """
 
@@ -14,7 +15,9 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NoReturn
 
 import click
@@ -26,12 +29,17 @@ from rightofway.cli.plan import plan
 from rightofway.cli.schema import schema
 from rightofway.cli.show import show
 from rightofway.cli.table import table
-from rightofway.cli.terminal import say
+from rightofway.cli.terminal import say, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 __all__ = ["commands", "main", "run"]
 
-DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED = 0, 1, 2, 3, 70, 130
+DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
+
+
+@dataclass
+class _Session:
+    debug: bool = False
 
 
 @click.group(
@@ -40,13 +48,16 @@ DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED = 0, 1, 2, 3, 70, 130
     epilog="Start with:  rightofway plan examples/door.yaml --show door.html",
 )
 @click.version_option(__version__, prog_name="rightofway")
-def commands() -> None:
+@click.option("--debug", is_flag=True, help="Show where an unexpected error comes from.")
+@click.pass_context
+def commands(context: click.Context, *, debug: bool) -> None:
     """Plan fleets of mobile robots that go out, work and come home.
 
     Results go to standard output or to the file of -o, everything else to standard error. Exit
     codes: 0 done, 1 no plan exists or the plan has faults, 2 bad input, 3 no plan was found,
     130 interrupted.
     """
+    context.ensure_object(_Session).debug = debug
 
 
 for command in (plan, check, show, table, convert, schema):
@@ -55,6 +66,7 @@ for command in (plan, check, show, table, convert, schema):
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
     """Run a command and end the process with its exit code."""
+    speak_utf8()
     sys.exit(run(args))
 
 
@@ -70,8 +82,10 @@ ENDINGS: dict[type[BaseException], tuple[int, str]] = {
 
 def run(args: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; what went wrong is said on standard error."""
+    session = _Session()
     try:
-        return int(commands.main(args, prog_name="rightofway", standalone_mode=False) or DONE)
+        ended = commands.main(args, prog_name="rightofway", standalone_mode=False, obj=session)
+        return int(ended or DONE)
     except click.ClickException as error:
         error.show()
         return error.exit_code
@@ -81,12 +95,22 @@ def run(args: Sequence[str] | None = None) -> int:
         return code
     except BrokenPipeError:
         _let_the_reader_go()
-        return DONE
+        return UNREAD
     except OSError as error:
-        say(f"{error.filename or 'file'}: {error.strerror or error} (check the path)")
+        say(f"{error.filename or 'standard output'}: {error.strerror or error} (check the path)")
         return BAD_INPUT
+    except Exception as error:  # noqa: BLE001 (whatever else goes wrong is a defect of ours)
+        _confess(error, debug=session.debug)
+        return DEFECT
 
 
 def _let_the_reader_go() -> None:
     """Keep Python from complaining, at its exit, that nobody reads its output any more."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _confess(error: Exception, *, debug: bool) -> None:
+    if debug:
+        say("".join(traceback.format_exception(error)).rstrip("\n"))
+    what = " ".join([type(error).__name__, *str(error).split()[:20]])
+    say(f"{what} (a defect of rightofway; please report it, with what `rightofway --debug …` says)")

@@ -1,8 +1,13 @@
-"""What all commands share: where words go, and the files they read."""
+"""What all commands share: where words go, the files they read, the files they will write."""
 
 from __future__ import annotations
 
+import io
 import json
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,7 +16,25 @@ if TYPE_CHECKING:
     from rightofway.io import Loaded
     from rightofway.model import Plan, Scenario
 
-__all__ = ["put", "put_json", "read_either", "read_plan", "read_scenario", "say"]
+__all__ = [
+    "put",
+    "put_json",
+    "read_either",
+    "read_plan",
+    "read_scenario",
+    "say",
+    "speak_utf8",
+    "width",
+    "writable",
+]
+
+
+def speak_utf8() -> None:
+    """Write UTF-8 as our files are, whatever the locale; a terminal gets what it can show."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            encoding = None if stream.isatty() else "utf-8"
+            stream.reconfigure(encoding=encoding, errors="backslashreplace")
 
 
 def say(message: str) -> None:
@@ -27,6 +50,11 @@ def put(text: str) -> None:
 def put_json(value: Any) -> None:
     """Give out a result for programs."""
     click.echo(json.dumps(value, indent=1, ensure_ascii=False))
+
+
+def width() -> int:
+    """Return the columns of the terminal, 80 where there is none."""
+    return shutil.get_terminal_size().columns
 
 
 def read_scenario(path: str) -> Scenario:
@@ -59,3 +87,32 @@ def _noted(loaded: Loaded, path: str) -> Scenario:
 
 def _source(path: str) -> str:
     return "/dev/stdin" if path == "-" else path
+
+
+def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], Any]:
+    """Return a callback that refuses, before any work, a file that could not be written after it.
+
+    Parameters
+    ----------
+    suffixes
+        What its name may end in; anything if there are none.
+    """
+
+    def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
+        is_file = path is not None and (path != "-" or bool(suffixes))
+        fault = _unwritable(Path(path or ""), suffixes) if is_file else None
+        if fault:
+            raise click.BadParameter(f"{path!r}: {fault}")
+        return path
+
+    return check
+
+
+def _unwritable(path: Path, suffixes: tuple[str, ...]) -> str | None:
+    if suffixes and path.suffix.lower() not in suffixes:
+        return f"the name says no known format (end it in {' or '.join(suffixes)})"
+    if path.is_dir():
+        return "this is a directory (give a file name in it)"
+    if not path.parent.is_dir():
+        return f"there is no directory {str(path.parent)!r} (make it first)"
+    return None
