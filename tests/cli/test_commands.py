@@ -120,7 +120,7 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", EXAMPLES / "door.yaml", "--planner", "twolevel"], "did you mean 'two-level'?"),
         (["plan", EXAMPLES / "door.yaml", "--option", "swap=leave"], "did you mean 'swaps'?"),
         (["plan", EXAMPLES / "door.yaml", "--option", "swaps"], "'swaps' is not name=value"),
-        (["plan", EXAMPLES / "door.yaml", "--time-limit", "0"], "0.0 is not in the range"),
+        (["plan", EXAMPLES / "door.yaml", "--time-limit", "0"], "0 is not positive (give"),
         (["plan", EXAMPLES / "door.yaml", "-o", "no/plan.json"], "there is no directory 'no'"),
         (["plan", EXAMPLES / "door.yaml", "--show", "no/page.html"], "no/page.html"),
         (["show", EXAMPLES / "door.yaml", "-o", "door.jpg"], "'door.jpg' is no .html, .png or"),

@@ -22,9 +22,9 @@ from rightofway.io import (
     scenario_of,
     schema,
 )
-from rightofway.io.documents import read_document
-from rightofway.io.json_text import parse_json
-from rightofway.io.yaml_text import parse_yaml
+from rightofway.io.text.documents import read_document
+from rightofway.io.text.json_text import parse_json
+from rightofway.io.text.yaml_text import parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]

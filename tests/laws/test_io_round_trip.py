@@ -17,7 +17,7 @@ from rightofway.io import (
     save_scenario,
     scenario_of,
 )
-from rightofway.io.exact import exact, written
+from rightofway.io.text.exact import exact, written
 from rightofway.model import (
     Decision,
     Edge,

@@ -17,8 +17,10 @@ __all__ = ["check"]
 
 @click.command(epilog="Example:  rightofway check plan.json")
 @click.argument("plan", type=click.Path())
+@click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
+              help="How many faults to list; all are counted.")  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
-def check(plan: str, as_json: bool) -> int:
+def check(plan: str, limit: int, as_json: bool) -> int:
     """Check a PLAN; exit code 1 if it breaks a rule.
 
     The judge shares no code with the planners. It looks for jumps, drives that are too fast, work
@@ -28,7 +30,7 @@ def check(plan: str, as_json: bool) -> int:
     from rightofway.check import check as judge
 
     found = read_plan(plan)
-    report = judge(found)
+    report = judge(found, limit=limit)
     if as_json:
         put_json(_data(found, report))
     elif report.ok:

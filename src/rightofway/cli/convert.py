@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import read_scenario, say
+from rightofway.cli.terminal import read_scenario, say, writable
 from rightofway.errors import InputError
+
+if TYPE_CHECKING:
+    from rightofway.model import Scenario
 
 __all__ = ["convert"]
 
@@ -21,25 +25,32 @@ Examples:
 
 @click.command(epilog=EXAMPLE)
 @click.argument("source", type=click.Path())
-@click.argument("target", type=click.Path())
+@click.argument("target", type=click.Path(), callback=writable(".yaml", ".yml", ".json", ".scen"))
 def convert(source: str, target: str) -> None:
     """Write the scenario SOURCE as TARGET: .yaml, .json, or .scen with its .map beside it.
 
     The map goes into a .yaml or .json, so that it needs no other file. What a .scen cannot say
     (speeds, work, turning, ways home) is named.
     """
-    from rightofway.io import save_scenario, write_map, write_scen
+    from rightofway.io import save_scenario
 
-    suffix = Path(target).suffix.lower()
-    if suffix not in {".yaml", ".yml", ".json", ".scen"}:
-        raise InputError.at("TARGET", f"{target!r} is no .yaml, .json or .scen (name one of them)")
     scenario = read_scenario(source)
-    if suffix != ".scen":
+    if Path(target).suffix.lower() == ".scen":
+        _write_pair(scenario, Path(target))
+    else:
         save_scenario(scenario, target)
         say(f"wrote {target}")
-        return
-    map_path = Path(target).with_suffix(".map")
-    for loss in write_scen(scenario, target, map_name=map_path.name):
-        say(loss)
+
+
+def _write_pair(scenario: Scenario, path: Path) -> None:
+    from rightofway.io import write_map, write_scen
+
+    map_path = path.with_suffix(".map")
+    try:
+        losses = write_scen(scenario, path, map_name=map_path.name)
+    except InputError as error:
+        raise InputError(error.problems, error.source or str(path)) from None
     write_map(scenario.roadmap, map_path)
-    say(f"wrote {target} and {map_path}")
+    for loss in losses:
+        say(f"{path}: {loss}")
+    say(f"wrote {path} and {map_path}")

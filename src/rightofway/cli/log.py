@@ -22,7 +22,7 @@ def decision_log(plan: Plan) -> str:
     names = names_of(plan)
     lines: list[str] = []
     for _, alike in groupby(enumerate(plan.run.decisions), _without_choice):
-        lines += _decisions(plan, [decision for _, decision in alike])
+        lines += _decisions(plan, names, [decision for _, decision in alike])
     for reroute in plan.run.reroutes:
         lines += wrapped(f"{names[reroute.robot]} was sent another way: {reroute.because}.")
     return "\n".join(lines or ["Nothing had to be decided: no two robots meet."])
@@ -35,10 +35,9 @@ def _without_choice(numbered: tuple[int, Decision]) -> tuple[int, ...]:
     return (-1, *one.robots, one.waits) if follows else (number,)
 
 
-def _decisions(plan: Plan, alike: list[Decision]) -> Iterator[str]:
+def _decisions(plan: Plan, names: list[str], alike: list[Decision]) -> Iterator[str]:
     one, *others = alike
-    names, place = names_of(plan), plan.scenario.roadmap.name
-    goes_first = names[_goes_first(one)]
+    place, goes_first = plan.scenario.roadmap.name, names[_goes_first(one)]
     yield from wrapped(
         f"tick {one.tick}, {_where(plan, one)}: {names[one.waits]} waits {ticks(one.ticks)} in"
         f" {place(one.waits_at)}, {goes_first} goes first."

@@ -67,7 +67,13 @@ for command in (plan, check, show, table, convert, schema):
 def main(args: Sequence[str] | None = None) -> NoReturn:
     """Run a command and end the process with its exit code."""
     speak_utf8()
-    sys.exit(run(args))
+    try:
+        code = run(args)
+    except BrokenPipeError:  # nobody reads our messages
+        code = UNREAD
+    if code == UNREAD:
+        _let_the_readers_go()
+    sys.exit(code)
 
 
 ENDINGS: dict[type[BaseException], tuple[int, str]] = {
@@ -93,8 +99,7 @@ def run(args: Sequence[str] | None = None) -> int:
         code, words = next(end for kind, end in ENDINGS.items() if isinstance(error, kind))
         say(words.format(error))
         return code
-    except BrokenPipeError:
-        _let_the_reader_go()
+    except SystemExit:  # so, and only so, click ends when nobody reads our results
         return UNREAD
     except OSError as error:
         say(f"{error.filename or 'standard output'}: {error.strerror or error} (check the path)")
@@ -104,13 +109,15 @@ def run(args: Sequence[str] | None = None) -> int:
         return DEFECT
 
 
-def _let_the_reader_go() -> None:
+def _let_the_readers_go() -> None:
     """Keep Python from complaining, at its exit, that nobody reads its output any more."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (1, 2):
+        os.dup2(nowhere, stream)
 
 
 def _confess(error: Exception, *, debug: bool) -> None:
     if debug:
         say("".join(traceback.format_exception(error)).rstrip("\n"))
-    what = " ".join([type(error).__name__, *str(error).split()[:20]])
-    say(f"{what} (a defect of rightofway; please report it, with what `rightofway --debug …` says)")
+    what = " ".join([f"{type(error).__name__}:", *str(error).split()])
+    say(f"unexpected {what} (please report it; `rightofway --debug …` says more)")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_scenario, say
+from rightofway.cli.terminal import put, put_json, read_scenario, say, width, writable
 from rightofway.planners import registered
 
 if TYPE_CHECKING:
@@ -15,20 +17,28 @@ if TYPE_CHECKING:
 
 __all__ = ["plan"]
 
-
-def _planners() -> str:
-    lines = ["\b", "Planners and their options:"]
-    for spec in registered().values():
-        lines.append(f"  {spec.name}")
-        lines += [f"    {option.name}={'|'.join(option.choices)}" for option in spec.options]
-    return "\n".join(lines)
-
-
 EXAMPLE = """\b
 Examples:
   rightofway plan examples/door.yaml --show door.html
   rightofway plan examples/warehouse.yaml -o plan.json --log
+  rightofway plan examples/door.yaml --planner two-level --option swaps=leave
 """
+
+
+class _PlanCommand(click.Command):
+    """A command whose help lists the planners that there are."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Planners and their options"):
+            formatter.write_dl(list(_planners()))
+        super().format_epilog(ctx, formatter)
+
+
+def _planners() -> Iterator[tuple[str, str]]:
+    for spec in registered().values():
+        yield spec.name, spec.summary
+        for option in spec.options:
+            yield f"  {option.name}={'|'.join(option.choices)}", option.summary
 
 
 def _options(
@@ -41,21 +51,28 @@ def _options(
     return {name: value for name, _, value in pairs}
 
 
-@click.command(epilog=f"{_planners()}\n\n{EXAMPLE}")
+def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+    if not given > 0:
+        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
+    return None if given == math.inf else given
+
+
+@click.command(cls=_PlanCommand, epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
-@click.option("-o", "--output", metavar="PLAN", help="Write the plan there; - for standard output.")
-@click.option("--planner", default="auto", show_default=True, help="Which planner to use.")
+@click.option("-o", "--output", metavar="PLAN", callback=writable(),
+              help="Write the plan there; - for standard output.")  # fmt: skip
+@click.option("--planner", default="auto", show_default=True, metavar="NAME",
+              help="Which planner to use.")  # fmt: skip
 @click.option(
     "--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
     help="Tell the planner something; may be repeated.",
 )  # fmt: skip
-@click.option(
-    "--time-limit", type=click.FloatRange(min=0, min_open=True), default=10, show_default=True,
-    metavar="SECONDS", help="When to stop.",
-)  # fmt: skip
+@click.option("--time-limit", type=float, default=10, show_default=True, callback=_seconds,
+              metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True,
-              help="For planners that draw at random.")  # fmt: skip
-@click.option("--show", "page", metavar="PAGE", help="Write a page that plays the plan (HTML).")
+              metavar="N", help="For planners that draw at random.")  # fmt: skip
+@click.option("--show", "page", metavar="PAGE", callback=writable(".html", ".htm"),
+              help="Write a page that plays the plan (HTML).")  # fmt: skip
 @click.option("--log", is_flag=True, help="Print every decision: who waits, where and why.")
 @click.option("--table", is_flag=True, help="Print the time/space table.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
@@ -65,16 +82,22 @@ def plan(
     output: str | None,
     planner: str,
     options: dict[str, str],
-    time_limit: float,
+    time_limit: float | None,
     seed: int,
     page: str | None,
     log: bool,
     table: bool,
     as_json: bool,
 ) -> int:
-    """Plan a SCENARIO (YAML, JSON or .scen) and check the plan."""
+    """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
+
+    Prints what the plan costs and who waits for whom. A SCENARIO of - is standard input.
+    """
     from rightofway.solve import solve
 
+    _refuse_two_results(output, log=log, table=table, as_json=as_json)
+    if output and output != "-" and Path(output).resolve() == Path(scenario).resolve():
+        raise click.UsageError(f"-o {output} would replace the scenario (give another name)")
     found = solve(
         read_scenario(scenario), planner,
         options=options, time_limit=time_limit, seed=seed, report=say,
@@ -83,6 +106,15 @@ def plan(
     if output != "-":
         _report(found, log=log, table=table, as_json=as_json)
     return _end(found)
+
+
+def _refuse_two_results(output: str | None, *, log: bool, table: bool, as_json: bool) -> None:
+    """Make sure that what programs read from standard output is one document."""
+    words = "--log" if log else "--table" if table else None
+    if output == "-" and (words or as_json):
+        raise click.UsageError(f"{words or '--json'} and -o - both go to standard output")
+    if as_json and words:
+        raise click.UsageError(f"{words} is for people, --json for programs: choose one")
 
 
 def _write(found: Plan, output: str | None, page: str | None) -> None:
@@ -101,7 +133,8 @@ def _write(found: Plan, output: str | None, page: str | None) -> None:
 
 
 def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
-    from rightofway.cli.words import decision_log, summary, summary_data
+    from rightofway.cli.log import decision_log
+    from rightofway.cli.summary import summary, summary_data
 
     if as_json:
         put_json(summary_data(found))
@@ -112,7 +145,7 @@ def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
     if table:
         from rightofway.viz.table import as_text, table_of
 
-        put("\n" + as_text(table_of(found)))
+        put("\n" + as_text(table_of(found), width()))
 
 
 def _end(found: Plan) -> int:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import read_either, say
-from rightofway.errors import InputError
+from rightofway.cli.terminal import read_either, say, writable
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -26,8 +25,10 @@ Examples:
 @click.command(epilog=EXAMPLE)
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO")
 @click.option("-o", "--output", required=True, metavar="FILE",
+              callback=writable(".html", ".png", ".gif"),
               help="Where; .html, .png or .gif says what.")  # fmt: skip
-@click.option("--tick", type=click.IntRange(0), help="The instant of a picture; at home without.")
+@click.option("--tick", type=click.IntRange(0), metavar="TICK",
+              help="The instant of a picture; at home without.")  # fmt: skip
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under a picture.")
 def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
     """Show a plan as a page that plays it, a picture or a film.
@@ -35,8 +36,8 @@ def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
     A scenario is planned first, as `rightofway plan` would.
     """
     suffix = Path(output).suffix.lower()
-    if suffix not in {".html", ".png", ".gif"}:
-        raise InputError.at("-o", f"{output!r} is no .html, .png or .gif (name one of them)")
+    if suffix != ".png" and (diagram or tick is not None):
+        raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
     found = _plan_of(plan)
     if suffix == ".html":
         from rightofway.viz import write_page

@@ -117,7 +117,7 @@ def _waits(plan: Plan, found: Sequence[Wait]) -> Iterator[str]:
     for group in longest[:MOST_LINES]:
         yield from wrapped(_wait(plan, group))
     if len(longest) > MOST_LINES:
-        yield f"… and {len(longest) - MOST_LINES} more"
+        yield f"… and {len(longest) - MOST_LINES} more (--json lists all)"
 
 
 def _wait(plan: Plan, group: list[Wait]) -> str:

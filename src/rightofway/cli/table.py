@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import put, read_plan, say
-from rightofway.errors import InputError
+from rightofway.cli.terminal import put, put_json, read_plan, say, width, writable
+
+if TYPE_CHECKING:
+    from rightofway.viz.table import TimeSpaceTable
 
 __all__ = ["table"]
 
@@ -20,24 +23,61 @@ Examples:
 
 @click.command(epilog=EXAMPLE)
 @click.argument("plan", type=click.Path())
-@click.option("-o", "--output", metavar="FILE", help="Write .csv or .xlsx instead of text.")
-@click.option("--from", "first", type=click.IntRange(0), default=0, help="First tick shown.")
-@click.option("--to", "last", type=click.IntRange(0), help="Last tick shown.")
+@click.option("-o", "--output", metavar="FILE", callback=writable(".csv", ".xlsx"),
+              help="Write .csv or .xlsx instead of text.")  # fmt: skip
+@click.option("--from", "first", type=click.IntRange(0), default=0, metavar="TICK",
+              help="First tick shown.")  # fmt: skip
+@click.option("--to", "last", type=click.IntRange(0), metavar="TICK", help="Last tick shown.")
 @click.option("--robots", metavar="NAMES", help="Only these robots, with commas between.")
-def table(plan: str, output: str | None, first: int, last: int | None, robots: str | None) -> None:
+@click.option("--json", "as_json", is_flag=True, help="Print the table as JSON.")
+def table(
+    *,
+    plan: str,
+    output: str | None,
+    first: int,
+    last: int | None,
+    robots: str | None,
+    as_json: bool,
+) -> None:
     """Show where each robot of a PLAN is at each tick.
 
     Planned rows are without any wait, collisions marked; final rows are as planned.
     """
-    from rightofway.viz.table import as_text, table_of, write_csv, write_xlsx
+    from rightofway.viz.table import as_text, table_of
 
-    writers = {".csv": write_csv, ".xlsx": write_xlsx}
-    if output and Path(output).suffix.lower() not in writers:
-        raise InputError.at("-o", f"{output!r} is no .csv or .xlsx (name one of them)")
     names = [name.strip() for name in robots.split(",")] if robots else None
     found = table_of(read_plan(plan), first_tick=first, last_tick=last, robots=names)
     if output:
-        writers[Path(output).suffix.lower()](found, output)
-        say(f"wrote {output}")
-    else:
-        put(as_text(found))
+        _write(found, output)
+    if as_json:
+        put_json(_data(found))
+    elif not output:
+        put(as_text(found, width()))
+
+
+def _write(found: TimeSpaceTable, path: str) -> None:
+    from rightofway.viz.table import write_csv, write_xlsx
+
+    writers = {".csv": write_csv, ".xlsx": write_xlsx}
+    writers[Path(path).suffix.lower()](found, path)
+    say(f"wrote {path}")
+
+
+def _data(found: TimeSpaceTable) -> dict[str, Any]:
+    """Return the table for programs: for each row its runs of equal cells."""
+    return {
+        "first_tick": found.first_tick,
+        "last_tick": found.last_tick,
+        "tick": str(found.tick),
+        "rows": [
+            {
+                "robot": row.robot,
+                "kind": row.kind,
+                "runs": [
+                    {"start": start, "end": end, "place": cell.place, "mark": cell.mark}
+                    for start, end, cell in row.runs
+                ],
+            }
+            for row in found.rows
+        ],
+    }

@@ -102,7 +102,7 @@ def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], 
         is_file = path is not None and (path != "-" or bool(suffixes))
         fault = _unwritable(Path(path or ""), suffixes) if is_file else None
         if fault:
-            raise click.BadParameter(f"{path!r}: {fault}")
+            raise click.BadParameter(f"{path!r} {fault}")
         return path
 
     return check
@@ -110,9 +110,10 @@ def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], 
 
 def _unwritable(path: Path, suffixes: tuple[str, ...]) -> str | None:
     if suffixes and path.suffix.lower() not in suffixes:
-        return f"the name says no known format (end it in {' or '.join(suffixes)})"
+        *others, last = suffixes
+        return f"is no {', '.join(others)} or {last} (name one of them)"
     if path.is_dir():
-        return "this is a directory (give a file name in it)"
+        return "is a directory (give a file name in it)"
     if not path.parent.is_dir():
-        return f"there is no directory {str(path.parent)!r} (make it first)"
+        return f"cannot be written: there is no directory {str(path.parent)!r} (make it first)"
     return None

@@ -4,10 +4,10 @@ Pydantic and PyYAML serve in here, at the border; both are imported when the fir
 """
 
 from rightofway.io.movingai import read_map, read_scen, write_map, write_scen
-from rightofway.io.plan_reader import load_plan, plan_of, read_either
-from rightofway.io.plan_writer import dump_plan, plan_text, save_plan
-from rightofway.io.scenario_reader import Loaded, load, read, scenario_of
-from rightofway.io.scenario_writer import dump_scenario, save_scenario
+from rightofway.io.plan.reader import load_plan, plan_of, read_either
+from rightofway.io.plan.writer import dump_plan, plan_text, save_plan
+from rightofway.io.scenario.reader import Loaded, load, read, scenario_of
+from rightofway.io.scenario.writer import dump_scenario, save_scenario
 from rightofway.io.schema import schema
 
 __all__ = [

@@ -19,8 +19,8 @@ from pydantic import (
     WithJsonSchema,
 )
 
-from rightofway.io import places
-from rightofway.io.exact import COORDINATE_DIGITS, DIGITS, PATTERN, exact
+from rightofway.io.scenario import places
+from rightofway.io.text.exact import COORDINATE_DIGITS, DIGITS, PATTERN, exact
 from rightofway.io.words import is_printable, shown
 
 __all__ = [

@@ -17,7 +17,7 @@ from pathlib import Path
 from rightofway.errors import InputError, Problem
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
-from rightofway.io.files import read_text
+from rightofway.io.text.files import read_text
 from rightofway.io.words import shown
 from rightofway.model import Grid, Roadmap, Scenario
 

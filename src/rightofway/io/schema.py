@@ -26,8 +26,8 @@ def schema(kind: Literal["scenario", "plan"]) -> dict[str, Any]:
     """
     from pydantic import BaseModel
 
-    from rightofway.io.plan_document import PlanDocument
-    from rightofway.io.scenario_document import ScenarioDocument
+    from rightofway.io.plan.shape import PlanDocument
+    from rightofway.io.scenario.shape import ScenarioDocument
 
     models: dict[str, type[BaseModel]] = {"scenario": ScenarioDocument, "plan": PlanDocument}
     if kind not in models:

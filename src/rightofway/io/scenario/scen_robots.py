@@ -11,15 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError
-from rightofway.io.draft import DEFAULT_SPEED, DEFAULT_WORK, Draft, laps_place
 from rightofway.io.faults import Faults, blaming, under
-from rightofway.io.maps import Ground, beside
 from rightofway.io.movingai import ScenRow, read_scen
-from rightofway.io.places import find_place
+from rightofway.io.scenario.draft import DEFAULT_SPEED, DEFAULT_WORK, Draft, laps_place
+from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.maps import beside
+from rightofway.io.scenario.places import find_place
 from rightofway.model import Robot, Stop, VertexId
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario_document import FleetDocument
+    from rightofway.io.scenario.shape import FleetDocument
 
 __all__ = ["Dealt", "dealt_fleet"]
 

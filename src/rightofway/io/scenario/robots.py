@@ -8,16 +8,16 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rightofway.io.dealt import dealt_fleet
-from rightofway.io.draft import DEFAULT_SPEED, Draft, laps_place
 from rightofway.io.faults import Faults, checked
-from rightofway.io.maps import Ground
-from rightofway.io.places import as_place, find_place
+from rightofway.io.scenario.draft import DEFAULT_SPEED, Draft, laps_place
+from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.places import as_place, find_place
+from rightofway.io.scenario.scen_robots import dealt_fleet
 from rightofway.io.words import shown
 from rightofway.model import Robot, Stop
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario_document import RobotDocument
+    from rightofway.io.scenario.shape import RobotDocument
 
 __all__ = ["Fleet", "fleet_of"]
 
@@ -34,7 +34,7 @@ class Fleet(Protocol):
 
 def fleet_of(data: Any, base: Path | None, faults: Faults) -> Fleet | None:
     """Return the fleet of a document's ``robots``, or None after noting its faults."""
-    from rightofway.io.scenario_document import FleetDocument, RobotDocument
+    from rightofway.io.scenario.shape import FleetDocument, RobotDocument
 
     if isinstance(data, dict):
         document = faults.attempt("robots", checked, FleetDocument, data)

@@ -3,53 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError
-from rightofway.io.drawn import drawn_roadmap
 from rightofway.io.faults import under
 from rightofway.io.movingai import read_map
+from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.roadmaps import drawn_roadmap
 from rightofway.io.words import shown
-from rightofway.model import Floor, Obstacle, Roadmap, cluster, node_length, roadmap_of_grid
+from rightofway.model import Floor, Obstacle, cluster, node_length, roadmap_of_grid
 from rightofway.model.clustering import MAX_CELLS
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario_document import FloorDocument, MapDocument
+    from rightofway.io.scenario.shape import FloorDocument, MapDocument
 
-__all__ = ["Ground", "beside", "ground_of"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ground:
-    """A roadmap and what only its document knows.
-
-    Attributes
-    ----------
-    roadmap
-        What robots drive on.
-    lines
-        The rows of a grid as they were written; empty on other roadmaps.
-    floor
-        The floor that the grid was cut from, if any.
-    file
-        The file it was read from, if any.
-    """
-
-    roadmap: Roadmap
-    lines: tuple[str, ...] = ()
-    floor: Floor | None = None
-    file: Path | None = None
-
-    def notes(self) -> tuple[str, ...]:
-        """Return sentences on what was made of the document."""
-        grid = self.roadmap.grid
-        if self.floor is None or grid is None:
-            return ()
-        cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        return (f"floor cut into {cells} cells of {grid.cell_size}",)
+__all__ = ["beside", "ground_of"]
 
 
 def ground_of(

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.files import read_text
-from rightofway.io.json_text import parse_json
-from rightofway.io.yaml_text import parse_yaml
+from rightofway.io.text.files import read_text
+from rightofway.io.text.json_text import parse_json
+from rightofway.io.text.yaml_text import parse_yaml
 
 __all__ = ["read_document"]
 

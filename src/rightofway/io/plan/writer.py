@@ -7,10 +7,10 @@ from typing import Any
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
-from rightofway.io.exact import written
 from rightofway.io.formats import PLAN_FORMAT
-from rightofway.io.layout import json_text
-from rightofway.io.scenario_writer import dump_scenario
+from rightofway.io.scenario.writer import dump_scenario
+from rightofway.io.text.exact import written
+from rightofway.io.text.json_layout import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario
 
 __all__ = ["dump_plan", "plan_text", "save_plan"]

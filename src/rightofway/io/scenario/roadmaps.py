@@ -8,13 +8,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError
-from rightofway.io.exact import DIGITS
 from rightofway.io.faults import Faults
+from rightofway.io.text.exact import DIGITS
 from rightofway.io.words import nearest
 from rightofway.model import Edge, Roadmap, roadmap_of_edges
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario_document import EdgeDocument, RoadmapDocument
+    from rightofway.io.scenario.shape import EdgeDocument, RoadmapDocument
 
 __all__ = ["drawn_roadmap", "straight_length"]
 

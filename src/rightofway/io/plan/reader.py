@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError
-from rightofway.io.documents import read_document
 from rightofway.io.faults import Faults, blaming, checked, checked_format, under
 from rightofway.io.formats import PLAN_FORMAT
-from rightofway.io.names import Names
-from rightofway.io.scenario_reader import Loaded, read, read_scenario
+from rightofway.io.plan.names import Names
+from rightofway.io.scenario.reader import Loaded, read, read_scenario
+from rightofway.io.text.documents import read_document
 from rightofway.io.words import shown
 from rightofway.model import Decision, Plan, PlannerRun, Reroute, Scenario, Tick, Track, VertexId
 
 if TYPE_CHECKING:
-    from rightofway.io.plan_document import DecisionDocument, RerouteDocument, TrackDocument
+    from rightofway.io.plan.shape import DecisionDocument, RerouteDocument, TrackDocument
 
 __all__ = ["load_plan", "plan_of", "read_either"]
 
@@ -74,7 +74,7 @@ def plan_of(document: Any, source: str = "") -> Plan:
 
 
 def _read(document: dict[str, Any]) -> Plan:
-    from rightofway.io.plan_document import PlanFrame
+    from rightofway.io.plan.shape import PlanFrame
 
     faults = Faults()
     frame = faults.attempt("", checked, PlanFrame, document)
@@ -100,7 +100,7 @@ def _check_tick(tick: Fraction, scenario: Scenario) -> None:
 
 def _tracks(data: Any, names: Names | None) -> tuple[Track, ...]:
     """Return the tracks in the scenario's order; without names, only look for faults of shape."""
-    from rightofway.io.plan_document import TrackDocument
+    from rightofway.io.plan.shape import TrackDocument
 
     if not isinstance(data, list):
         raise InputError.at("", f"{shown(data)} is not a list (give one track for each robot)")
@@ -135,7 +135,7 @@ def _vertices(written: list[str], names: Names) -> list[VertexId]:
 
 def _run(data: Any, names: Names | None) -> PlannerRun | None:
     """Return how the plan came about; without names, only look for faults of shape."""
-    from rightofway.io.plan_document import PlannerDocument
+    from rightofway.io.plan.shape import PlannerDocument
 
     document = checked(PlannerDocument, data)
     if names is None:

@@ -7,7 +7,7 @@ from numbers import Integral
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.io.maps import Ground
+from rightofway.io.scenario.ground import Ground
 from rightofway.io.words import is_printable, nearest, shown
 from rightofway.model import Floor, Grid, Roadmap, VertexId
 

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Problem
-from rightofway.io.classic import classic_document, classic_problem
-from rightofway.io.documents import read_document
-from rightofway.io.draft import Draft
 from rightofway.io.faults import Faults, blaming, checked, checked_format
-from rightofway.io.fleet import fleet_of
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.maps import Ground, ground_of
+from rightofway.io.scenario.classic import classic_document, classic_problem
+from rightofway.io.scenario.draft import Draft
+from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.maps import ground_of
+from rightofway.io.scenario.robots import fleet_of
+from rightofway.io.text.documents import read_document
 from rightofway.io.words import shown
 from rightofway.model import Robot, Rules, Scenario
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -105,7 +106,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
 
 def read_scenario(document: Any, base: Path | None) -> Loaded:
     """Return a scenario and notes on it: the work behind `read` and `scenario_of`."""
-    from rightofway.io.scenario_document import ScenarioFrame
+    from rightofway.io.scenario.shape import ScenarioFrame
 
     document = checked_format(document, SCENARIO_FORMAT)
     faults = Faults()
@@ -123,14 +124,14 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
 
 
 def _rules(data: Any) -> Rules:
-    from rightofway.io.scenario_document import RulesDocument
+    from rightofway.io.scenario.shape import RulesDocument
 
     document = checked(RulesDocument, data)
     return Rules(**document.given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
 
 
 def _ground(data: Any, speeds: Sequence[Fraction] | None, base: Path | None) -> Ground | None:
-    from rightofway.io.scenario_document import MapDocument
+    from rightofway.io.scenario.shape import MapDocument
 
     return ground_of(checked(MapDocument, data), speeds, base)
 

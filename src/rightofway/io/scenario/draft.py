@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rightofway.model import Robot, Stop
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario_document import TripDocument
+    from rightofway.io.scenario.shape import TripDocument
 
 __all__ = ["DEFAULT_SPEED", "DEFAULT_WORK", "Draft", "laps_place"]
 

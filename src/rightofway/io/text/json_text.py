@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from rightofway.errors import InputError, Problem
-from rightofway.io.exact import decimal, whole
+from rightofway.io.text.exact import decimal, whole
 from rightofway.io.words import place_of, shown
 
 __all__ = ["MAX_DEPTH", "parse_json"]

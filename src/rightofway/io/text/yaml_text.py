@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.exact import decimal, whole
-from rightofway.io.json_text import MAX_DEPTH
+from rightofway.io.text.exact import decimal, whole
+from rightofway.io.text.json_text import MAX_DEPTH
 from rightofway.io.words import shown
 
 __all__ = ["MAX_ALIASED", "parse_yaml"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rightofway.errors import InputError
-from rightofway.io.maps import Ground
-from rightofway.io.places import find_place
+from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.places import find_place
 from rightofway.io.words import nearest, shown
 from rightofway.model import Scenario, VertexId
 

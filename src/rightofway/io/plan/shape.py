@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from rightofway.io.fields import Document, Name, NotNegative, TickLength, Ticks, Words
-from rightofway.io.scenario_document import ScenarioDocument
+from rightofway.io.scenario.shape import ScenarioDocument
 
 __all__ = [
     "DecisionDocument",

@@ -1,0 +1,1 @@
+"""Plan documents: their shape, read and written."""

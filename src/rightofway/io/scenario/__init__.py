@@ -1,0 +1,1 @@
+"""Scenario documents: their shape, read and written."""

@@ -1,0 +1,1 @@
+"""Text to plain data and back: files, YAML, JSON, exact numbers."""
