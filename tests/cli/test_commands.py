@@ -8,7 +8,7 @@ import os
 import signal
 import subprocess
 import sys
-import time
+import threading
 from pathlib import Path
 
 import pytest
@@ -198,27 +198,21 @@ def test_a_reader_that_goes_away_is_no_error() -> None:
     assert (ended.stdout, ended.stderr) == (b"{\n", b"")
 
 
-def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
+def test_an_interrupt_ends_with_130_and_one_line(cli: Cli) -> None:
     """Many robots that all want to get past each other keep the planner busy for long."""
-    side = 100
-    rows = "\n".join(f"    {'.' * side}" for _ in range(side))
+    rows = "\n".join(["    " + "." * 100] * 100)
     robots = "\n".join(
         f"  - {{name: R{k}, home: [{k % 10}, {k // 10}], target: [{99 - k // 10}, {k // 10}]}}"
         for k in range(1000)
     )
-    path = tmp_path / "many.yaml"
-    path.write_text(
+    Path("many.yaml").write_text(
         f"format: rightofway-scenario/1\nmap:\n  grid: |\n{rows}\nrobots:\n{robots}\n",
         encoding="utf-8",
     )
-    process = subprocess.Popen(
-        [sys.executable, "-m", "rightofway", "plan", str(path), "--time-limit", "300"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-    )  # fmt: skip
-    time.sleep(5)
-    os.kill(process.pid, signal.SIGINT)
-    out, err = process.communicate(timeout=20)
-    assert (process.returncode, out, err.strip()) == (130, b"", b"interrupted")
+    threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+    ended = cli("plan", "many.yaml", "-o", "plan.json", "--time-limit", "300")
+    assert (ended.code, ended.out, ended.err.strip()) == (130, "", "interrupted")
+    assert not Path("plan.json").exists()
 
 
 @pytest.mark.parametrize("name", sorted(commands.commands))
