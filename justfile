@@ -52,3 +52,8 @@ docs:
 develop:
     pip install scikit-build-core nanobind
     pip install --no-build-isolation -e '.[dev,docs]'
+
+# Measure: planners, kernels, start-up (see benchmarks/README.md)
+bench:
+    pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
+    benchmarks/start_up.sh

@@ -1,0 +1,68 @@
+"""How long the native kernels take on one fleet of 200 robots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from rightofway.model import Scenario
+from rightofway.planners.joint import timetable_of
+from rightofway.planners.routing import shortest_routes
+from rightofway.precedence import PrecedenceGraph
+from rightofway.search import Bookings, Distances, earliest_track, joint_steps
+
+ROBOTS = 200
+
+
+@pytest.fixture
+def scenario(fleet: Callable[[int], Scenario]) -> Scenario:
+    return fleet(ROBOTS)
+
+
+def graph_of_routes(scenario: Scenario) -> PrecedenceGraph:
+    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    return PrecedenceGraph(routes, headway=scenario.timing.headway, books_ahead=False)
+
+
+def test_distance_table(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
+    itinerary = scenario.timing.itineraries[0]
+    benchmark(lambda: Distances(scenario.roadmap).to(itinerary.last, itinerary.edge_ticks))
+
+
+def test_count_all_conflicts(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
+    benchmark(lambda: graph_of_routes(scenario).conflicts_left())
+
+
+def test_give_and_take_back_a_right_of_way(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
+    graph = graph_of_routes(scenario)
+    meeting = graph.next_meeting()
+    assert meeting is not None
+
+    def give_and_take_back() -> None:
+        mark = graph.checkpoint()
+        graph.give_way(first, second)
+        graph.rollback(mark)
+
+    first, second = meeting.visits
+    if not graph.give_way(first, second):
+        first, second = second, first
+    graph.rollback(0)
+    benchmark(give_and_take_back)
+
+
+def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
+    distances = Distances(scenario.roadmap)
+    bookings = Bookings(scenario.roadmap, headway=scenario.timing.headway, books_ahead=False)
+    *others, one = scenario.timing.itineraries
+    for robot, itinerary in enumerate(others):
+        track = earliest_track(itinerary, bookings, distances)
+        if track is not None:
+            bookings.add(robot, track, itinerary)
+    benchmark(earliest_track, one, bookings, distances)
+
+
+def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
+    distances = Distances(scenario.roadmap)
+    benchmark(lambda: timetable_of(scenario, joint_steps(scenario, distances)))
