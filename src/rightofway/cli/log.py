@@ -45,8 +45,9 @@ def _decisions(plan: Plan, names: list[str], alike: list[Decision]) -> Iterator[
     yield from wrapped(_reason(one, names), INDENT)
     if others:
         last = others[-1]
-        reach = f"until tick {last.tick}, {place(last.vertices[0])}"
-        yield from wrapped(f"the same {len(others)} times more, {reach}.", INDENT)
+        often = "once" if len(others) == 1 else f"{len(others)} times"
+        until = f"the last at tick {last.tick}, {place(last.vertices[0])}"
+        yield from wrapped(f"the same {often} more, {until}.", INDENT)
 
 
 def _goes_first(one: Decision) -> int:

@@ -1,0 +1,87 @@
+"""The command as a process: its streams, how it ends, what it imports."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Cli
+
+
+def test_standard_input_is_read_for_a_dash(door: Path) -> None:
+    with door.open("rb") as file:
+        ended = subprocess.run(
+            [sys.executable, "-m", "rightofway", "plan", "-", "-o", "-"],
+            stdin=file, capture_output=True, check=True,
+        )  # fmt: skip
+    assert json.loads(ended.stdout)["metrics"]["flowtime"] == 19
+
+
+def test_a_reader_that_goes_away_ends_it_without_a_word() -> None:
+    """141 is what a shell makes of SIGPIPE; the pipe here has lost its reader from the start."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-m", "rightofway", "schema", "plan"]
+    ended = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, check=False)
+    os.close(writer)
+    assert (ended.returncode, ended.stderr) == (141, b"")
+
+
+def test_results_are_utf8_whatever_the_locale(tmp_path: Path, door: Path) -> None:
+    path = tmp_path / "door.yaml"
+    path.write_text(door.read_text(encoding="utf-8").replace("R1", "Zoë→"), encoding="utf-8")
+    ended = subprocess.run(
+        [sys.executable, "-m", "rightofway", "plan", str(path)],
+        env={**os.environ, "PYTHONIOENCODING": "latin-1"}, capture_output=True, check=True,
+    )  # fmt: skip
+    assert "Zoë→ waits 1 tick in N0" in ended.stdout.decode("utf-8")
+
+
+@pytest.mark.parametrize("debug", [False, True])
+def test_a_defect_ends_with_70_and_one_line_unless_asked_for_more(
+    cli: Cli, door: Path, monkeypatch: pytest.MonkeyPatch, debug: bool
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ValueError("two\nlines")
+
+    monkeypatch.setattr(sys.modules["rightofway.solve"], "solve", fail)
+    ended = cli(*["--debug"] * debug, "plan", door, "-o", "plan.json")
+    *trace, line = ended.err.splitlines()
+    assert ended.code == 70
+    assert line.startswith("unexpected ValueError: two lines (please report it")
+    assert bool(trace) == ("Traceback (most recent call last):" in trace) == debug
+    assert not Path("plan.json").exists()
+
+
+def test_an_interrupt_ends_with_130_and_one_line(cli: Cli) -> None:
+    """Many robots that all want to get past each other keep the planner busy for long."""
+    rows = "\n".join(["    " + "." * 100] * 100)
+    robots = "\n".join(
+        f"  - {{name: R{k}, home: [{k % 10}, {k // 10}], target: [{99 - k // 10}, {k // 10}]}}"
+        for k in range(1000)
+    )
+    Path("many.yaml").write_text(
+        f"format: rightofway-scenario/1\nmap:\n  grid: |\n{rows}\nrobots:\n{robots}\n",
+        encoding="utf-8",
+    )
+    threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+    ended = cli("plan", "many.yaml", "-o", "plan.json", "--time-limit", "300")
+    assert (ended.code, ended.out, ended.err.strip()) == (130, "", "interrupted")
+    assert not Path("plan.json").exists()
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = (
+        "import sys; from rightofway.cli.main import run; run(['plan', '--help']);"
+        "print(sorted({'pydantic', 'yaml', 'rich', 'PIL', 'openpyxl', 'rightofway._core'}"
+        " & set(sys.modules)), file=sys.stderr)"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert ended.stderr.strip() == "[]"
