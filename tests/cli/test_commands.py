@@ -159,7 +159,7 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"], "--tick and --diagram are for"),
         (["plan", EXAMPLES / "door.yaml", "--show", "no/page.html"], "no/page.html"),
         (["show", EXAMPLES / "door.yaml", "-o", "door.jpg"], "'door.jpg' is no .html, .png or"),
-        (["table", EXAMPLES / "door.yaml"], "is not known here"),
+        (["table", EXAMPLES / "door.yaml"], "is a scenario, not a plan (plan it first)"),
         (["schema", "robot"], "'robot' is not one of"),
         (["plot"], "No such command 'plot'"),
     ],

@@ -80,8 +80,23 @@ def test_an_interrupt_ends_with_130_and_one_line(cli: Cli) -> None:
 def test_help_imports_nothing_heavy() -> None:
     code = (
         "import sys; from rightofway.cli.main import run; run(['plan', '--help']);"
-        "print(sorted({'pydantic', 'yaml', 'rich', 'PIL', 'openpyxl', 'rightofway._core'}"
+        "print(sorted({'pydantic', 'yaml', 'PIL', 'openpyxl', 'rightofway._core'}"
         " & set(sys.modules)), file=sys.stderr)"
     )
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
     assert ended.stderr.strip() == "[]"
+
+
+def test_a_scenario_from_standard_input_finds_its_map_in_the_working_directory(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "hall.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n", "utf-8")
+    scenario = (
+        "format: rightofway-scenario/1\nmap: {file: hall.map}\n"
+        "robots: [{name: R1, home: N0, target: N2}]\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-m", "rightofway", "plan", "-", "-o", "-"],
+        input=scenario.encode(), capture_output=True, check=True, cwd=tmp_path,
+    )  # fmt: skip
+    assert json.loads(ended.stdout)["metrics"]["flowtime"] == 5  # 2 out, 1 to turn, 2 back

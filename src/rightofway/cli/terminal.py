@@ -61,21 +61,21 @@ def read_scenario(path: str) -> Scenario:
     """Read a scenario and pass on what its reader has to say; ``-`` is standard input."""
     from rightofway.io import read
 
-    return _noted(read(_source(path)), path)
+    return _noted(read(path), path)
 
 
 def read_plan(path: str) -> Plan:
     """Read a plan; ``-`` is standard input."""
     from rightofway.io import load_plan
 
-    return load_plan(_source(path))
+    return load_plan(path)
 
 
 def read_either(path: str) -> Plan | Scenario:
     """Read a plan or a scenario, whichever it is; ``-`` is standard input."""
     from rightofway.io import Loaded, read_either
 
-    found = read_either(_source(path))
+    found = read_either(path)
     return _noted(found, path) if isinstance(found, Loaded) else found
 
 
@@ -83,10 +83,6 @@ def _noted(loaded: Loaded, path: str) -> Scenario:
     for note in loaded.notes:
         say(f"{path}: {note}")
     return loaded.scenario
-
-
-def _source(path: str) -> str:
-    return "/dev/stdin" if path == "-" else path
 
 
 def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], Any]:

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from rightofway.errors import InputError, Problem
+from rightofway.io.formats import PLAN_FORMAT, SCENARIO_FORMAT
 from rightofway.io.words import nearest, place_of, shown
 
 if TYPE_CHECKING:
@@ -106,10 +107,18 @@ def checked_format(document: Any, known: str) -> dict[str, Any]:
         raise InputError.at("", f"{found} (begin with format: {known})")
     if "format" not in document:
         raise InputError.at("format", f"is missing (put format: {known} at the top)")
-    if document["format"] != known:
-        found = shown(document["format"])
-        raise InputError.at("format", f"{found} is not known here (give {known}, or update)")
+    found = document["format"]
+    if found != known:
+        raise InputError.at("format", f"{shown(found)} is {_not_wanted(found, known)}")
     return document
+
+
+def _not_wanted(found: object, known: str) -> str:
+    if found == PLAN_FORMAT:
+        return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
+    if found == SCENARIO_FORMAT:
+        return "a scenario, not a plan (plan it first)"
+    return f"not known here (give {known}, or update)"
 
 
 def checked(model: type[M], data: Any) -> M:

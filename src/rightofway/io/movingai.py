@@ -199,7 +199,10 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     """
     grid = _grid_of(scenario.roadmap)
     problems = [
-        Problem(f"robots[{index}].stops", f"{len(robot.stops)} stops, a .scen row has one goal")
+        Problem(
+            f"robots[{index}].stops",
+            f"{len(robot.stops)} stops, a .scen row has one goal (leave one, or write .yaml)",
+        )
         for index, robot in enumerate(scenario.robots)
         if len(robot.stops) > 1
     ]

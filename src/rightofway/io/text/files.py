@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 from rightofway.errors import InputError
@@ -15,7 +16,7 @@ _BYTE_ORDER_MARKS = {b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16"}
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file, UTF-8 with any kind of line end.
+    """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input.
 
     Raises
     ------
@@ -24,8 +25,7 @@ def read_text(path: Path) -> str:
     """
     source = str(path)
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        data = _read(path, MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         raise InputError.at("", _why_unreadable(error), source) from None
     if not data.strip():
@@ -34,6 +34,13 @@ def read_text(path: Path) -> str:
         message = f"the file is longer than {MAX_BYTES} bytes (is it the right one?)"
         raise InputError.at("", message, source)
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _read(path: Path, size: int) -> bytes:
+    if str(path) == "-":
+        return sys.stdin.buffer.read(size)
+    with path.open("rb") as file:
+        return file.read(size)
 
 
 def _why_unreadable(error: Exception) -> str:
