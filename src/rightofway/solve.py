@@ -17,10 +17,10 @@ __all__ = ["solve"]
 def solve(
     scenario: Scenario,
     planner: str = "auto",
-    *,
-    options: Mapping[str, Any] | None = None,
     time_limit: float | None = 10,
     seed: int = 0,
+    *,
+    options: Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
@@ -31,12 +31,12 @@ def solve(
         The problem.
     planner
         Name of a planner; ``auto`` chooses.
-    options
-        What the planner is told; see its page.
     time_limit
         When to stop [s]; None for no limit.
     seed
         For planners that draw at random. The same input and seed give the same plan.
+    options
+        What the planner is told; see its page.
     report
         Takes sentences on the progress.
 
