@@ -31,9 +31,9 @@ test *args:
 
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:
-    cmake -S . -B build/native -DCMAKE_BUILD_TYPE=Debug -DRIGHTOFWAY_TESTS=ON -DRIGHTOFWAY_SANITIZE=ON -DRIGHTOFWAY_WERROR=ON
-    cmake --build build/native -j
-    ctest --test-dir build/native --output-on-failure
+    cmake --preset sanitize
+    cmake --build --preset sanitize --parallel
+    ctest --preset sanitize
 
 # Write the stub of the native core anew, from the installed module
 stub:

@@ -71,8 +71,13 @@ def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
         f"format: rightofway-scenario/1\nmap:\n  grid: |\n{rows}\nrobots:\n{robots}\n",
         encoding="utf-8",
     )
-    # Python itself would answer an interrupt while it still imports the package.
-    code = "import sys; from rightofway.cli.main import run; print(); sys.exit(run(sys.argv[1:]))"
+    # Python itself would answer an interrupt while it still imports the package; and whoever runs
+    # the tests in the background has interrupts ignored, which children inherit.
+    code = (
+        "import signal, sys; from rightofway.cli.main import run;"
+        "signal.signal(signal.SIGINT, signal.default_int_handler);"
+        "print(); sys.exit(run(sys.argv[1:]))"
+    )
     process = subprocess.Popen(
         [sys.executable, "-uc", code, "plan", "many.yaml", "-o", "plan.json"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path, text=True,

@@ -110,6 +110,16 @@ def test_where_one_robot_at_a_time_finds_no_way_all_are_planned_together() -> No
     assert plan.run.status == "re-routed all robots together"
 
 
+def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    def too_slow(*_: object) -> None:
+        raise GaveUp("time ran out")
+
+    monkeypatch.setattr("rightofway.planners.two_level.reroute", too_slow)
+    plan = rightofway.solve(paper_scenario(CASES["door-5"]))
+    assert plan.run.status == "re-routed all robots together"
+    assert plan.run.reroutes[0].because == "time was short, so all were planned together"
+
+
 @pytest.mark.parametrize("occupancy", ["one", "both"])
 def test_where_there_is_no_plan_that_is_proven(occupancy: Any) -> None:
     """A corridor without a bay: nobody can pass."""

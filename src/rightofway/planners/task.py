@@ -24,6 +24,11 @@ class Deadline:
         """Return the deadline that many seconds from now."""
         return cls(None if seconds is None else time.monotonic() + seconds)
 
+    def sooner(self, share: float) -> Deadline:
+        """Return the deadline of a part of the time that is left."""
+        left = self.seconds_left()
+        return self if left is None else Deadline.after(share * left)
+
     def seconds_left(self) -> float | None:
         """Return how long it is until then [s], never negative; None for no limit."""
         return None if self.at is None else max(self.at - time.monotonic(), 0.0)

@@ -18,9 +18,10 @@ Notes
 -----
 Deterministic. Rights of way once given are kept, so the method ends: it has decided every meeting,
 or it has found one that no waiting can open (a deadlock). Then one of the two robots is set aside
-and, when all others have their times, sent another way (`rerouting`). Where that does not work out
-the whole fleet is planned together (`joint`), so with ``swaps="resolve"`` the planner is complete:
-given time it finds a plan or proves that there is none. It is not optimal.
+and, when all others have their times, sent another way (`rerouting`). Where that does not work
+out, or takes more than its share of the time, the whole fleet is planned together (`joint`). So
+with ``swaps="resolve"`` the planner is complete: given time it finds a plan or proves that there
+is none. It is not optimal.
 """
 
 from __future__ import annotations
@@ -39,6 +40,9 @@ from rightofway.precedence import Meeting, PrecedenceGraph, Segment, graph_of, h
 from rightofway.search import Distances
 
 __all__ = ["two_level"]
+
+SHARE = 0.8
+"""The part of the time that the method of the paper gets; the rest is for planning all together."""
 
 Level = Literal["node", "robot", "only", "settled"]
 
@@ -80,12 +84,23 @@ def two_level(task: Task) -> Draft:
         If time ran out; with ``swaps="leave"`` also where the published method is stuck.
     """
     distances = Distances(task.scenario.roadmap)
+    if task.options["swaps"] == "leave":
+        return _one_by_one(task, distances)
+    try:
+        return _one_by_one(replace(task, deadline=task.deadline.sooner(SHARE)), distances)
+    except GaveUp:
+        return _all_together(task, distances, "time was short, so all were planned together")
+
+
+def _one_by_one(task: Task, distances: Distances) -> Draft:
+    """Give rights of way on the shortest routes, then re-route whom no waiting helps."""
     fleet = _Fleet(task, shortest_routes(task.scenario, distances))
     fleet.settle_all()
     tracks = {r: t for r, t in enumerate(fleet.graph.tracks()) if r not in fleet.aside}
     rerouted = reroute(task, distances, tracks, list(fleet.aside))
     if rerouted is None:
-        return _all_together(task, distances)
+        because = "one robot at a time finds no way, so all were planned together"
+        return _all_together(task, distances, because)
     ordered = [track for _, track in sorted(tracks.items())]
     if rerouted:  # whoever waited for a robot that goes another way need not wait any more
         ordered = graph_of(task.scenario, ordered).tracks()
@@ -101,9 +116,8 @@ def two_level(task: Task) -> Draft:
     )
 
 
-def _all_together(task: Task, distances: Distances) -> Draft:
-    """Plan the whole fleet anew, where one robot at a time was not enough."""
-    because = "one robot at a time finds no way, so all were planned together"
+def _all_together(task: Task, distances: Distances, because: str) -> Draft:
+    """Plan the whole fleet anew."""
     return Draft(
         tracks=tuple(plan_jointly(task, distances)),
         status="re-routed all robots together",
