@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 
 import pytest
 
-from rightofway.model import Rules, Scenario
+from rightofway.model import Scenario
 from tests.fleets import random_fleet
 
 
@@ -16,7 +15,6 @@ def fleet() -> Callable[[int], Scenario]:
     """Return a function that makes a random fleet of so many robots on a 64 x 64 grid."""
 
     def make(robots: int) -> Scenario:
-        rules = Rules(headway=Fraction(0))
-        return random_fleet(1, size=64, robots=robots, walls=0.1, rules=rules)
+        return random_fleet(1, size=64, robots=robots, walls=0.1)
 
     return make

@@ -41,3 +41,8 @@ class Rules:
     ends: TripEnd = "home"
     laps: int = 1
     rotations: bool = True
+
+    @property
+    def books_ahead(self) -> bool:
+        """Whether a robot books a vertex from when it starts to drive there."""
+        return self.occupancy == "both"

@@ -50,7 +50,7 @@ def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
             for robot, arrival in enumerate(arrivals)
         ],
         headway=planning_headway(scenario),
-        books_ahead=scenario.rules.occupancy == "both",
+        books_ahead=scenario.rules.books_ahead,
     )
     graph.keep_order(arrivals)
     return graph.tracks()

@@ -32,7 +32,7 @@ class _Floor:
         self.bookings = Bookings(
             scenario.roadmap,
             headway=planning_headway(scenario),
-            books_ahead=scenario.rules.occupancy == "both",
+            books_ahead=scenario.rules.books_ahead,
         )
         for robot, track in tracks.items():
             self.bookings.add(robot, track, self.itineraries[robot])

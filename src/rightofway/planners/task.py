@@ -42,7 +42,7 @@ class Deadline:
             Saying what the planner was doing.
         """
         if self.at is not None and time.monotonic() > self.at:
-            raise GaveUp(f"time ran out while {doing} (give a longer --time-limit)")
+            raise GaveUp(f"time ran out while {doing} (give a longer time limit)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

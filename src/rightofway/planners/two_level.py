@@ -140,7 +140,7 @@ class _Fleet:
         self.graph = PrecedenceGraph(
             routes,
             headway=planning_headway(task.scenario),
-            books_ahead=task.scenario.rules.occupancy == "both",
+            books_ahead=task.scenario.rules.books_ahead,
             forbid_swaps=self.by_segment,
         )
 

@@ -216,7 +216,7 @@ def graph_of(scenario: Scenario, tracks: Sequence[Track]) -> PrecedenceGraph:
             for itinerary, track in zip(itineraries, tracks, strict=True)
         ],
         headway=scenario.timing.headway,
-        books_ahead=scenario.rules.occupancy == "both",
+        books_ahead=scenario.rules.books_ahead,
     )
     graph.keep_order([track.enter.tolist() for track in tracks])
     return graph

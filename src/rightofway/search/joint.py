@@ -75,11 +75,11 @@ def joint_steps(
     if end == PROVEN_NONE:
         raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")
     if end != FOUND:
-        raise GaveUp("time ran out in the search for the whole fleet (give a longer --time-limit)")
+        raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     return steps
 
 
 def _may_rotate(scenario: Scenario) -> bool:
     """Tell whether robots may all move round a circle, each booking what another leaves then."""
     rules = scenario.rules
-    return rules.rotations and rules.occupancy == "one" and rules.headway == 0
+    return rules.rotations and not rules.books_ahead and rules.headway == 0

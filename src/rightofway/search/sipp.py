@@ -70,5 +70,5 @@ def earliest_track(
         time_limit,
     )
     if end == STOPPED:
-        raise GaveUp("time ran out in the search for one robot (give a longer --time-limit)")
+        raise GaveUp("time ran out in the search for one robot (give a longer time limit)")
     return Track(vertices=vertices, enter=enter) if len(vertices) else None

@@ -39,7 +39,7 @@ def payload_of(plan: Plan) -> dict[str, Any]:
         "tick": _pair(scenario.timing.clock.tick),
         "end": max(end_of(trips), 1),
         "headway": scenario.timing.headway,
-        "booksAhead": scenario.rules.occupancy == "both",
+        "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
         "line": vertices_in_line([trip.vertices for trip in trips]),
         "robots": _robots(plan, trips, metrics),
