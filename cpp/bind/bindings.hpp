@@ -57,5 +57,6 @@ void bind_distance_tables(nb::module_& module);
 void bind_lacam(nb::module_& module);
 void bind_precedence_graph(nb::module_& module);
 void bind_safe_interval_search(nb::module_& module);
+void bind_traffic(nb::module_& module);
 
 }  // namespace rightofway::bind

@@ -12,4 +12,5 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_lacam(module);
     rightofway::bind::bind_precedence_graph(module);
     rightofway::bind::bind_safe_interval_search(module);
+    rightofway::bind::bind_traffic(module);
 }

@@ -83,6 +83,45 @@ Times never decrease. A cycle of positive length is always refused; of zero leng
 ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
 Takes time in proportion (but for a logarithm) to what changes.)";
 
+constexpr auto take_back_doc = R"(Take back one right of way, whenever it was given.
+
+Parameters
+----------
+a, b : int
+    Visits of two different robots to the same vertex.
+
+Returns
+-------
+bool
+    Whether ``a`` had the right of way over ``b``.
+
+Raises
+------
+ValueError
+    As for ``precede``.
+
+Notes
+-----
+All get the earliest times that keep the other rights of way. A rollback gives it again.)";
+
+constexpr auto flip_doc = R"(Take the right of way of visit a over visit b and give it to b.
+
+Parameters
+----------
+a, b : int
+    Visits of two different robots to the same vertex.
+
+Returns
+-------
+bool
+    Whether that was possible. If not, nothing has changed: ``a`` had no right of way over ``b``,
+    or ``b`` can not go before ``a``; see ``precede``.
+
+Raises
+------
+ValueError
+    As for ``precede``.)";
+
 constexpr auto completion_doc = R"(Return when a robot completes its route.
 
 Parameters
@@ -128,8 +167,8 @@ ValueError
 
 Notes
 -----
-All others get the earliest times that keep their rights of way, which then are kept for good: marks
-from before can not be gone back to.)";
+All others get the earliest times that keep their rights of way. Marks from before can not be gone
+back to.)";
 
 constexpr auto cycle_doc = R"(Explain the last refusal.
 
@@ -182,13 +221,13 @@ constexpr auto rollback_doc = R"(Undo everything since the mark.
 Parameters
 ----------
 mark : int
-    What ``checkpoint()`` returned: the number of rights of way at that time. It can be gone back
-    to any number of times, until a rollback goes below it.
+    What ``checkpoint()`` returned: the number of changes at that time. It can be gone back to any
+    number of times, until a rollback goes below it.
 
 Raises
 ------
 ValueError
-    If there are fewer rights of way now than at the mark.)";
+    If there are fewer changes now than at the mark.)";
 
 using ConflictTuple = std::tuple<Tick, std::int32_t, VisitId, VisitId>;
 
@@ -253,8 +292,11 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
     graph.def("precede", &Graph::precede, nb::arg("a"), nb::arg("b"), precede_doc)
         .def(
             "cycle", [](const Graph& self) { return to_numpy(self.cycle()); }, cycle_doc)
+        .def("take_back", &Graph::take_back, nb::arg("a"), nb::arg("b"), take_back_doc)
+        .def("flip", &Graph::flip, nb::arg("a"), nb::arg("b"), flip_doc)
         .def("checkpoint", &Graph::checkpoint,
-             "Return a mark for ``rollback``: the number of rights of way given so far.")
+             "Return a mark for ``rollback``: how many rights of way were given or taken back and "
+             "not undone since.")
         .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
         .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
         .def("rights_of_way", &rights_of_way,

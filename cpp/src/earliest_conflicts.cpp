@@ -9,42 +9,55 @@ EarliestConflicts::EarliestConflicts(const Routes& routes, const Timetable& time
     : routes_(routes),
       timetable_(timetable),
       index_(index),
-      known_(routes.n_robots()),
-      known_at_(routes.n_robots(), -1),
-      changed_at_(routes.n_robots(), 0) {}
-
-std::optional<Conflict> EarliestConflicts::next() {
-    for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-        if (known_at_[r] < changed_at_[r]) {
-            look_up(r);
-        }
-    }
-    while (true) {
-        RobotId earliest = -1;
-        for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-            if (known_[r] && (earliest < 0 || *known_[r] < *known_[earliest])) {
-                earliest = r;
-            }
-        }
-        if (earliest < 0) {
-            return std::nullopt;
-        }
-        if (is_current(earliest)) {
-            return known_[earliest];
-        }
-        look_up(earliest);
+      looked_up_(routes.n_robots(), 0),
+      changed_(routes.n_robots(), 0) {
+    for (RobotId r = 0; r < routes.n_robots(); ++r) {
+        forget(r);
     }
 }
 
-bool EarliestConflicts::is_current(RobotId robot) const {
-    const Conflict& conflict = *known_[robot];
-    return changed_at_[conflict.robot_a] <= known_at_[robot] &&
-           changed_at_[conflict.robot_b] <= known_at_[robot];
+void EarliestConflicts::forget(RobotId robot) {
+    if (changed_[robot] <= looked_up_[robot]) {
+        to_look_up_.push_back(robot);
+    }
+    changed_[robot] = ++now_;
+}
+
+std::optional<Conflict> EarliestConflicts::next() {
+    for (const RobotId robot : to_look_up_) {
+        look_up(robot);
+    }
+    to_look_up_.clear();
+    while (!known_.empty()) {
+        const Known top = known_.front();
+        if (is_current(top)) {
+            return top.conflict;
+        }
+        std::pop_heap(known_.begin(), known_.end(), is_later);
+        known_.pop_back();
+        if (top.at == looked_up_[top.robot]) {  // else it is known anew
+            look_up(top.robot);
+        }
+    }
+    return std::nullopt;
+}
+
+bool EarliestConflicts::is_current(const Known& known) const {
+    return known.at == looked_up_[known.robot] && changed_[known.conflict.robot_a] <= known.at &&
+           changed_[known.conflict.robot_b] <= known.at;
 }
 
 void EarliestConflicts::look_up(RobotId robot) {
-    known_[robot] = search(robot, [this](VisitId x) { return index_.earliest(x); });
-    known_at_[robot] = now_;
+    looked_up_[robot] = ++now_;
+    if (const auto found = search(robot, [this](VisitId x) { return index_.earliest(x); })) {
+        known_.push_back({*found, robot, now_});
+        std::push_heap(known_.begin(), known_.end(), is_later);
+    }
+}
+
+// A total order: no two entries were looked up at one time.
+bool EarliestConflicts::is_later(const Known& left, const Known& right) {
+    return left.conflict == right.conflict ? left.at > right.at : right.conflict < left.conflict;
 }
 
 std::optional<Conflict> EarliestConflicts::between(RobotId robot, RobotId other) const {

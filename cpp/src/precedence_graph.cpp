@@ -48,13 +48,30 @@ std::optional<Conflict> PrecedenceGraph::next_conflict_between(RobotId robot, Ro
 
 bool PrecedenceGraph::precede(VisitId a, VisitId b) {
     check_pair(a, b);
-    const std::size_t n_rights = rights_of_way().size();
     if (!timetable_.precede(a, b)) {
         return false;
     }
-    if (rights_of_way().size() > n_rights) {
-        conflicts_before_.push_back(conflicts_);
-        recount();
+    count_change();
+    return true;
+}
+
+bool PrecedenceGraph::take_back(VisitId a, VisitId b) {
+    check_pair(a, b);
+    if (!timetable_.take_back(a, b)) {
+        return false;
+    }
+    count_change();
+    return true;
+}
+
+bool PrecedenceGraph::flip(VisitId a, VisitId b) {
+    const std::int64_t mark = checkpoint();
+    if (!take_back(a, b)) {
+        return false;
+    }
+    if (!precede(b, a)) {
+        rollback(mark);
+        return false;
     }
     return true;
 }
@@ -89,6 +106,13 @@ void PrecedenceGraph::for_each_touched(Use&& use) const {
     }
 }
 
+void PrecedenceGraph::count_change() {
+    if (conflicts_before_.size() < timetable_.n_changes()) {  // not what was so already
+        conflicts_before_.push_back(conflicts_);
+        recount();
+    }
+}
+
 void PrecedenceGraph::recount() {
     for_each_touched([this](VisitId x) {
         conflicts_ -= index_.remove(x);
@@ -106,10 +130,10 @@ void PrecedenceGraph::rollback(std::int64_t mark) {
     if (mark == checkpoint()) {
         return;
     }
-    const auto n_rights = static_cast<std::size_t>(mark);
-    timetable_.rollback(n_rights);
-    conflicts_ = conflicts_before_[n_rights];
-    conflicts_before_.resize(n_rights);
+    const auto n_changes = static_cast<std::size_t>(mark);
+    timetable_.rollback(n_changes);
+    conflicts_ = conflicts_before_[n_changes];
+    conflicts_before_.resize(n_changes);
     for_each_touched([this](VisitId x) {
         index_.move(x, timetable_);
         earliest_.forget(routes_.robot(x));
@@ -118,19 +142,19 @@ void PrecedenceGraph::rollback(std::int64_t mark) {
 
 void PrecedenceGraph::withdraw(RobotId robot) {
     require_id("robot", robot, n_robots());
-    for (VisitId x = 0; x < n_visits(); ++x) {
+    std::vector<RightOfWay> its_rights;
+    timetable_.for_each_right_of(robot, [&its_rights](VisitId a, VisitId b) {
+        its_rights.push_back({a, b});
+    });
+    for (const auto& [a, b] : its_rights) {
+        take_back(a, b);
+    }
+    for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
         conflicts_ -= index_.remove(x);
     }
     routes_.deactivate(robot);
-    timetable_.withdraw(robot);
+    earliest_.forget(robot);
     n_kept_ = checkpoint();
-    conflicts_before_.assign(rights_of_way().size(), 0);
-    for (VisitId x = 0; x < n_visits(); ++x) {
-        conflicts_ += index_.add(x, timetable_);
-    }
-    for (RobotId r = 0; r < n_robots(); ++r) {
-        earliest_.forget(r);
-    }
 }
 
 }  // namespace rightofway

@@ -1,17 +1,16 @@
 #include "rightofway/timetable.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace rightofway {
 
 Timetable::Timetable(const Routes& routes)
     : routes_(routes),
       enter_(routes.n_visits(), 0),
-      latest_right_(routes.n_visits(), none),
+      rights_(routes.n_visits()),
       raise_(routes.n_visits(), 0),
-      cause_(routes.n_visits(), none) {
+      cause_(routes.n_visits(), none),
+      is_in_instant_(routes.n_visits(), 0) {
     run_freely();
 }
 
@@ -23,7 +22,7 @@ void Timetable::run_freely() {
 
 bool Timetable::precede(VisitId a, VisitId b) {
     changed_.clear();
-    if (has_right(a, b)) {
+    if (rights_.find(a, b) != RightsOfWay::none) {
         return true;
     }
     if (routes_.is_last(a) || routes_.is_first(b)) {
@@ -41,17 +40,25 @@ bool Timetable::precede(VisitId a, VisitId b) {
         forget_raises();
         return false;
     }
-    accept(a, b);
+    journal_.push_back({rights_.give(a, b), true, trail_.size()});
+    accept();
     return true;
 }
 
-bool Timetable::has_right(VisitId a, VisitId b) const {
-    for (std::int32_t k = latest_right_[a]; k != none; k = next_right_[k]) {
-        if (rights_[k].second == b) {
-            return true;
-        }
+bool Timetable::take_back(VisitId a, VisitId b) {
+    changed_.clear();
+    const std::int32_t right = rights_.find(a, b);
+    if (right == RightsOfWay::none) {
+        return false;
     }
-    return false;
+    const bool was_tight = enter_[b] == enter_[a + 1] + routes_.gap_before(b);
+    rights_.take_back(right);
+    if (was_tight) {
+        lower(b);
+    }
+    journal_.push_back({right, false, trail_.size()});
+    accept();
+    return true;
 }
 
 // A swap is a cycle of two robots and zero length: b enters the vertex that a leaves, and the
@@ -59,7 +66,7 @@ bool Timetable::has_right(VisitId a, VisitId b) const {
 // such a cycle has a positive length, and is refused as that anyway.) Longer cycles of zero length
 // are rotations, which are allowed.
 bool Timetable::closes_swap(VisitId a, VisitId b) const {
-    return routes_.swaps_conflict() && has_right(b - 1, a + 1);
+    return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != RightsOfWay::none;
 }
 
 // Raises b and all that follows from it; false as soon as the raise reaches the source. No arc
@@ -100,10 +107,9 @@ void Timetable::raise_successors(VisitId visit) {
     if (routes_.is_first(visit)) {
         return;
     }
-    for (std::int32_t k = latest_right_[visit - 1]; k != none; k = next_right_[k]) {
-        const VisitId second = rights_[k].second;
+    rights_.for_each_second(visit - 1, [this, visit](VisitId second) {
         raise_along(visit, second, routes_.gap_before(second));
-    }
+    });
 }
 
 void Timetable::raise_along(VisitId from, VisitId to, Tick length) {
@@ -151,15 +157,100 @@ void Timetable::forget_raises() {
     deferred_.clear();
 }
 
-void Timetable::record(VisitId a, VisitId b) {
-    trail_mark_.push_back(trail_.size());
-    next_right_.push_back(latest_right_[a]);
-    latest_right_[a] = static_cast<std::int32_t>(rights_.size());
-    rights_.push_back({a, b});
+// Lets b, and all that it held, fall. Visits of one instant may hold each other (a rotation), so
+// they fall together.
+void Timetable::lower(VisitId b) {
+    let_fall(b);
+    while (!falling_.empty()) {
+        gather_instant();
+        lower_instant();
+        for (const VisitId x : instant_) {
+            is_in_instant_[x] = 0;
+            if (raise_[x] < 0) {
+                changed_.push_back(x);
+                let_followers_fall(x);
+            }
+        }
+    }
 }
 
-void Timetable::accept(VisitId a, VisitId b) {
-    record(a, b);
+// Earliest first; what is entered at one instant comes out together, so its order does not matter.
+void Timetable::let_fall(VisitId visit) {
+    falling_.push_back(visit);
+    std::push_heap(falling_.begin(), falling_.end(),
+                   [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+}
+
+// All that fall from the earliest instant, and whatever enters with them as one of them leaves.
+void Timetable::gather_instant() {
+    const auto add = [this](VisitId x) {
+        if (is_in_instant_[x] == 0) {
+            is_in_instant_[x] = 1;
+            instant_.push_back(x);
+        }
+    };
+    const Tick now = enter_[falling_.front()];
+    instant_.clear();
+    while (!falling_.empty() && enter_[falling_.front()] == now) {
+        std::pop_heap(falling_.begin(), falling_.end(),
+                      [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+        add(falling_.back());
+        falling_.pop_back();
+    }
+    for (std::size_t k = 0; k < instant_.size(); ++k) {
+        rights_.for_each_second(instant_[k] - 1, [&](VisitId second) {
+            if (enter_[second] == now && routes_.gap_before(second) == 0) {
+                add(second);
+            }
+        });
+    }
+}
+
+// Each falls to what holds it from outside, and then as far up again as they hold each other.
+void Timetable::lower_instant() {
+    for (const VisitId x : instant_) {
+        raise_[x] = held_to(x) - enter_[x];
+    }
+    for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (const VisitId x : instant_) {
+            rights_.for_each_second(x - 1, [&](VisitId second) {
+                if (is_in_instant_[second] != 0 && raise_[second] < raise_[x]) {
+                    raise_[second] = raise_[x];
+                    has_changed = true;
+                }
+            });
+        }
+    }
+}
+
+// What holds a visit but those that fall with it: its route, and the rights of way over it.
+Tick Timetable::held_to(VisitId visit) const {
+    Tick held = enter_[visit - 1] + raise_[visit - 1] + routes_.least(visit - 1);
+    rights_.for_each_first(visit, [&](VisitId first) {
+        const VisitId after = first + 1;
+        if (is_in_instant_[after] == 0) {
+            held = std::max(held, enter_[after] + raise_[after] + routes_.gap_before(visit));
+        }
+    });
+    return held;
+}
+
+// Those that a visit held at its old time, and that come later.
+void Timetable::let_followers_fall(VisitId visit) {
+    const auto let_fall_if_held = [this, visit](VisitId next, Tick length) {
+        if (length > 0 && enter_[next] == enter_[visit] + length) {
+            let_fall(next);
+        }
+    };
+    if (!routes_.is_last(visit)) {
+        let_fall_if_held(visit + 1, routes_.least(visit));
+    }
+    rights_.for_each_second(
+        visit - 1, [&](VisitId second) { let_fall_if_held(second, routes_.gap_before(second)); });
+}
+
+void Timetable::accept() {
     for (const VisitId x : changed_) {
         trail_.push_back({x, enter_[x]});
         enter_[x] += raise_[x];
@@ -167,62 +258,19 @@ void Timetable::accept(VisitId a, VisitId b) {
     }
 }
 
-void Timetable::rollback(std::size_t n_rights) {
+void Timetable::rollback(std::size_t n_changes) {
     changed_.clear();
-    if (n_rights >= rights_.size()) {
+    if (n_changes >= journal_.size()) {
         return;
     }
-    restore_enters(trail_mark_[n_rights]);
-    while (rights_.size() > n_rights) {
-        latest_right_[rights_.back().first] = next_right_.back();
-        rights_.pop_back();
-        next_right_.pop_back();
-        trail_mark_.pop_back();
-    }
-}
-
-void Timetable::withdraw(RobotId robot) {
-    std::vector<VisitId> in_old_order(enter_.size());
-    std::iota(in_old_order.begin(), in_old_order.end(), 0);
-    std::stable_sort(in_old_order.begin(), in_old_order.end(),
-                     [this](VisitId left, VisitId right) { return enter_[left] < enter_[right]; });
-    const std::vector<RightOfWay> rights = std::move(rights_);
-    rights_.clear();
-    next_right_.clear();
-    trail_.clear();
-    trail_mark_.clear();
-    std::fill(latest_right_.begin(), latest_right_.end(), none);
-    for (const auto& [first, second] : rights) {
-        if (routes_.robot(first) != robot && routes_.robot(second) != robot) {
-            record(first, second);
+    restore_enters(journal_[n_changes].trail_mark);
+    while (journal_.size() > n_changes) {
+        if (journal_.back().is_given) {
+            rights_.forget_latest();
+        } else {
+            rights_.restore(journal_.back().right);
         }
-    }
-    run_freely();
-    run_again(in_old_order);
-}
-
-// Pushes every visit behind what it waits for. In the old order of time nothing waits for a later
-// visit, so one round does, and more only where rotations make visits wait for each other at one
-// instant.
-void Timetable::run_again(std::span<const VisitId> in_old_order) {
-    bool has_changed = true;
-    const auto push = [this, &has_changed](VisitId visit, Tick earliest) {
-        has_changed = has_changed || enter_[visit] < earliest;
-        enter_[visit] = std::max(enter_[visit], earliest);
-    };
-    while (has_changed) {
-        has_changed = false;
-        for (const VisitId x : in_old_order) {
-            if (!routes_.is_last(x)) {
-                push(x + 1, enter_[x] + routes_.least(x));
-            }
-            if (routes_.is_first(x)) {
-                continue;
-            }
-            for (std::int32_t k = latest_right_[x - 1]; k != none; k = next_right_[k]) {
-                push(rights_[k].second, enter_[x] + routes_.gap_before(rights_[k].second));
-            }
-        }
+        journal_.pop_back();
     }
 }
 

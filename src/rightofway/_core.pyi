@@ -301,9 +301,54 @@ class PrecedenceGraph:
             there was another reason, or no refusal yet.
         """
 
+    def take_back(self, a: int, b: int) -> bool:
+        """
+        Take back one right of way, whenever it was given.
+
+        Parameters
+        ----------
+        a, b : int
+            Visits of two different robots to the same vertex.
+
+        Returns
+        -------
+        bool
+            Whether ``a`` had the right of way over ``b``.
+
+        Raises
+        ------
+        ValueError
+            As for ``precede``.
+
+        Notes
+        -----
+        All get the earliest times that keep the other rights of way. A rollback gives it again.
+        """
+
+    def flip(self, a: int, b: int) -> bool:
+        """
+        Take the right of way of visit a over visit b and give it to b.
+
+        Parameters
+        ----------
+        a, b : int
+            Visits of two different robots to the same vertex.
+
+        Returns
+        -------
+        bool
+            Whether that was possible. If not, nothing has changed: ``a`` had no right of way over ``b``,
+            or ``b`` can not go before ``a``; see ``precede``.
+
+        Raises
+        ------
+        ValueError
+            As for ``precede``.
+        """
+
     def checkpoint(self) -> int:
         """
-        Return a mark for ``rollback``: the number of rights of way given so far.
+        Return a mark for ``rollback``: how many rights of way were given or taken back and not undone since.
         """
 
     def rollback(self, mark: int) -> None:
@@ -313,13 +358,13 @@ class PrecedenceGraph:
         Parameters
         ----------
         mark : int
-            What ``checkpoint()`` returned: the number of rights of way at that time. It can be gone back
-            to any number of times, until a rollback goes below it.
+            What ``checkpoint()`` returned: the number of changes at that time. It can be gone back to any
+            number of times, until a rollback goes below it.
 
         Raises
         ------
         ValueError
-            If there are fewer rights of way now than at the mark.
+            If there are fewer changes now than at the mark.
         """
 
     def withdraw(self, robot: int) -> None:
@@ -338,8 +383,8 @@ class PrecedenceGraph:
 
         Notes
         -----
-        All others get the earliest times that keep their rights of way, which then are kept for good: marks
-        from before can not be gone back to.
+        All others get the earliest times that keep their rights of way. Marks from before can not be gone
+        back to.
         """
 
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
@@ -455,3 +500,89 @@ def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     -----
     Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.
     """
+
+class Traffic:
+    """
+    Cheapest paths that keep clear of other robots.
+
+    To drive an edge costs ``SHARES`` for each tick that it takes; ``station`` more per tick if it ends
+    at a station other than the target, and ``oncoming`` more per tick for every robot that was added on
+    the opposite edge.
+
+    Parameters
+    ----------
+    indptr : int32[V + 1]
+        Where each vertex's edges begin.
+    indices : int32[E]
+        The vertex at which each edge ends.
+    is_station : uint8[V]
+        Not 0 where a robot has its home or a stop.
+    station, oncoming : int
+        The surcharges, not negative.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; names the array, the index and the value.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], is_station: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], station: int, oncoming: int) -> None: ...
+
+    SHARES: int = 16
+
+    def path(self, start: int, target: int, edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return a cheapest path.
+
+        Parameters
+        ----------
+        start, target : int
+            The vertices from and to which it leads.
+        edge_ticks : int32[E]
+            What each edge takes, above 0. [ticks]
+        to_go : int32[V]
+            Least time from each vertex to the target, -1 where no way leads there. [ticks]
+
+        Returns
+        -------
+        int32[n]
+            The vertices of the path, both ends included. Of several cheapest paths, the one that takes the
+            first edge of a vertex that it can.
+
+        Raises
+        ------
+        ValueError
+            If there is no path, or something does not fit together.
+        """
+
+    def cost(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+        """
+        Return what a path costs.
+
+        Parameters
+        ----------
+        path : int32[n]
+            Vertices, each a neighbour of the one before.
+        edge_ticks : int32[E]
+            What each edge takes, above 0. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If that is no path.
+        """
+
+    def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Count one more robot on a path.
+
+        Parameters
+        ----------
+        path : int32[n]
+            Vertices, each a neighbour of the one before.
+
+        Raises
+        ------
+        ValueError
+            If that is no path.
+        """

@@ -46,7 +46,7 @@ def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
 def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: Path) -> None:
     ended = cli("plan", door, "--log")
     words = " ".join(ended.out.split())
-    assert "tick 1, N1: R1 waits 1 tick in N0, R2 goes first." in words
+    assert "segment N1 to N7 (3 vertices): R1 waits 1 tick in N0 and follows R2." in words
     assert "robot level: conflicts left 0 if R1 waits, 0 if R2 does." in words
     assert "Their work takes 19 ticks together if R1 waits, 19 if R2 does." in words
 
@@ -57,14 +57,13 @@ def test_the_table_stands_under_the_summary(cli: Cli, door: Path) -> None:
     )
 
 
-def test_the_log_tells_a_robot_that_stays_behind_another_once(cli: Cli) -> None:
-    """R2 is twice as fast as R1 before it, and meets it in N4, N5 and N6."""
+def test_the_log_tells_a_robot_that_follows_another_once(cli: Cli) -> None:
+    """R2 is twice as fast as R1 before it, and would meet it in N4, N5 and N6."""
     Path("behind.yaml").write_text(BEHIND, encoding="utf-8")
     ended = cli("plan", "behind.yaml", "--log")
-    assert ended.out.splitlines()[-3:] == [
-        "tick 5, N5: R2 waits 1 tick in N4, R1 goes first.",
+    assert ended.out.splitlines()[-2:] == [
+        "tick 3, segment N3 to N6 (4 vertices): R2 follows R1.",
         "    only choice: R1 cannot wait here.",
-        "    the same once more, the last at tick 7, N6.",
     ]
 
 
@@ -77,7 +76,8 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
     assert f"flowtime  {metrics['flowtime']} ticks, {metrics['gap']:.1%} above" in text
     assert f"makespan  {metrics['makespan']} ticks" in text
     assert data["planner"] == {
-        "name": "two-level", "options": {"swaps": "resolve"}, "seed": 0, "status": "waits only",
+        "name": "two-level", "options": {"swaps": "resolve", "routes": "clear"},
+        "seed": 0, "status": "waits only",
     }  # fmt: skip
     assert data["metrics"]["flowtime"] == 19
     assert data["robots"][0] == {"name": "R1", "completion": 10, "alone": 9, "waiting": 1}

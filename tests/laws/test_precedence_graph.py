@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import accumulate
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from hypothesis import given, settings
@@ -21,12 +21,61 @@ law = settings(max_examples=120, derandomize=True, deadline=None)
 main_law = settings(law, max_examples=300)
 
 
+Kind = Literal["give", "take back", "flip", "go back"]
+
+
 class Step(NamedTuple):
     """What to do next, and whether to look at the results before the step after."""
 
-    right: Right | None  # None: go back to a mark
-    mark: int
+    kind: Kind
+    right: Right | None  # to give
+    pick: int  # which mark to go back to, or which right of way to take back or flip
     look: bool
+
+
+class Twin:
+    """The rights of way as they should be, and all that they were before."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.rights: list[Right] = []
+        self.before: list[list[Right]] = []
+
+    def do(self, step: Step) -> bool:
+        """Do a step; return whether it is possible."""
+        if step.kind == "go back":
+            mark = step.pick % (len(self.before) + 1)
+            self.rights = [*self.before, self.rights][mark]
+            del self.before[mark:]
+            return True
+        right = self.right_of(step)
+        if right is None:
+            return False
+        if step.kind == "give":
+            return right in self.rights or self.change(*self.rights, right)
+        others = [one for one in self.rights if one != right]
+        if step.kind == "take back":
+            return self.change(*others)
+        flipped = Right(right.second, right.first)
+        if not oracle.is_possible(self.system, others, flipped):
+            return False
+        return self.change(*others) and (flipped in others or self.change(*others, flipped))
+
+    def change(self, *rights: Right) -> bool:
+        """Have other rights of way, if that is possible."""
+        if len(rights) > len(self.rights) and not oracle.is_possible(
+            self.system, self.rights, rights[-1]
+        ):
+            return False
+        self.before.append(self.rights)
+        self.rights = list(rights)
+        return True
+
+    def right_of(self, step: Step) -> Right | None:
+        """Return what a step gives, takes back or flips."""
+        if step.kind == "give":
+            return step.right
+        return self.rights[step.pick % len(self.rights)] if self.rights else None
 
 
 @st.composite
@@ -78,7 +127,7 @@ def meetings(system: System) -> list[Right]:
 
 @st.composite
 def runs(draw: st.DrawFn) -> tuple[System, list[Step]]:
-    """A system, and what to do with it: mostly rights of way, now and then back to a mark.
+    """A system, and what to do with it: mostly rights of way, now and then less or others.
 
     Most rights of way ask for what a planner would: the visit goes first whose turn it is. Some
     come in pairs that make two robots exchange their vertices.
@@ -94,7 +143,16 @@ def runs(draw: st.DrawFn) -> tuple[System, list[Step]]:
         asked.append(right)
         if right is not None and kind is exchanges:
             asked.append(opposite(right))
-    return system, [Step(right, draw(st.integers(0, 20)), draw(st.booleans())) for right in asked]
+    less: list[Kind] = ["go back", "take back", "flip"]
+    return system, [
+        Step(
+            "give" if right is not None else draw(st.sampled_from(less)),
+            right,
+            draw(st.integers(0, 20)),
+            draw(st.booleans()),
+        )
+        for right in asked
+    ]
 
 
 def is_sensible(system: System, right: Right) -> bool:
@@ -117,7 +175,6 @@ def check(system: System, rights: list[Right], kernel: PrecedenceGraph) -> None:
     n_robots = len(system.routes)
 
     assert kernel.rights_of_way().tolist() == [list(right) for right in rights]
-    assert kernel.checkpoint() == len(rights)
     assert kernel.enter().tolist() == enter
     assert kernel.conflicts() == sum(c.weight for c in found)
     assert kernel.next_conflict() == (found[0].as_tuple() if found else None)
@@ -137,33 +194,35 @@ def check_pair(kernel: PrecedenceGraph, r: int, other: int, found: list[oracle.C
         assert kernel.next_conflict_between(r, other) == earliest
 
 
-def take(step: Step, rights: list[Right], kernel: PrecedenceGraph) -> bool:
-    """Do the step to both; return whether the kernel found it possible."""
-    if step.right is None:
-        mark = step.mark % (len(rights) + 1)
-        kernel.rollback(mark)
-        del rights[mark:]
-        return True
-    possible = kernel.precede(*step.right)
-    if possible and step.right not in rights:
-        rights.append(step.right)
-    return possible
+def take(step: Step, twin: Twin, kernel: PrecedenceGraph) -> tuple[bool, bool]:
+    """Do the step to both; return whether the kernel and the twin found it possible."""
+    right = twin.right_of(step)
+    if step.kind == "go back":
+        kernel.rollback(step.pick % (len(twin.before) + 1))
+        possible = True
+    elif right is None:
+        possible = False
+    elif step.kind == "give":
+        possible = kernel.precede(*right)
+    else:
+        possible = (kernel.take_back if step.kind == "take back" else kernel.flip)(*right)
+    return possible, twin.do(step)
 
 
 @main_law
 @given(runs())
 def test_kernel_and_twin_agree_after_every_step(run: tuple[System, list[Step]]) -> None:
     system, todo = run
-    kernel = system.kernel()
-    rights: list[Right] = []
-    check(system, rights, kernel)
+    kernel, twin = system.kernel(), Twin(system)
+    check(system, twin.rights, kernel)
 
     for step in todo:
-        expected = step.right is None or oracle.is_possible(system, rights, step.right)
-        assert take(step, rights, kernel) == expected
+        possible, expected = take(step, twin, kernel)
+        assert possible == expected
+        assert kernel.checkpoint() == len(twin.before)
         if step.look:
-            check(system, rights, kernel)
-    check(system, rights, kernel)
+            check(system, twin.rights, kernel)
+    check(system, twin.rights, kernel)
 
 
 @law
@@ -180,18 +239,35 @@ def test_times_never_decrease_when_a_right_of_way_is_given(run: tuple[System, li
 
 @law
 @given(runs())
+def test_times_never_increase_when_a_right_of_way_is_taken_back(
+    run: tuple[System, list[Step]],
+) -> None:
+    system, todo = run
+    kernel, twin = system.kernel(), Twin(system)
+    for step in todo:
+        take(step, twin, kernel)
+
+    for right in list(twin.rights):
+        before = kernel.enter()
+        assert kernel.take_back(*right)
+        assert (kernel.enter() <= before).all()
+    check(system, [], kernel)
+
+
+@law
+@given(runs())
 def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
     run: tuple[System, list[Step]],
 ) -> None:
     """A deadlock is a cycle of positive length; a swap has two visits and length zero."""
     system, todo = run
-    kernel = system.kernel()
-    rights: list[Right] = []
+    kernel, twin = system.kernel(), Twin(system)
 
     for step in todo:
-        if take(step, rights, kernel) or step.right is None:
+        possible, _ = take(step, twin, kernel)
+        if possible or step.kind != "give" or step.right is None:
             continue
-        check(system, rights, kernel)
+        check(system, twin.rights, kernel)
         cycle = kernel.cycle().tolist()
         a, b = step.right
         if system.is_last(a) or system.is_first(b):
@@ -199,7 +275,7 @@ def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
             continue
         assert (cycle[0], cycle[-1]) == (b, a + 1)
         assert len(set(cycle)) == len(cycle)
-        length = oracle.length_of_cycle(system, [*rights, step.right], cycle)
+        length = oracle.length_of_cycle(system, [*twin.rights, step.right], cycle)
         assert length is not None
         assert length > 0 or (length == 0 and len(cycle) == 2 and system.swaps_conflict)
 
@@ -208,12 +284,12 @@ def test_a_refusal_changes_nothing_and_its_cycle_is_a_real_one(
 @given(runs())
 def test_going_back_to_the_start_restores_the_start(run: tuple[System, list[Step]]) -> None:
     system, todo = run
-    kernel = system.kernel()
+    kernel, twin = system.kernel(), Twin(system)
     mark = kernel.checkpoint()
 
     for step in todo:
-        if step.right is not None:
-            kernel.precede(*step.right)
+        if step.kind != "go back":
+            take(step, twin, kernel)
     kernel.rollback(mark)
 
     check(system, [], kernel)
@@ -226,17 +302,16 @@ def test_marks_nest_and_can_be_gone_back_to_more_than_once(
 ) -> None:
     """Try every step and take it back, as a planner does that compares choices."""
     system, todo = run
-    kernel = system.kernel()
-    rights: list[Right] = []
+    kernel, twin = system.kernel(), Twin(system)
 
     for step in todo:
         mark = kernel.checkpoint()
         for right in meetings(system)[:3]:
             kernel.precede(*right)
+            kernel.flip(*right)
             kernel.rollback(mark)
-        check(system, rights, kernel)
-        if step.right is not None:
-            take(step, rights, kernel)
+        check(system, twin.rights, kernel)
+        take(step, twin, kernel)
 
 
 @law
@@ -245,12 +320,11 @@ def test_who_is_withdrawn_is_as_if_never_there_and_the_others_keep_their_rights(
     run: tuple[System, list[Step]], who: int
 ) -> None:
     system, steps = run
-    rights: list[Right] = []
-    kernel = system.kernel()
+    kernel, twin = system.kernel(), Twin(system)
     for step in steps:
-        take(step, rights, kernel)
+        take(step, twin, kernel)
     robot = who % len(system.routes)
     kernel.withdraw(robot)
     active = tuple(on and r != robot for r, on in enumerate(system.active))
-    kept = [right for right in rights if robot not in {system.robot[x] for x in right}]
+    kept = [right for right in twin.rights if robot not in {system.robot[x] for x in right}]
     check(replace(system, active=active), kept, kernel)

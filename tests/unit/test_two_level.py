@@ -114,7 +114,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
     def too_slow(*_: object) -> None:
         raise GaveUp("time ran out")
 
-    monkeypatch.setattr("rightofway.planners.two_level.reroute", too_slow)
+    monkeypatch.setattr("rightofway.planners.giving_way.reroute", too_slow)
     plan = rightofway.solve(paper_scenario(CASES["door-5"]))
     assert plan.run.status == "re-routed all robots together"
     assert plan.run.reroutes[0].because == "time was short, so all were planned together"

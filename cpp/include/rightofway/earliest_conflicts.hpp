@@ -1,9 +1,9 @@
 // The earliest conflict of the whole fleet, without looking at the whole fleet each time.
 //
-// Each robot's earliest conflict is remembered. When a robot's times change, its memory is void;
-// when only the partner of a remembered conflict changes, that memory is looked at again should it
-// come out earliest. New conflicts need no more care than that: at least one robot of a new
-// conflict has changed, and finds it.
+// Each robot's earliest conflict is remembered, the earliest of all on top of a heap. When a
+// robot's times change, its memory is void; when only the partner of a remembered conflict changes,
+// that memory is looked at again should it come out on top. New conflicts need no more care than
+// that: at least one robot of a new conflict has changed, and finds it.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class EarliestConflicts {
     EarliestConflicts(const Routes& routes, const Timetable& timetable, const ConflictIndex& index);
 
     // Must be told of every robot whose times have changed.
-    void forget(RobotId robot) { changed_at_[robot] = ++now_; }
+    void forget(RobotId robot);
 
     std::optional<Conflict> next();
 
@@ -32,17 +32,25 @@ class EarliestConflicts {
     std::optional<Conflict> between(RobotId robot, RobotId other) const;
 
   private:
+    struct Known {
+        Conflict conflict;
+        RobotId robot;
+        std::int64_t at;  // when it was looked up
+    };
+
+    static bool is_later(const Known& left, const Known& right);
     void look_up(RobotId robot);
-    bool is_current(RobotId robot) const;
+    bool is_current(const Known& known) const;
     template <class Find>
     std::optional<Conflict> search(RobotId robot, Find&& find) const;
 
     const Routes& routes_;
     const Timetable& timetable_;
     const ConflictIndex& index_;
-    std::vector<std::optional<Conflict>> known_;  // per robot
-    std::vector<std::int64_t> known_at_;          // when it was looked up
-    std::vector<std::int64_t> changed_at_;        // when the robot's times last changed
+    std::vector<Known> known_;             // a heap; what was known before is still in it
+    std::vector<std::int64_t> looked_up_;  // when each robot was last
+    std::vector<std::int64_t> changed_;    // when the robot's times last did
+    std::vector<RobotId> to_look_up_;
     std::int64_t now_ = 0;
 };
 

@@ -19,4 +19,7 @@ struct Graph {
     }
 };
 
+// Throws std::invalid_argument, naming the array, the index and the value, if that is no graph.
+void require_graph(const Graph& graph);
+
 }  // namespace rightofway

@@ -33,7 +33,7 @@ class PrecedenceGraph {
     RobotId n_robots() const { return routes_.n_robots(); }
     VisitId n_visits() const { return routes_.n_visits(); }
     std::span<const Tick> enters() const { return timetable_.enters(); }
-    std::span<const RightOfWay> rights_of_way() const { return timetable_.rights_of_way(); }
+    std::vector<RightOfWay> rights_of_way() const { return timetable_.rights_of_way(); }
     Tick enter_of(VisitId visit) const;
     Tick completion(RobotId robot) const;
 
@@ -49,20 +49,29 @@ class PrecedenceGraph {
     bool precede(VisitId a, VisitId b);
     std::span<const VisitId> cycle() const { return timetable_.cycle(); }
 
-    // A mark is the number of rights of way given so far, so it stays good for as long as no
-    // rollback goes below it. Throws std::invalid_argument if one has.
-    std::int64_t checkpoint() const { return static_cast<std::int64_t>(rights_of_way().size()); }
+    // Takes back one right of way, whenever it was given; the others get the earliest times that
+    // keep theirs. False if there is none.
+    bool take_back(VisitId a, VisitId b);
+
+    // Takes back the right of way of a over b and gives b that over a; false, with nothing changed,
+    // if there is none or that is impossible.
+    bool flip(VisitId a, VisitId b);
+
+    // A mark is the number of changes so far: rights of way given or taken back, and not undone
+    // since. It stays good for as long as no rollback goes below it. Throws std::invalid_argument
+    // if one has.
+    std::int64_t checkpoint() const { return static_cast<std::int64_t>(timetable_.n_changes()); }
     void rollback(std::int64_t mark);
 
-    // Sets a robot aside: it meets nobody any more, its rights of way are taken back, and the
-    // others get the earliest times that keep theirs. What was given so far stays: a rollback
-    // below the number of rights of way that are left is refused.
+    // Sets a robot aside: it meets nobody any more, its rights of way and those over it are taken
+    // back. That stays so: a rollback below this is refused.
     void withdraw(RobotId robot);
 
   private:
     void check_pair(VisitId a, VisitId b) const;
     template <class Use>
     void for_each_touched(Use&& use) const;
+    void count_change();
     void recount();
 
     Routes routes_;
@@ -70,8 +79,8 @@ class PrecedenceGraph {
     ConflictIndex index_;
     EarliestConflicts earliest_;
     Tick conflicts_ = 0;
-    std::int64_t n_kept_ = 0;             // rights of way that no rollback can take back
-    std::vector<Tick> conflicts_before_;  // per right of way
+    std::int64_t n_kept_ = 0;             // changes that no rollback can undo
+    std::vector<Tick> conflicts_before_;  // per change
 };
 
 }  // namespace rightofway

@@ -10,6 +10,9 @@
 // u -> b closes a cycle of positive length, a deadlock, exactly if the raise of b reaches u. All
 // this happens on the side; times change only when the arc is accepted.
 //
+// When an arc is taken back, the visits that it held fall to what else holds them, in the order of
+// their old times: no arc leads back in time, so whatever holds a visit has fallen before.
+//
 // Reference: S. Cotton and O. Maler, Fast and flexible difference constraint propagation for
 // DPLL(T), SAT 2006.
 #pragma once
@@ -19,15 +22,11 @@
 #include <span>
 #include <vector>
 
+#include "rightofway/rights_of_way.hpp"
 #include "rightofway/routes.hpp"
 #include "rightofway/types.hpp"
 
 namespace rightofway {
-
-struct RightOfWay {
-    VisitId first;   // this visit leaves the vertex ...
-    VisitId second;  // ... before this one enters it
-};
 
 class Timetable {
   public:
@@ -39,7 +38,7 @@ class Timetable {
         return routes_.is_last(visit) ? infinity : enter_[visit + 1];
     }
     std::span<const Tick> enters() const { return enter_; }
-    std::span<const RightOfWay> rights_of_way() const { return rights_; }
+    std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
 
     // Lets visit a go before visit b of another robot at the same vertex (the caller checks that).
     // False, with nothing changed, if a never leaves, b was there from the start, or the fleet
@@ -50,14 +49,24 @@ class Timetable {
     // Empty if it was refused for another reason.
     std::span<const VisitId> cycle() const { return cycle_; }
 
-    // Takes rights of way back, the latest first, until so many are left.
-    void rollback(std::size_t n_rights);
+    // Takes back the right of way of a over b, whenever it was given; false if there is none.
+    bool take_back(VisitId a, VisitId b);
 
-    // Takes back all rights of way of one robot, wherever they stand, and gives everybody the
-    // earliest times that keep the others. What is left can not be rolled back any more.
-    void withdraw(RobotId robot);
+    // Calls use(a, b) for each right of way that a robot has, or that others have over it.
+    template <class Use>
+    void for_each_right_of(RobotId robot, Use&& use) const {
+        for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
+            rights_.for_each_second(x, [&use, x](VisitId second) { use(x, second); });
+            rights_.for_each_first(x, [&use, x](VisitId first) { use(first, x); });
+        }
+    }
 
-    // The visits whose enter the last precede or rollback changed, each once.
+    // How many changes there were: rights of way given or taken back, and not undone since.
+    std::size_t n_changes() const { return journal_.size(); }
+    // Undoes changes, the latest first, until so many are left.
+    void rollback(std::size_t n_changes);
+
+    // The visits whose enter the last change or rollback changed, each once.
     std::span<const VisitId> changed() const { return changed_; }
 
   private:
@@ -69,8 +78,12 @@ class Timetable {
         VisitId visit;
         Tick enter;
     };
+    struct Change {
+        std::int32_t right;
+        bool is_given;           // or taken back
+        std::size_t trail_mark;  // length of the trail before
+    };
 
-    bool has_right(VisitId a, VisitId b) const;
     bool closes_swap(VisitId a, VisitId b) const;
     bool spread(VisitId b, Tick delta, VisitId source);
     bool settle(VisitId source);
@@ -78,32 +91,35 @@ class Timetable {
     void raise_along(VisitId from, VisitId to, Tick length);
     void raise_by(VisitId visit, Tick delta, VisitId cause);
     void explain(VisitId source);
-    void accept(VisitId a, VisitId b);
-    void record(VisitId a, VisitId b);
+    void lower(VisitId b);
+    void gather_instant();
+    void lower_instant();
+    void let_fall(VisitId visit);
+    void let_followers_fall(VisitId visit);
+    Tick held_to(VisitId visit) const;
+    void accept();
     void run_freely();
-    void run_again(std::span<const VisitId> in_old_order);
     void forget_raises();
     void restore_enters(std::size_t trail_length);
     static bool is_later(const Raise& left, const Raise& right);
 
-    static constexpr std::int32_t none = -1;
+    static constexpr VisitId none = -1;
 
     const Routes& routes_;
     std::vector<Tick> enter_;
+    RightsOfWay rights_;
+    std::vector<Change> journal_;
+    std::vector<OldEnter> trail_;  // every enter that was ever overwritten
 
-    // Rights of way in order of insertion; those of one visit are a list, latest first.
-    std::vector<RightOfWay> rights_;
-    std::vector<std::int32_t> next_right_;    // of the same first visit, per right of way
-    std::vector<std::int32_t> latest_right_;  // per visit
-    std::vector<OldEnter> trail_;             // every enter that was ever overwritten
-    std::vector<std::size_t> trail_mark_;     // length of the trail before each right of way
-
-    // What a precede works on; reused, so that no step allocates.
-    std::vector<Tick> raise_;      // per visit, 0 if untouched
+    // What a change works on; reused, so that no step allocates.
+    std::vector<Tick> raise_;      // per visit, 0 if untouched; below 0 where a visit falls
     std::vector<VisitId> cause_;   // per raised visit: whose raise raised it
     std::vector<Raise> open_;      // a heap
     std::vector<Raise> deferred_;  // visits entered after latest_
     Tick latest_ = infinity;
+    std::vector<VisitId> falling_;  // a heap
+    std::vector<VisitId> instant_;  // those that fall from one instant
+    std::vector<std::uint8_t> is_in_instant_;
     std::vector<VisitId> changed_;
     std::vector<VisitId> cycle_;
 };

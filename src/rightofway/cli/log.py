@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import groupby
-
 from rightofway.cli.words import names_of, ticks, wrapped
 from rightofway.model import Decision, Plan
 
@@ -14,40 +11,24 @@ INDENT = "    "
 
 
 def decision_log(plan: Plan) -> str:
-    """Return every decision and its reason, in the order they were taken.
-
-    Where one robot stays behind another from place to place, because there is no other choice, the
-    first place stands for all.
-    """
+    """Return every decision and its reason, in the order they were taken."""
     names = names_of(plan)
     lines: list[str] = []
-    for _, alike in groupby(enumerate(plan.run.decisions), _without_choice):
-        lines += _decisions(plan, names, [decision for _, decision in alike])
+    for decision in plan.run.decisions:
+        lines += wrapped(_decision(plan, names, decision))
+        lines += wrapped(_reason(decision, names), INDENT)
     for reroute in plan.run.reroutes:
         lines += wrapped(f"{names[reroute.robot]} was sent another way: {reroute.because}.")
     return "\n".join(lines or ["Nothing had to be decided: no two robots meet."])
 
 
-def _without_choice(numbered: tuple[int, Decision]) -> tuple[int, ...]:
-    """Return what decisions have in common that are told as one; others have their number."""
-    number, one = numbered
-    follows = one.level == "only" and one.kind == "vertex"
-    return (-1, *one.robots, one.waits) if follows else (number,)
-
-
-def _decisions(plan: Plan, names: list[str], alike: list[Decision]) -> Iterator[str]:
-    one, *others = alike
-    place, goes_first = plan.scenario.roadmap.name, names[_goes_first(one)]
-    yield from wrapped(
-        f"tick {one.tick}, {_where(plan, one)}: {names[one.waits]} waits {ticks(one.ticks)} in"
-        f" {place(one.waits_at)}, {goes_first} goes first."
-    )
-    yield from wrapped(_reason(one, names), INDENT)
-    if others:
-        last = others[-1]
-        often = "once" if len(others) == 1 else f"{len(others)} times"
-        until = f"the last at tick {last.tick}, {place(last.vertices[0])}"
-        yield from wrapped(f"the same {often} more, {until}.", INDENT)
+def _decision(plan: Plan, names: list[str], one: Decision) -> str:
+    where, waits, first = _where(plan, one), names[one.waits], names[_goes_first(one)]
+    wait = f"{waits} waits {ticks(one.ticks)} in {plan.scenario.roadmap.name(one.waits_at)}"
+    if one.kind == "following":
+        how = f"{wait} and follows {first}" if one.ticks else f"{waits} follows {first}"
+        return f"tick {one.tick}, {where}: {how}."
+    return f"tick {one.tick}, {where}: {wait}, {first} goes first."
 
 
 def _goes_first(one: Decision) -> int:

@@ -66,7 +66,8 @@ class Decision:
     tick
         When they would have met [ticks].
     kind
-        ``vertex`` (both at one vertex) or ``head-on`` (both in one segment, in opposite ways).
+        ``vertex`` (both at one vertex), or both in one segment: ``head-on`` (in opposite ways) or
+        ``following`` (the same way).
     vertices
         The vertex; or the segment, in the order of the robot that goes first.
     robots
@@ -76,7 +77,8 @@ class Decision:
     waits_at
         The vertex it waits in.
     ticks
-        How much later it leaves there by this decision [ticks].
+        How much later it leaves there by this decision [ticks]. Who follows another robot may have
+        to wait again on the way.
     level
         ``node``: fewer conflicts were left in the whole system. ``robot``: as many were left, but
         both achieve their work sooner. ``settled``: the other choice would have met robots that
@@ -89,7 +91,7 @@ class Decision:
     """
 
     tick: Tick
-    kind: Literal["vertex", "head-on"]
+    kind: Literal["vertex", "head-on", "following"]
     vertices: tuple[VertexId, ...]
     robots: tuple[int, int]
     waits: int

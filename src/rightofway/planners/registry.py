@@ -89,6 +89,11 @@ PLANNERS = (
                 ("resolve", "leave"),
                 "Keep robots that meet head-on apart, or leave swaps in as the paper does.",
             ),
+            Option(
+                "routes",
+                ("clear", "shortest"),
+                "Keep clear of others where that is no long way round, or not (swaps=leave: not).",
+            ),
         ),
     ),
 )

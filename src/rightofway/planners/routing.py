@@ -1,12 +1,23 @@
-"""Shortest routes, one robot at a time, and proofs that there can be no plan."""
+"""Where each robot goes, chosen one robot at a time, and proofs that there can be no plan."""
 
 from __future__ import annotations
 
-from rightofway.errors import NoPlanExists
-from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
-from rightofway.search import Distances
+from itertools import pairwise
+from typing import Protocol
 
-__all__ = ["refuse_the_impossible", "shortest_route", "shortest_routes"]
+from rightofway.errors import NoPlanExists
+from rightofway.model import Itinerary, Roadmap, Route, Scenario, Tick, VertexId, route_along
+from rightofway.search import Distances, Path, Traffic
+
+__all__ = ["clear_routes", "refuse_the_impossible", "shortest_route", "shortest_routes"]
+
+
+class _Paths(Protocol):
+    """Where paths come from: `Distances` or `Traffic`."""
+
+    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path: ...
+
+    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int: ...
 
 
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -22,41 +33,54 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
 
 
 def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
-    """Return the route of the paper: shortest paths to the stops, and home as it would come.
+    """Return the route of the paper: shortest paths to the stops, and home as it would come."""
+    return route_along(distances.roadmap, itinerary, _legs(itinerary, distances.roadmap, distances))
+
+
+def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
+    """Return a route for each robot that keeps clear of others where that is no long way round.
+
+    One robot after the other, each keeps clear of all homes and stops, and of the robots before it
+    that come the other way.
+
+    Raises
+    ------
+    NoPlanExists
+        If a robot cannot get to a place, or two would have to stay at one for ever.
+    """
+    refuse_the_impossible(scenario, distances)
+    itineraries = scenario.timing.itineraries
+    traffic, routes = Traffic(distances, itineraries), []
+    for itinerary in itineraries:
+        legs = _legs(itinerary, scenario.roadmap, traffic)
+        routes.append(route_along(scenario.roadmap, itinerary, legs))
+        for leg in legs:
+            traffic.add(leg)
+    return routes
+
+
+def _legs(itinerary: Itinerary, roadmap: Roadmap, paths: _Paths) -> list[Path]:
+    """Return a path to each stage.
 
     The way home from the last stop of a lap is the path that leads there from home, reversed,
-    wherever the roadmap allows that.
+    wherever that is as good as any other.
     """
-    place, legs = itinerary.home, []
+    ticks, place = itinerary.edge_ticks, itinerary.home
+    legs: list[Path] = []
     for stage in itinerary.stages:
-        legs.append(_leg(itinerary, place, stage.vertex, distances))
+        leg = paths.path(place, stage.vertex, ticks)
+        if stage.vertex == itinerary.home:
+            back = paths.path(stage.vertex, place, ticks)[::-1]
+            if _is_path(roadmap, back) and paths.cost(back, ticks) == paths.cost(leg, ticks):
+                leg = back
+        legs.append(leg)
         place = stage.vertex
-    return route_along(distances.roadmap, itinerary, legs)
+    return legs
 
 
-def _leg(
-    itinerary: Itinerary, place: VertexId, target: VertexId, distances: Distances
-) -> tuple[VertexId, ...]:
-    if target == itinerary.home:
-        out = distances.path(target, place, itinerary.edge_ticks)
-        if out is not None and _is_shortest_reversed(out, itinerary, distances):
-            return out[::-1]
-    path = distances.path(place, target, itinerary.edge_ticks)
-    assert path is not None, "unreachable places were refused"
-    return path
-
-
-def _is_shortest_reversed(
-    out: tuple[VertexId, ...], itinerary: Itinerary, distances: Distances
-) -> bool:
-    """Tell whether a path out, driven backwards, is a shortest way home."""
-    roadmap, home, ticks = distances.roadmap, out[0], 0
-    for tail, head in zip(out[1:], out, strict=False):
-        edge = roadmap.edge(tail, head)
-        if edge is None:
-            return False
-        ticks += itinerary.edge_ticks[roadmap.length_class[edge]]
-    return ticks == int(distances.to(home, itinerary.edge_ticks)[out[-1]])
+def _is_path(roadmap: Roadmap, vertices: Path) -> bool:
+    """Tell whether edges lead from each vertex to the next; some may be one-ways."""
+    return all(roadmap.edge(tail, head) is not None for tail, head in pairwise(vertices))
 
 
 def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:

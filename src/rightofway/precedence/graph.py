@@ -8,12 +8,13 @@ is the longest path to each node; a cycle of positive length is a deadlock and i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
@@ -112,6 +113,40 @@ class PrecedenceGraph:
         """
         return self._kernel.precede(first, second)
 
+    def give_all(self, rights: Iterable[tuple[Visit, Visit]]) -> bool:
+        """Give several rights of way; false, with nothing changed, if that is impossible."""
+        mark = self.checkpoint()
+        if all(self.give_way(first, second) for first, second in rights):
+            return True
+        self.rollback(mark)
+        return False
+
+    def take_back(self, first: Visit, second: Visit) -> bool:
+        """Take back one right of way, whenever it was given; false if there is none.
+
+        Nobody is later for it. A rollback to a mark from before gives it again.
+        """
+        return self._kernel.take_back(first, second)
+
+    def flip(self, first: Visit, second: Visit) -> bool:
+        """Take the right of way of ``first`` over ``second``, and give it to ``second``.
+
+        Returns
+        -------
+        bool
+            False, with nothing changed, if there is none to take or `give_way` finds it impossible.
+        """
+        return self._kernel.flip(first, second)
+
+    def deadlocked(self) -> list[int]:
+        """Return the robots that the last right of way found impossible would have deadlocked.
+
+        Each would have waited for the next, the last one for the first. Nobody if there was another
+        reason.
+        """
+        robots = [self._robot[visit] for visit in self._kernel.cycle().tolist()]
+        return [robot for robot, _ in groupby(reversed(robots))]
+
     def keep_order(self, when: Sequence[Sequence[int]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.
 
@@ -141,25 +176,20 @@ class PrecedenceGraph:
         return self._kernel.checkpoint()
 
     def rollback(self, mark: int) -> None:
-        """Take back every right of way given since the mark."""
+        """Undo everything since the mark: rights of way given, taken back, flipped."""
         self._kernel.rollback(mark)
 
     def withdraw(self, robot: int) -> None:
-        """Set a robot aside: it meets nobody any more, and nobody waits for it.
-
-        The others keep the rights of way among each other, for good.
-        """
+        """Set a robot aside, for good: it meets nobody any more, and nobody waits for it."""
         self._kernel.withdraw(robot)
 
     def conflicts_left(self) -> int:
         """Return the conflicts in the whole system: ticks of overlap, and swaps."""
         return self._kernel.conflicts()
 
-    def conflicts_of(self, robot: int, others: Sequence[int]) -> int:
-        """Return the conflicts of one robot with some others."""
-        mask = np.zeros(len(self.routes), np.uint8)
-        mask[list(others)] = 1
-        return self._kernel.conflicts_of(robot, mask)
+    def conflicts_of(self, robot: int, others: NDArray[np.uint8]) -> int:
+        """Return the conflicts of one robot with those others whose place in the mask is not 0."""
+        return self._kernel.conflicts_of(robot, others)
 
     def next_meeting(self) -> Meeting | None:
         """Return the earliest conflict in the system, or None."""

@@ -1,42 +1,68 @@
-"""Segments: runs of vertices that two routes share in opposite directions.
+"""Segments: where two routes run together, so that one decision holds for all of it.
 
-Robots that meet head-on cannot pass each other anywhere in the segment, so there is only one
-decision: who goes through it first. The other waits before it until the first has left it, which
-is the paper's "optimum point where one robot waits until the other has passed".
+Robots that meet head-on cannot pass each other anywhere in the segment, so the only question is
+who goes through it first. The other waits before it until the first has left it, which is the
+paper's "optimum point where one robot waits until the other has passed". Robots that go the same
+way cannot overtake each other either: who enters first stays ahead, and the other follows it from
+vertex to vertex.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from rightofway.model import Route, VertexId
 
-__all__ = ["Segment", "head_on_segment"]
+__all__ = ["Segment", "crossing", "shared_segment"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Segment:
-    """A longest run of vertices that one robot visits in reverse order of the other.
+    """A longest run of vertices that two robots visit in the same or in reverse order.
 
     Attributes
     ----------
+    kind
+        ``head-on`` (in reverse order), ``following`` (in the same) or ``vertex`` (just one).
     i_first, i_last
         Indices of the first and last visit of robot i in it.
     j_first, j_last
-        The same for robot j, whose first visit is where i has its last.
+        The same for robot j; if head-on, its first visit is where i has its last.
     vertices
-        The vertices in the order of robot i; a single one is a plain meeting.
+        The vertices in the order of robot i.
     """
 
+    kind: Literal["vertex", "head-on", "following"]
     i_first: int
     i_last: int
     j_first: int
     j_last: int
     vertices: tuple[VertexId, ...]
 
+    def if_j_waits(self) -> list[tuple[int, int]]:
+        """Return the visits (of i, of j) of which i's goes first if j waits.
 
-def head_on_segment(one: Route, i: int, other: Route, j: int) -> Segment:
-    """Return the longest segment around two visits to one vertex.
+        Head-on, i's last and j's first visit say it all: the rest follows.
+        """
+        if self.kind == "following":
+            i = range(self.i_first, self.i_last + 1)
+            return list(zip(i, range(self.j_first, self.j_last + 1), strict=True))
+        return [(self.i_last, self.j_first)]
+
+    def if_i_waits(self) -> list[tuple[int, int]]:
+        """Return the visits (of i, of j) of which j's goes first if i waits."""
+        return self.if_j_waits() if self.kind == "following" else [(self.i_first, self.j_last)]
+
+
+def crossing(one: Route, i: int, j: int) -> Segment:
+    """Return the segment of two visits to one vertex, and of nothing around it."""
+    here = (one.vertices[i],)
+    return Segment(kind="vertex", i_first=i, i_last=i, j_first=j, j_last=j, vertices=here)
+
+
+def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
+    """Return the longest segment around two visits to one vertex; head-on if it could be both.
 
     Parameters
     ----------
@@ -45,24 +71,38 @@ def head_on_segment(one: Route, i: int, other: Route, j: int) -> Segment:
     other, j
         Route of robot j and the index of its visit, to the same vertex.
     """
-    before = 0
+    before = _run(one, i, other, j, i_step=-1, j_step=1)
+    after = _run(one, i, other, j, i_step=1, j_step=-1)
+    if before or after:
+        return Segment(
+            kind="head-on",
+            i_first=i - before,
+            i_last=i + after,
+            j_first=j - after,
+            j_last=j + before,
+            vertices=one.vertices[i - before : i + after + 1],
+        )
+    before = _run(one, i, other, j, i_step=-1, j_step=-1)
+    after = _run(one, i, other, j, i_step=1, j_step=1)
+    if before or after:
+        return Segment(
+            kind="following",
+            i_first=i - before,
+            i_last=i + after,
+            j_first=j - before,
+            j_last=j + after,
+            vertices=one.vertices[i - before : i + after + 1],
+        )
+    return crossing(one, i, j)
+
+
+def _run(one: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:
+    """Return how many visits further both routes go on together in these directions."""
+    length = 0
     while (
-        i - before > 0
-        and j + before < len(other) - 1
-        and one.vertices[i - before - 1] == other.vertices[j + before + 1]
+        0 <= i + i_step < len(one)
+        and 0 <= j + j_step < len(other)
+        and one.vertices[i + i_step] == other.vertices[j + j_step]
     ):
-        before += 1
-    after = 0
-    while (
-        i + after < len(one) - 1
-        and j - after > 0
-        and one.vertices[i + after + 1] == other.vertices[j - after - 1]
-    ):
-        after += 1
-    return Segment(
-        i_first=i - before,
-        i_last=i + after,
-        j_first=j - after,
-        j_last=j + before,
-        vertices=one.vertices[i - before : i + after + 1],
-    )
+        i, j, length = i + i_step, j + j_step, length + 1
+    return length

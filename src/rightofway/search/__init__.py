@@ -1,8 +1,18 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
-from rightofway.search.distances import Distances
+from rightofway.search.distances import Distances, Path
 from rightofway.search.joint import joint_steps
 from rightofway.search.sipp import earliest_track
+from rightofway.search.traffic import Traffic
 
-__all__ = ["FOREVER", "Booking", "Bookings", "Distances", "earliest_track", "joint_steps"]
+__all__ = [
+    "FOREVER",
+    "Booking",
+    "Bookings",
+    "Distances",
+    "Path",
+    "Traffic",
+    "earliest_track",
+    "joint_steps",
+]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,10 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Roadmap, Tick, VertexId
 
-__all__ = ["Distances"]
+__all__ = ["Distances", "Path"]
+
+Path = tuple[VertexId, ...]
+"""The vertices of a path, both ends included."""
 
 
 class Distances:
@@ -62,17 +66,20 @@ class Distances:
             self._edges[edge_ticks] = by_class[self.roadmap.length_class]
         return self._edges[edge_ticks]
 
-    def path(
-        self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]
-    ) -> tuple[VertexId, ...] | None:
-        """Return a shortest path, or None where there is none.
+    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int:
+        """Return what it takes to drive a path [ticks]."""
+        driven = (self.roadmap.edge(tail, head) for tail, head in pairwise(path))
+        edges = [edge for edge in driven if edge is not None]
+        return int(self.ticks_of_edges(edge_ticks)[edges].sum())
+
+    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
+        """Return a shortest path; the target can be reached.
 
         At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
         the order east, south, west, north, which gives the routes of the paper.
         """
         table = self.to(target, edge_ticks)
-        if table[start] < 0:
-            return None
+        assert table[start] >= 0, "unreachable places were refused"
         path = [start]
         while path[-1] != target:
             path.append(self._nearer(path[-1], table, edge_ticks))

@@ -26,7 +26,9 @@ class DecisionDocument(Document):
     """Who got the right of way where two robots would have met, and why."""
 
     tick: Ticks = Field(description="when they would have met, a whole number of ticks")
-    kind: Literal["vertex", "head-on"] = Field(description="vertex, or head-on")
+    kind: Literal["vertex", "head-on", "following"] = Field(
+        description="vertex, head-on, or following"
+    )
     vertices: list[Name] = Field(description="the names of the vertex, or of the segment in order")
     robots: PairOfNames = Field(description="the names of the two robots")
     waits: Name = Field(description="the name of the one that waits")

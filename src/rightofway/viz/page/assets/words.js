@@ -65,22 +65,32 @@ class Words {
 
   /** Who waits for whom, in a line. */
   decision(decision) {
-    const meets = decision.kind === "head-on" ? "head-on, " : "";
     const [waits, first] = [this.robot(decision.waits), this.robot(this.first(decision))];
-    return `${waits} waits for ${first}, ${meets}${this.place(decision)}`;
+    switch (decision.kind) {
+      case "head-on": return `${waits} waits for ${first}, head-on, ${this.place(decision)}`;
+      case "following": return `${waits} follows ${first}, ${this.place(decision)}`;
+      default: return `${waits} waits for ${first}, ${this.place(decision)}`;
+    }
   }
 
   /** The same in whole sentences. */
   decisionAtLength(decision) {
     const [i, j] = decision.robots.map((robot) => this.robot(robot));
-    const meeting = decision.kind === "head-on"
-      ? `${i} and ${j} would have met head-on on the way from ${this.place(decision)}.`
-      : `${i} and ${j} would both have been in ${this.place(decision)}.`;
+    const meeting = this.#meeting(decision, i, j);
     const waits = this.robot(decision.waits);
     const how = decision.ticks
       ? `waits ${counted(decision.ticks, "tick")} in ${this.vertex(decision.waitsAt)}`
       : `gives way in ${this.vertex(decision.waitsAt)}, at no loss`;
     return `${meeting} ${waits} ${how} and lets ${this.robot(this.first(decision))} go first.`;
+  }
+
+  #meeting(decision, i, j) {
+    const place = this.place(decision);
+    switch (decision.kind) {
+      case "head-on": return `${i} and ${j} would have met head-on on the way from ${place}.`;
+      case "following": return `${i} and ${j} go the same way from ${place} and cannot overtake.`;
+      default: return `${i} and ${j} would both have been in ${place}.`;
+    }
   }
 
   /** Why that one waits. */
