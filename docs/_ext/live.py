@@ -22,7 +22,7 @@ from sphinx.util.docutils import SphinxDirective
 from rightofway.cli.main import commands
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
-from rightofway.planners import registered
+from rightofway.planners import Count, Option, registered
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -93,10 +93,16 @@ class PlannerOptions(LiveDirective):
         """Return a table."""
         options = registered()[arguments[0]].options
         rows = (
-            (f"`{each.name}`", f"`{each.choices[0]}`", _codes(each.choices[1:]), each.summary)
+            (f"`{each.name}`", f"`{each.default}`", _other_values(each), each.summary)
             for each in options
         )
         return table(("option", "default", "other values", "what it does"), rows)
+
+
+def _other_values(option: Option) -> str:
+    if isinstance(option, Count):
+        return f"whole numbers from {option.least}"
+    return _codes(option.choices[1:])
 
 
 class DocumentKeys(LiveDirective):

@@ -77,7 +77,7 @@ def test_the_impossible_is_refused_as_proven(planner: str) -> None:
 def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(planner: str) -> None:
     spec = registered()[planner]
     for option in spec.options:
-        with pytest.raises(rightofway.InputError, match="is not a choice"):
+        with pytest.raises(rightofway.InputError, match="is not a"):
             spec.settle({option.name: "no such value"})
     given: dict[str, Any] = {"no-such-option": 1}
     with pytest.raises(rightofway.InputError, match="is unknown to"):

@@ -38,7 +38,7 @@ def _planners() -> Iterator[tuple[str, str]]:
     for spec in registered().values():
         yield spec.name, spec.summary
         for option in spec.options:
-            yield f"  {option.name}={'|'.join(option.choices)}", option.summary
+            yield f"  {option.name}={option.accepts}", option.summary
 
 
 def _options(

@@ -1,10 +1,20 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
-from rightofway.planners.registry import DEFAULT, Option, PlannerSpec, find, registered
+from rightofway.planners.registry import (
+    DEFAULT,
+    Choice,
+    Count,
+    Option,
+    PlannerSpec,
+    find,
+    registered,
+)
 from rightofway.planners.task import Deadline, Draft, Planner, Task, planning_headway
 
 __all__ = [
     "DEFAULT",
+    "Choice",
+    "Count",
     "Deadline",
     "Draft",
     "Option",

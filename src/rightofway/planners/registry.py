@@ -12,12 +12,12 @@ from typing import Any, cast
 from rightofway.errors import InputError
 from rightofway.planners.task import Planner
 
-__all__ = ["DEFAULT", "Option", "PlannerSpec", "find", "registered"]
+__all__ = ["DEFAULT", "Choice", "Count", "Option", "PlannerSpec", "find", "registered"]
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
-    """Something a planner can be told.
+class Choice:
+    """One of several words that a planner can be told.
 
     Attributes
     ----------
@@ -32,6 +32,74 @@ class Option:
     name: str
     choices: tuple[str, ...]
     summary: str
+
+    @property
+    def default(self) -> str:
+        """The value where none is given."""
+        return self.choices[0]
+
+    @property
+    def accepts(self) -> str:
+        """What may be given, for people."""
+        return "|".join(self.choices)
+
+    def read(self, given: object) -> str:
+        """Return the value for what was given.
+
+        Raises
+        ------
+        InputError
+            If it is not a choice.
+        """
+        if str(given) not in self.choices:
+            message = f"{str(given)!r} is not a choice (give one of: {', '.join(self.choices)})"
+            raise InputError.at(f"option {self.name}", message)
+        return str(given)
+
+
+@dataclass(frozen=True, slots=True)
+class Count:
+    """A whole number that a planner can be told.
+
+    Attributes
+    ----------
+    name
+        As in ``--option name=value``.
+    default
+        The value where none is given.
+    least
+        The least it may be.
+    summary
+        What it does, in a sentence.
+    """
+
+    name: str
+    default: int
+    least: int
+    summary: str
+
+    @property
+    def accepts(self) -> str:
+        """What may be given, for people."""
+        return str(self.default)
+
+    def read(self, given: object) -> int:
+        """Return the value for what was given.
+
+        Raises
+        ------
+        InputError
+            If it is no whole number, or too small.
+        """
+        text = str(given)
+        if not (text.isascii() and text.isdecimal() and int(text) >= self.least):
+            message = f"{text!r} is not a whole number of {self.least} or more"
+            raise InputError.at(f"option {self.name}", f"{message} (for example {self.default})")
+        return int(text)
+
+
+Option = Choice | Count
+"""Something a planner can be told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +116,22 @@ class PlannerSpec:
         What it does, in a sentence.
     options
         What it can be told.
+    improves
+        Whether it can start from a plan and make it better.
     """
 
     name: str
     target: str
     summary: str
     options: tuple[Option, ...] = ()
+    improves: bool = False
 
     def load(self) -> Planner:
         """Import the planner."""
         module, function = self.target.split(":")
         return cast("Planner", getattr(import_module(module), function))
 
-    def settle(self, given: Mapping[str, Any]) -> dict[str, str]:
+    def settle(self, given: Mapping[str, Any]) -> dict[str, str | int]:
         """Return a value for every option: the given ones, and defaults for the rest.
 
         Raises
@@ -73,7 +144,7 @@ class PlannerSpec:
             if name not in known:
                 raise InputError.at(f"option {name}", _unknown(name, self.name, list(known)))
         return {
-            option.name: _value(option, str(given.get(option.name, option.choices[0])))
+            option.name: option.read(given.get(option.name, option.default))
             for option in self.options
         }
 
@@ -84,12 +155,12 @@ PLANNERS = (
         "rightofway.planners.two_level:two_level",
         "The paper's method: right of way by collisions left, then by work achieved sooner.",
         (
-            Option(
+            Choice(
                 "swaps",
                 ("resolve", "leave"),
                 "Keep robots that meet head-on apart, or leave swaps in as the paper does.",
             ),
-            Option(
+            Choice(
                 "routes",
                 ("clear", "shortest"),
                 "Keep clear of others where that is no long way round, or not (swaps=leave: not).",
@@ -129,10 +200,3 @@ def _unknown(name: str, owner: str, known: list[str]) -> str:
     near = difflib.get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]!r}? " if near else ""
     return f"{name!r} is unknown to {owner} ({hint}known: {', '.join(known) or 'none'})"
-
-
-def _value(option: Option, given: str) -> str:
-    if given not in option.choices:
-        message = f"{given!r} is not a choice (give one of: {', '.join(option.choices)})"
-        raise InputError.at(f"option {option.name}", message)
-    return given

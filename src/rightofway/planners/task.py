@@ -61,6 +61,8 @@ class Task:
         When to stop.
     report
         Takes a sentence on progress.
+    start
+        A plan that keeps the rules, to improve on; only for planners that can.
     """
 
     scenario: Scenario
@@ -68,6 +70,7 @@ class Task:
     seed: int = 0
     deadline: Deadline = Deadline()
     report: Callable[[str], None] = lambda _: None
+    start: tuple[Track, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
