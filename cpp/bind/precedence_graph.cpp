@@ -139,6 +139,32 @@ Raises
 ValueError
     If the robot does not exist.)";
 
+constexpr auto completion_sum_doc = R"(Return the sum of all robots' completions.
+
+Returns
+-------
+int
+    Sum of the enters of the last visits of active robots. [ticks])";
+
+constexpr auto critical_rights_doc =
+    R"(Return the rights of way that a robot's completion is due to.
+
+Parameters
+----------
+robot : int
+    The robot.
+
+Returns
+-------
+int32[K, 2]
+    Rights of way ``(a, b)``, the latest first: from the robot's last visit back along what each
+    visit follows from without slack, until a robot ran freely.
+
+Raises
+------
+ValueError
+    If the robot does not exist.)";
+
 constexpr auto conflicts_doc = R"(Return the weight of all conflicts that are left.
 
 Returns
@@ -249,9 +275,9 @@ void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
     new (self) PrecedenceGraph(arrays);
 }
 
-PairsOut<VisitId> rights_of_way(const PrecedenceGraph& self) {
+PairsOut<VisitId> pairs(const std::vector<RightOfWay>& rights) {
     std::vector<VisitId> flat;
-    for (const RightOfWay& right : self.rights_of_way()) {
+    for (const RightOfWay& right : rights) {
         flat.insert(flat.end(), {right.first, right.second});
     }
     const std::size_t rows = flat.size() / 2;
@@ -268,6 +294,11 @@ void bind_queries(nb::class_<PrecedenceGraph>& graph) {
             "enter", [](const Graph& self) { return to_numpy(self.enters()); },
             "Return a copy of the times at which visits enter, int64[N]. [ticks]")
         .def("completion", &Graph::completion, nb::arg("robot"), completion_doc)
+        .def("completion_sum", &Graph::completion_sum, completion_sum_doc)
+        .def(
+            "critical_rights",
+            [](const Graph& self, RobotId robot) { return pairs(self.critical_rights(robot)); },
+            nb::arg("robot"), critical_rights_doc)
         .def("conflicts", &Graph::conflicts, conflicts_doc)
         .def(
             "conflicts_of",
@@ -299,8 +330,9 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
              "not undone since.")
         .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
         .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
-        .def("rights_of_way", &rights_of_way,
-             "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");
+        .def(
+            "rights_of_way", [](const Graph& self) { return pairs(self.rights_of_way()); },
+            "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");
 }
 
 }  // namespace

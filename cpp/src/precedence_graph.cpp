@@ -27,6 +27,19 @@ Tick PrecedenceGraph::completion(RobotId robot) const {
     return timetable_.enter(routes_.last_of(robot));
 }
 
+Tick PrecedenceGraph::completion_sum() const {
+    Tick sum = 0;
+    for (RobotId r = 0; r < n_robots(); ++r) {
+        sum += routes_.is_active(r) ? timetable_.enter(routes_.last_of(r)) : 0;
+    }
+    return sum;
+}
+
+std::vector<RightOfWay> PrecedenceGraph::critical_rights(RobotId robot) const {
+    require_id("robot", robot, n_robots());
+    return timetable_.critical_rights(routes_.last_of(robot));
+}
+
 Tick PrecedenceGraph::conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const {
     require_id("robot", robot, n_robots());
     require_length("others", others.size(), static_cast<std::size_t>(n_robots()));

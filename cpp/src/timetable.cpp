@@ -274,6 +274,39 @@ void Timetable::rollback(std::size_t n_changes) {
     }
 }
 
+std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
+    std::vector<RightOfWay> rights;
+    std::vector<VisitId> passed;  // at this instant: a rotation leads round in a circle
+    for (VisitId x = visit; !routes_.is_first(x);) {
+        const VisitId first = held_by(x, passed);
+        const VisitId cause = first == none ? x - 1 : first + 1;
+        if (first != none) {
+            rights.push_back({first, x});
+        }
+        if (enter_[cause] < enter_[x]) {
+            passed.clear();
+        }
+        passed.push_back(cause);
+        x = cause;
+    }
+    return rights;
+}
+
+// The visit whose right of way a visit waited for; none if it came as soon as its robot could.
+VisitId Timetable::held_by(VisitId visit, std::span<const VisitId> passed) const {
+    VisitId found = none;
+    if (enter_[visit] > enter_[visit - 1] + routes_.least(visit - 1)) {
+        rights_.for_each_first(visit, [&](VisitId first) {
+            const bool holds = enter_[visit] == enter_[first + 1] + routes_.gap_before(visit);
+            const bool is_new = std::find(passed.begin(), passed.end(), first + 1) == passed.end();
+            if (holds && is_new) {
+                found = std::max(found, first);
+            }
+        });
+    }
+    return found;
+}
+
 void Timetable::restore_enters(std::size_t trail_length) {
     while (trail_.size() > trail_length) {
         const OldEnter old = trail_.back();

@@ -202,6 +202,37 @@ class PrecedenceGraph:
             If the robot does not exist.
         """
 
+    def completion_sum(self) -> int:
+        """
+        Return the sum of all robots' completions.
+
+        Returns
+        -------
+        int
+            Sum of the enters of the last visits of active robots. [ticks]
+        """
+
+    def critical_rights(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+        """
+        Return the rights of way that a robot's completion is due to.
+
+        Parameters
+        ----------
+        robot : int
+            The robot.
+
+        Returns
+        -------
+        int32[K, 2]
+            Rights of way ``(a, b)``, the latest first: from the robot's last visit back along what each
+            visit follows from without slack, until a robot ran freely.
+
+        Raises
+        ------
+        ValueError
+            If the robot does not exist.
+        """
+
     def conflicts(self) -> int:
         """
         Return the weight of all conflicts that are left.

@@ -22,5 +22,5 @@ def test_a_count_is_a_whole_number_however_it_is_written(given: object) -> None:
 
 @pytest.mark.parametrize("given", ["0", "-1", "1.5", "", "many", "\u00b2", True])
 def test_a_count_refuses_what_is_none_or_too_small(given: object) -> None:
-    with pytest.raises(InputError, match="option rounds: '.*' is not a whole number of 1 or more"):
+    with pytest.raises(InputError, match=r"option rounds: '.*' is not a whole number of 1 or more"):
         NUMBER.read(given)

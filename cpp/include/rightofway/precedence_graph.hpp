@@ -36,6 +36,10 @@ class PrecedenceGraph {
     std::vector<RightOfWay> rights_of_way() const { return timetable_.rights_of_way(); }
     Tick enter_of(VisitId visit) const;
     Tick completion(RobotId robot) const;
+    Tick completion_sum() const;  // of the active robots
+
+    // The rights of way that a robot's completion is due to, the latest first; see Timetable.
+    std::vector<RightOfWay> critical_rights(RobotId robot) const;
 
     // The weight of the conflicts left: of all, or of one robot's with those whose mask is not 0.
     Tick conflicts() const { return conflicts_; }

@@ -61,6 +61,10 @@ class Timetable {
         }
     }
 
+    // The rights of way that a visit's time is due to: from it back along what each visit follows
+    // from without slack, until a robot ran freely. The latest comes first.
+    std::vector<RightOfWay> critical_rights(VisitId visit) const;
+
     // How many changes there were: rights of way given or taken back, and not undone since.
     std::size_t n_changes() const { return journal_.size(); }
     // Undoes changes, the latest first, until so many are left.
@@ -91,6 +95,7 @@ class Timetable {
     void raise_along(VisitId from, VisitId to, Tick length);
     void raise_by(VisitId visit, Tick delta, VisitId cause);
     void explain(VisitId source);
+    VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
     void lower(VisitId b);
     void gather_instant();
     void lower_instant();

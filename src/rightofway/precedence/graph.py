@@ -75,6 +75,7 @@ class PrecedenceGraph:
         lengths = [len(route) for route in routes]
         self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
+        self._last_dwells = sum(route.dwell[-1] for route in routes)
         drive = [ticks for route in routes for ticks in route.drive]
         self._kernel = _core.PrecedenceGraph(
             self._first,
@@ -181,6 +182,7 @@ class PrecedenceGraph:
 
     def withdraw(self, robot: int) -> None:
         """Set a robot aside, for good: it meets nobody any more, and nobody waits for it."""
+        self._last_dwells -= self.routes[robot].dwell[-1]
         self._kernel.withdraw(robot)
 
     def conflicts_left(self) -> int:
@@ -211,6 +213,17 @@ class PrecedenceGraph:
     def completion(self, robot: int) -> Tick:
         """Return when a robot has done its work and is where it ends."""
         return Tick(self._kernel.completion(robot) + self.routes[robot].dwell[-1])
+
+    def flowtime(self) -> Tick:
+        """Return the sum of all completion times; of robots that were set aside, it has none."""
+        return Tick(self._kernel.completion_sum() + self._last_dwells)
+
+    def critical_rights(self, robot: int) -> list[tuple[Visit, Visit]]:
+        """Return the rights of way that a robot's completion time is due to, the latest first.
+
+        They lie on a longest path to its last visit: with all of them it cannot complete sooner.
+        """
+        return [(first, second) for first, second in self._kernel.critical_rights(robot).tolist()]
 
     def enter(self, visit: Visit) -> Tick:
         """Return when a visit begins [ticks]."""
