@@ -149,6 +149,12 @@ class PlannerSpec:
         }
 
 
+ROUTES = Choice(
+    "routes",
+    ("clear", "shortest"),
+    "Keep clear of others where that is no long way round, or take shortest routes.",
+)
+
 PLANNERS = (
     PlannerSpec(
         "two-level",
@@ -158,14 +164,17 @@ PLANNERS = (
             Choice(
                 "swaps",
                 ("resolve", "leave"),
-                "Keep robots that meet head-on apart, or leave swaps in as the paper does.",
+                "Keep robots that meet head-on apart, or do as published (on shortest routes).",
             ),
-            Choice(
-                "routes",
-                ("clear", "shortest"),
-                "Keep clear of others where that is no long way round, or not (swaps=leave: not).",
-            ),
+            ROUTES,
         ),
+    ),
+    PlannerSpec(
+        "local-search",
+        "rightofway.planners.local_search:local_search",
+        "Two-level, then flips of rights of way on critical paths until nothing improves.",
+        (ROUTES, Count("rounds", 50, 0, "How often to go on from a few random flips.")),
+        improves=True,
     ),
 )
 

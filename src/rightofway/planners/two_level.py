@@ -84,7 +84,7 @@ def two_level(task: Task) -> Draft:
         If time ran out; with ``swaps="leave"`` also where the published method is stuck.
     """
     distances = Distances(task.scenario.roadmap)
-    if task.options["swaps"] == "leave":
+    if task.options.get("swaps") == "leave":
         routes = shortest_routes(task.scenario, distances)
         return one_by_one(task, distances, Fleet(task, routes, sees_swaps=False), by_two_levels)
     choose = clear_routes if task.options["routes"] == "clear" else shortest_routes

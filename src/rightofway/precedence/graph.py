@@ -75,7 +75,7 @@ class PrecedenceGraph:
         lengths = [len(route) for route in routes]
         self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
-        self._last_dwells = sum(route.dwell[-1] for route in routes)
+        self._last_dwells: int = sum(route.dwell[-1] for route in routes)
         drive = [ticks for route in routes for ticks in route.drive]
         self._kernel = _core.PrecedenceGraph(
             self._first,

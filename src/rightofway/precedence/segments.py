@@ -40,19 +40,21 @@ class Segment:
     j_last: int
     vertices: tuple[VertexId, ...]
 
+    def meetings(self) -> list[tuple[int, int]]:
+        """Return the visits (of i, of j) to each vertex, in the order of i."""
+        i, j = range(self.i_first, self.i_last + 1), range(self.j_first, self.j_last + 1)
+        return list(zip(i, reversed(j) if self.kind == "head-on" else j, strict=True))
+
     def if_j_waits(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which i's goes first if j waits.
 
         Head-on, i's last and j's first visit say it all: the rest follows.
         """
-        if self.kind == "following":
-            i = range(self.i_first, self.i_last + 1)
-            return list(zip(i, range(self.j_first, self.j_last + 1), strict=True))
-        return [(self.i_last, self.j_first)]
+        return self.meetings() if self.kind == "following" else [(self.i_last, self.j_first)]
 
     def if_i_waits(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which j's goes first if i waits."""
-        return self.if_j_waits() if self.kind == "following" else [(self.i_first, self.j_last)]
+        return self.meetings() if self.kind == "following" else [(self.i_first, self.j_last)]
 
 
 def crossing(one: Route, i: int, j: int) -> Segment:

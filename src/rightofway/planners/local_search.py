@@ -1,0 +1,172 @@
+"""Local search on fixed routes: take the right of way from those who delay others.
+
+A plan is routes and rights of way. Whatever a robot loses, it loses on its critical path: the
+rights of way that its completion time is due to. One of these is flipped, for the whole segment
+that both robots share; whoever meets then is kept apart by the choice that costs least; and the
+result is kept if the flowtime is less. Where no flip helps any more, some are forced at random and
+the search goes on from there, for so many rounds.
+
+References
+----------
+Mascis & Pacciarelli, *Job-shop scheduling with blocking and no-wait constraints*, European Journal
+of Operational Research 143, 2002 (rights of way are its alternative arcs).
+Lourenço, Martin & Stützle, *Iterated local search*, Handbook of Metaheuristics, 2003.
+
+Notes
+-----
+Never worse than the plan it starts from. Anytime; deterministic for a seed where the rounds come to
+an end in time. Not optimal.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from itertools import chain
+
+from rightofway.errors import GaveUp
+from rightofway.model import Tick
+from rightofway.planners.giving_way import rights_if_waits
+from rightofway.planners.task import Draft, Task
+from rightofway.planners.two_level import two_level
+from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
+
+__all__ = ["local_search"]
+
+FORCED_FLIPS = 3
+"""How many rights of way are flipped at random in a round."""
+
+MOST_MEETINGS = 100
+"""How many meetings one flip may lead to, per robot of the fleet, before it is given up."""
+
+
+def local_search(task: Task) -> Draft:
+    """Improve a plan without changing its routes.
+
+    Parameters
+    ----------
+    task
+        Options: ``rounds`` of random flips after the first descent; ``swaps`` and ``routes`` for
+        `two_level`, which makes the plan to start from where none is given.
+
+    Raises
+    ------
+    NoPlanExists, GaveUp
+        As `two_level`, where no plan to start from is given.
+    """
+    first = Draft(tracks=task.start, status="") if task.start else two_level(task)
+    graph = graph_of(task.scenario, first.tracks)
+    search = _Search(task, graph)
+    before = graph.flowtime()
+    search.run(rounds=int(task.options["rounds"]))
+    said = f"flips took the flowtime from {before} to {graph.flowtime()} ticks"
+    return Draft(
+        tracks=tuple(graph.tracks()),
+        status=f"{first.status}; {said}" if first.status else said,
+        reroutes=first.reroutes,
+    )
+
+
+class _Search:
+    """A graph without meetings, and flips that keep it so."""
+
+    def __init__(self, task: Task, graph: PrecedenceGraph) -> None:
+        self.task = task
+        self.graph = graph
+        self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
+        self.alone = [_alone(graph, robot) for robot in range(len(graph.routes))]
+
+    def run(self, rounds: int) -> None:
+        """Descend, then force flips and descend again; stop early where no robot is late."""
+        try:
+            self.descend()
+            for _ in range(rounds):
+                if self.graph.flowtime() == sum(self.alone):
+                    return
+                self.round()
+        except GaveUp:
+            return
+
+    def round(self) -> None:
+        """Force some flips, descend, and go back if that did not pay."""
+        mark, before = self.graph.checkpoint(), self.graph.flowtime()
+        try:
+            critical = list(self.critical_rights())
+            for first, second in self.draw.sample(critical, min(FORCED_FLIPS, len(critical))):
+                self.flip(first, second, below=None)
+            self.descend()
+        finally:
+            if self.graph.flowtime() >= before:
+                self.graph.rollback(mark)
+
+    def descend(self) -> None:
+        """Flip whatever makes the flowtime less, until nothing does."""
+        improved = True
+        while improved:
+            improved = False
+            critical = list(self.critical_rights())
+            self.draw.shuffle(critical)
+            for first, second in critical:
+                self.task.deadline.check("flipping rights of way")
+                improved |= self.flip(first, second, below=self.graph.flowtime())
+
+    def critical_rights(self) -> Iterator[tuple[int, int]]:
+        """Yield each right of way that makes a robot late, once."""
+        late = (r for r, alone in enumerate(self.alone) if self.graph.completion(r) > alone)
+        rights = chain.from_iterable(self.graph.critical_rights(robot) for robot in late)
+        yield from dict.fromkeys(rights)
+
+    def flip(self, first: int, second: int, *, below: Tick | None) -> bool:
+        """Give the other robot the right of way in a whole segment, and settle who meets then.
+
+        False, with nothing changed, if that is impossible or the flowtime is not below a bound.
+        """
+        mark = self.graph.checkpoint()
+        if self.reverse(first, second) and self.settle(below):
+            return True
+        self.graph.rollback(mark)
+        return False
+
+    def reverse(self, first: int, second: int) -> bool:
+        """Flip a right of way and all others between the two robots in the segment around it."""
+        graph = self.graph
+        (i, visit_i), (j, visit_j) = graph.place(first), graph.place(second)
+        segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
+        if not graph.take_back(first, second):
+            return False  # a flip before has taken it back already
+        for a, b in segment.meetings():
+            graph.take_back(graph.visit(i, a), graph.visit(j, b))
+        return graph.give_all(
+            (graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()
+        )
+
+    def settle(self, below: Tick | None) -> bool:
+        """Keep apart whoever meets by the choice that costs least."""
+        for _ in range(MOST_MEETINGS * len(self.alone)):
+            if below is not None and self.graph.flowtime() >= below:
+                return False  # more rights of way never make it less
+            meeting = self.graph.next_meeting()
+            if meeting is None:
+                return True
+            if not self.keep_apart(meeting):
+                return False
+        return False
+
+    def keep_apart(self, meeting: Meeting) -> bool:
+        """Let one of two robots wait; false if neither can."""
+        graph, mark = self.graph, self.graph.checkpoint()
+        (i, visit_i), (j, visit_j) = (graph.place(visit) for visit in meeting.visits)
+        segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
+        costs = []
+        for waits in (0, 1):
+            rights = rights_if_waits(graph, meeting, segment, waits)
+            if graph.give_all(rights):
+                costs.append((graph.flowtime(), graph.conflicts_left(), waits, rights))
+            graph.rollback(mark)
+        return bool(costs) and graph.give_all(min(costs)[-1])
+
+
+def _alone(graph: PrecedenceGraph, robot: int) -> Tick:
+    """Return when a robot would complete its route if it never waited."""
+    route = graph.routes[robot]
+    return Tick(sum(route.least(visit) for visit in range(len(route))))
