@@ -331,6 +331,12 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
         .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
         .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
         .def(
+            "rights_of",
+            [](const Graph& self, RobotId robot) { return pairs(self.rights_of(robot)); },
+            nb::arg("robot"),
+            "Return the rights of way ``(a, b)`` that a robot has, or others have over it, "
+            "int32[K, 2] (ValueError: no such robot).")
+        .def(
             "rights_of_way", [](const Graph& self) { return pairs(self.rights_of_way()); },
             "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");
 }

@@ -35,6 +35,15 @@ Tick PrecedenceGraph::completion_sum() const {
     return sum;
 }
 
+std::vector<RightOfWay> PrecedenceGraph::rights_of(RobotId robot) const {
+    require_id("robot", robot, n_robots());
+    std::vector<RightOfWay> rights;
+    timetable_.for_each_right_of(robot, [&rights](VisitId a, VisitId b) {
+        rights.push_back({a, b});
+    });
+    return rights;
+}
+
 std::vector<RightOfWay> PrecedenceGraph::critical_rights(RobotId robot) const {
     require_id("robot", robot, n_robots());
     return timetable_.critical_rights(routes_.last_of(robot));
@@ -155,11 +164,7 @@ void PrecedenceGraph::rollback(std::int64_t mark) {
 
 void PrecedenceGraph::withdraw(RobotId robot) {
     require_id("robot", robot, n_robots());
-    std::vector<RightOfWay> its_rights;
-    timetable_.for_each_right_of(robot, [&its_rights](VisitId a, VisitId b) {
-        its_rights.push_back({a, b});
-    });
-    for (const auto& [a, b] : its_rights) {
+    for (const auto& [a, b] : rights_of(robot)) {
         take_back(a, b);
     }
     for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {

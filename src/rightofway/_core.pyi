@@ -418,6 +418,11 @@ class PrecedenceGraph:
         back to.
         """
 
+    def rights_of(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+        """
+        Return the rights of way ``(a, b)`` that a robot has, or others have over it, int32[K, 2] (ValueError: no such robot).
+        """
+
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
         Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].

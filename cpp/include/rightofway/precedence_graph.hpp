@@ -38,6 +38,9 @@ class PrecedenceGraph {
     Tick completion(RobotId robot) const;
     Tick completion_sum() const;  // of the active robots
 
+    // The rights of way that a robot has, or that others have over it.
+    std::vector<RightOfWay> rights_of(RobotId robot) const;
+
     // The rights of way that a robot's completion is due to, the latest first; see Timetable.
     std::vector<RightOfWay> critical_rights(RobotId robot) const;
 

@@ -3,8 +3,8 @@
 A plan is routes and rights of way. Whatever a robot loses, it loses on its critical path: the
 rights of way that its completion time is due to. One of these is flipped, for the whole segment
 that both robots share; whoever meets then is kept apart by the choice that costs least; and the
-result is kept if the flowtime is less. Where no flip helps any more, some are forced at random and
-the search goes on from there, for so many rounds.
+result is kept if the flowtime is less. Where no flip helps any more, a few robots go first, or
+last, wherever they meet anybody, and the search goes on from there, for so many rounds.
 
 References
 ----------
@@ -23,6 +23,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from itertools import chain
+from typing import NamedTuple
 
 from rightofway.errors import GaveUp
 from rightofway.model import Tick
@@ -33,11 +34,23 @@ from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_seg
 
 __all__ = ["local_search"]
 
-FORCED_FLIPS = 3
-"""How many rights of way are flipped at random in a round."""
+MOST_FAVOURS = 3
+"""How many robots at most are to go first or last in a round."""
 
 MOST_MEETINGS = 100
-"""How many meetings one flip may lead to, per robot of the fleet, before it is given up."""
+"""How many meetings one change may lead to, per robot of the fleet, before it is given up."""
+
+
+class _Favour(NamedTuple):
+    """A robot that is to go first, or last, wherever it meets another."""
+
+    robot: int
+    goes_first: bool
+
+    def is_against(self, meeting: Meeting, waits: int) -> bool:
+        """Tell whether one of two robots (0: i, 1: j) had better not wait."""
+        concerned = self.robot in meeting.robots
+        return concerned and (meeting.robots[waits] == self.robot) == self.goes_first
 
 
 def local_search(task: Task) -> Draft:
@@ -46,8 +59,8 @@ def local_search(task: Task) -> Draft:
     Parameters
     ----------
     task
-        Options: ``rounds`` of random flips after the first descent; ``swaps`` and ``routes`` for
-        `two_level`, which makes the plan to start from where none is given.
+        Options: ``rounds`` after the first descent; ``routes`` for `two_level`, which makes the
+        plan to start from where none is given.
 
     Raises
     ------
@@ -77,7 +90,7 @@ class _Search:
         self.alone = [_alone(graph, robot) for robot in range(len(graph.routes))]
 
     def run(self, rounds: int) -> None:
-        """Descend, then force flips and descend again; stop early where no robot is late."""
+        """Descend, then favour robots and descend again; stop early where no robot is late."""
         try:
             self.descend()
             for _ in range(rounds):
@@ -88,16 +101,28 @@ class _Search:
             return
 
     def round(self) -> None:
-        """Force some flips, descend, and go back if that did not pay."""
+        """Favour some robots, descend, and go back if that made it worse."""
         mark, before = self.graph.checkpoint(), self.graph.flowtime()
         try:
-            critical = list(self.critical_rights())
-            for first, second in self.draw.sample(critical, min(FORCED_FLIPS, len(critical))):
-                self.flip(first, second, below=None)
+            for _ in range(self.draw.randint(1, MOST_FAVOURS)):
+                self.favour()
             self.descend()
         finally:
-            if self.graph.flowtime() >= before:
+            if self.graph.flowtime() > before:
                 self.graph.rollback(mark)
+
+    def favour(self) -> None:
+        """Take two robots of which one delays the other; turn one's luck wherever it meets."""
+        graph, critical = self.graph, list(self.critical_rights())
+        if not critical:
+            return
+        first, second = (graph.place(visit)[0] for visit in self.draw.choice(critical))
+        robot = self.draw.choice((first, second))
+        mark = graph.checkpoint()
+        for a, b in graph.rights_of(robot):
+            graph.take_back(a, b)
+        if not self.settle(favour=_Favour(robot, goes_first=robot == second)):
+            graph.rollback(mark)
 
     def descend(self) -> None:
         """Flip whatever makes the flowtime less, until nothing does."""
@@ -108,7 +133,7 @@ class _Search:
             self.draw.shuffle(critical)
             for first, second in critical:
                 self.task.deadline.check("flipping rights of way")
-                improved |= self.flip(first, second, below=self.graph.flowtime())
+                improved |= self.flip(first, second)
 
     def critical_rights(self) -> Iterator[tuple[int, int]]:
         """Yield each right of way that makes a robot late, once."""
@@ -116,13 +141,13 @@ class _Search:
         rights = chain.from_iterable(self.graph.critical_rights(robot) for robot in late)
         yield from dict.fromkeys(rights)
 
-    def flip(self, first: int, second: int, *, below: Tick | None) -> bool:
+    def flip(self, first: int, second: int) -> bool:
         """Give the other robot the right of way in a whole segment, and settle who meets then.
 
-        False, with nothing changed, if that is impossible or the flowtime is not below a bound.
+        False, with nothing changed, if that is impossible or the flowtime does not get less.
         """
-        mark = self.graph.checkpoint()
-        if self.reverse(first, second) and self.settle(below):
+        mark, before = self.graph.checkpoint(), self.graph.flowtime()
+        if self.reverse(first, second) and self.settle(below=before):
             return True
         self.graph.rollback(mark)
         return False
@@ -140,30 +165,32 @@ class _Search:
             (graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()
         )
 
-    def settle(self, below: Tick | None) -> bool:
-        """Keep apart whoever meets by the choice that costs least."""
+    def settle(self, *, below: Tick | None = None, favour: _Favour | None = None) -> bool:
+        """Keep apart whoever meets; false if that is impossible or the flowtime not below."""
         for _ in range(MOST_MEETINGS * len(self.alone)):
             if below is not None and self.graph.flowtime() >= below:
                 return False  # more rights of way never make it less
             meeting = self.graph.next_meeting()
             if meeting is None:
                 return True
-            if not self.keep_apart(meeting):
+            if not self.keep_apart(meeting, favour):
                 return False
         return False
 
-    def keep_apart(self, meeting: Meeting) -> bool:
-        """Let one of two robots wait; false if neither can."""
+    def keep_apart(self, meeting: Meeting, favour: _Favour | None) -> bool:
+        """Let one of two robots wait, by favour or by what it costs; false if neither can."""
         graph, mark = self.graph, self.graph.checkpoint()
         (i, visit_i), (j, visit_j) = (graph.place(visit) for visit in meeting.visits)
         segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
-        costs = []
+        choices = []
         for waits in (0, 1):
+            against = favour is not None and favour.is_against(meeting, waits)
             rights = rights_if_waits(graph, meeting, segment, waits)
             if graph.give_all(rights):
-                costs.append((graph.flowtime(), graph.conflicts_left(), waits, rights))
+                cost = (against, graph.flowtime(), graph.conflicts_left(), waits)
+                choices.append((cost, rights))
             graph.rollback(mark)
-        return bool(costs) and graph.give_all(min(costs)[-1])
+        return bool(choices) and graph.give_all(min(choices)[1])
 
 
 def _alone(graph: PrecedenceGraph, robot: int) -> Tick:

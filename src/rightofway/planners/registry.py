@@ -173,7 +173,7 @@ PLANNERS = (
         "local-search",
         "rightofway.planners.local_search:local_search",
         "Two-level, then flips of rights of way on critical paths until nothing improves.",
-        (ROUTES, Count("rounds", 50, 0, "How often to go on from a few random flips.")),
+        (ROUTES, Count("rounds", 100, 0, "How often to favour some robots and go on from there.")),
         improves=True,
     ),
 )

@@ -172,6 +172,10 @@ class PrecedenceGraph:
         """Return all (first, second) in the order they were given."""
         return [(first, second) for first, second in self._kernel.rights_of_way().tolist()]
 
+    def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
+        """Return all (first, second) of which one is a visit of the robot."""
+        return [(first, second) for first, second in self._kernel.rights_of(robot).tolist()]
+
     def checkpoint(self) -> int:
         """Return a mark to roll back to."""
         return self._kernel.checkpoint()
