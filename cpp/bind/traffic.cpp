@@ -49,20 +49,6 @@ Raises
 ValueError
     If there is no path, or something does not fit together.)";
 
-constexpr auto cost_doc = R"(Return what a path costs.
-
-Parameters
-----------
-path : int32[n]
-    Vertices, each a neighbour of the one before.
-edge_ticks : int32[E]
-    What each edge takes, above 0. [ticks]
-
-Raises
-------
-ValueError
-    If that is no path.)";
-
 constexpr auto add_doc = R"(Count one more robot on a path.
 
 Parameters
@@ -97,13 +83,6 @@ void bind_traffic(nb::module_& module) {
              nb::arg("is_station").noconvert(), nb::arg("station"), nb::arg("oncoming"))
         .def("path", &path, nb::arg("start"), nb::arg("target"), nb::arg("edge_ticks").noconvert(),
              nb::arg("to_go").noconvert(), path_doc)
-        .def(
-            "cost",
-            [](const Traffic& self, const ArrayIn<VertexId>& path,
-               const ArrayIn<std::int32_t>& edge_ticks) {
-                return self.cost(view(path), view(edge_ticks));
-            },
-            nb::arg("path").noconvert(), nb::arg("edge_ticks").noconvert(), cost_doc)
         .def(
             "add", [](Traffic& self, const ArrayIn<VertexId>& path) { self.add(view(path)); },
             nb::arg("path").noconvert(), add_doc);

@@ -168,23 +168,7 @@ bool Traffic::is_later(const Open& left, const Open& right) {
     return left.to_go != right.to_go ? left.to_go > right.to_go : left.order > right.order;
 }
 
-std::int64_t Traffic::cost(std::span<const VertexId> path,
-                           std::span<const std::int32_t> edge_ticks) const {
-    require_length("edge_ticks", edge_ticks.size(), indices_.size());
-    std::int64_t total = 0;
-    for (const EdgeId e : edges_of(path)) {
-        total += cost_of(e, path.back(), edge_ticks[e]);
-    }
-    return total;
-}
-
 void Traffic::add(std::span<const VertexId> path) {
-    for (const EdgeId e : edges_of(path)) {
-        ++n_robots_[e];
-    }
-}
-
-std::vector<EdgeId> Traffic::edges_of(std::span<const VertexId> path) const {
     std::vector<EdgeId> edges;
     for (std::size_t k = 0; k < path.size(); ++k) {
         require_id("path[" + std::to_string(k) + "]", path[k], n_vertices());
@@ -195,7 +179,9 @@ std::vector<EdgeId> Traffic::edges_of(std::span<const VertexId> path) const {
             reject_entry("path", k, path[k], "is no neighbour of " + std::to_string(path[k - 1]));
         }
     }
-    return edges;
+    for (const EdgeId e : edges) {
+        ++n_robots_[e];
+    }
 }
 
 }  // namespace rightofway

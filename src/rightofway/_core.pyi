@@ -591,23 +591,6 @@ class Traffic:
             If there is no path, or something does not fit together.
         """
 
-    def cost(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
-        """
-        Return what a path costs.
-
-        Parameters
-        ----------
-        path : int32[n]
-            Vertices, each a neighbour of the one before.
-        edge_ticks : int32[E]
-            What each edge takes, above 0. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If that is no path.
-        """
-
     def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
         Count one more robot on a path.

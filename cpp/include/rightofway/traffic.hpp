@@ -36,10 +36,6 @@ class Traffic {
                                std::span<const std::int32_t> edge_ticks,
                                std::span<const std::int32_t> to_go);
 
-    // What a path costs that follows edges to its end.
-    std::int64_t cost(std::span<const VertexId> path,
-                      std::span<const std::int32_t> edge_ticks) const;
-
     // Counts one more robot on a path.
     void add(std::span<const VertexId> path);
 
@@ -61,7 +57,6 @@ class Traffic {
     static bool is_later(const Open& left, const Open& right);
     Graph graph() const { return {indptr_, indices_}; }
     EdgeId edge(VertexId tail, VertexId head) const;
-    std::vector<EdgeId> edges_of(std::span<const VertexId> path) const;
     std::int64_t cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const;
     void search(VertexId start, VertexId target, std::span<const std::int32_t> edge_ticks,
                 std::span<const std::int32_t> to_go);

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
-from typing import Protocol
 
 from rightofway.errors import NoPlanExists
-from rightofway.model import Itinerary, Roadmap, Route, Scenario, Tick, VertexId, route_along
+from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
 from rightofway.search import Distances, Path, Traffic
 
 __all__ = ["clear_routes", "refuse_the_impossible", "shortest_route", "shortest_routes"]
-
-
-class _Paths(Protocol):
-    """Where paths come from: `Distances` or `Traffic`."""
-
-    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path: ...
-
-    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int: ...
 
 
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -33,8 +25,22 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
 
 
 def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
-    """Return the route of the paper: shortest paths to the stops, and home as it would come."""
-    return route_along(distances.roadmap, itinerary, _legs(itinerary, distances.roadmap, distances))
+    """Return the route of the paper: shortest paths to the stops, and home as it would come.
+
+    The way home from the last stop of a lap is the path that leads there from home, reversed,
+    wherever that is a shortest path too.
+    """
+    ticks, legs = itinerary.edge_ticks, []
+    for place, stage in _trips(itinerary):
+        leg = distances.path(place, stage, ticks)
+        if stage == itinerary.home:
+            back = distances.path(stage, place, ticks)[::-1]
+            if _is_path(distances.roadmap, back) and (
+                distances.cost(back, ticks) == distances.cost(leg, ticks)
+            ):
+                leg = back
+        legs.append(leg)
+    return route_along(distances.roadmap, itinerary, legs)
 
 
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -49,33 +55,19 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
     refuse_the_impossible(scenario, distances)
-    itineraries = scenario.timing.itineraries
-    traffic, routes = Traffic(distances, itineraries), []
-    for itinerary in itineraries:
-        legs = _legs(itinerary, scenario.roadmap, traffic)
+    traffic, routes = Traffic(distances, scenario.timing.itineraries), []
+    for itinerary in scenario.timing.itineraries:
+        trips = _trips(itinerary)
+        legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
         routes.append(route_along(scenario.roadmap, itinerary, legs))
         for leg in legs:
             traffic.add(leg)
     return routes
 
 
-def _legs(itinerary: Itinerary, roadmap: Roadmap, paths: _Paths) -> list[Path]:
-    """Return a path to each stage.
-
-    The way home from the last stop of a lap is the path that leads there from home, reversed,
-    wherever that is as good as any other.
-    """
-    ticks, place = itinerary.edge_ticks, itinerary.home
-    legs: list[Path] = []
-    for stage in itinerary.stages:
-        leg = paths.path(place, stage.vertex, ticks)
-        if stage.vertex == itinerary.home:
-            back = paths.path(stage.vertex, place, ticks)[::-1]
-            if _is_path(roadmap, back) and paths.cost(back, ticks) == paths.cost(leg, ticks):
-                leg = back
-        legs.append(leg)
-        place = stage.vertex
-    return legs
+def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
+    """Yield from where to where the robot goes, stage by stage."""
+    return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
 
 
 def _is_path(roadmap: Roadmap, vertices: Path) -> bool:

@@ -7,7 +7,8 @@ or a stop, and to drive against robots whose route is chosen already.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
+from statistics import mean
 
 import numpy as np
 
@@ -17,8 +18,11 @@ from rightofway.search.distances import Distances, Path
 
 __all__ = ["Traffic"]
 
-STATION = 8 * _core.Traffic.SHARES
-"""To pass another robot's home or stop costs as much as eight edges more."""
+STATION = _core.Traffic.SHARES // 8
+"""To pass another robot's home or stop costs as much as an eighth of a middling trip more.
+
+Who has to wait for a robot to come or go waits the longer, the longer their trips are.
+"""
 
 ONCOMING = _core.Traffic.SHARES // 4
 """To meet a robot head-on on an edge costs as much as a quarter of it more."""
@@ -35,13 +39,17 @@ class Traffic:
         Of all robots; their homes and stops are what to keep clear of.
     """
 
-    def __init__(self, distances: Distances, itineraries: Iterable[Itinerary]) -> None:
+    def __init__(self, distances: Distances, itineraries: Sequence[Itinerary]) -> None:
         self.distances = distances
         is_station = np.zeros(distances.roadmap.n_vertices, np.uint8)
         for itinerary in itineraries:
             is_station[[itinerary.home, *(stage.vertex for stage in itinerary.stages)]] = 1
         self._kernel = _core.Traffic(
-            distances.roadmap.indptr, distances.roadmap.heads, is_station, STATION, ONCOMING
+            distances.roadmap.indptr,
+            distances.roadmap.heads,
+            is_station,
+            int(STATION * mean(_edges_of_trip(distances, one) for one in itineraries)),
+            ONCOMING,
         )
 
     def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
@@ -55,11 +63,13 @@ class Traffic:
         found = self._kernel.path(start, target, ticks, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())
 
-    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int:
-        """Return what a path costs [ticks, in shares]."""
-        ticks = self.distances.ticks_of_edges(edge_ticks)
-        return self._kernel.cost(np.array(path, np.int32), ticks)
-
     def add(self, path: Path) -> None:
         """Have one more robot on a path."""
         self._kernel.add(np.array(path, np.int32))
+
+
+def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
+    """Return about how many edges it is from home to the first stop."""
+    ticks = itinerary.edge_ticks
+    way = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
+    return way / float(distances.ticks_of_edges(ticks).mean()) if way else 0.0
