@@ -199,5 +199,48 @@ TEST_CASE("rollback restores times and rights of way, step by step or at once") 
     CHECK(enters(timetable) == free);
 }
 
+TEST_CASE("what is taken back holds nobody any more, whatever else was given since") {
+    const Routes routes = Example({{0, 9, 8, 1}, {2, 9, 8, 3}, {4, 9, 8, 5}}).routes();
+    Timetable timetable(routes);  // visits 0 1 2 3 | 4 5 6 7 | 8 9 10 11
+    REQUIRE(timetable.precede(1, 5));
+    REQUIRE(timetable.precede(5, 9));
+    REQUIRE(timetable.precede(1, 9));
+    REQUIRE(timetable.take_back(1, 5));
+    CHECK(enters(timetable) == Ticks{0, 1, 2, 3, 0, 1, 2, 3, 0, 2, 3, 4});
+    CHECK(timetable.rights_of_way().size() == 2);
+    CHECK_FALSE(timetable.take_back(1, 5));
+    timetable.rollback(3);
+    CHECK(enters(timetable) == Ticks{0, 1, 2, 3, 0, 2, 3, 4, 0, 3, 4, 5});
+}
+
+TEST_CASE("robots that rotate fall together when what held one of them is taken back") {
+    Example late({{10, 0, 1}, {11, 1, 2}, {12, 2, 0}, {2, 13}});
+    late.least = {1, 1, 1, 1, 1, 1, 1, 1, 1, 7, 1};
+    const Routes routes = late.routes();
+    Timetable timetable(routes);
+    REQUIRE(timetable.precede(4, 2));
+    REQUIRE(timetable.precede(7, 5));
+    REQUIRE(timetable.precede(1, 8));
+    REQUIRE(timetable.precede(9, 7));
+    REQUIRE(timetable.enter(2) == 8);
+    CHECK(timetable.take_back(9, 7));
+    CHECK(enters(timetable) == Ticks{0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 7});
+}
+
+TEST_CASE("a late visit is due to the rights of way on a longest path to it") {
+    // The first holds 9 until 6, the second waits for it, and the third for the second in 8.
+    Example example({{0, 9, 1}, {2, 9, 8, 3}, {4, 8, 5}});
+    example.least = {1, 5, 1, 2, 1, 1, 1, 6, 1, 1};
+    const Routes routes = example.routes();
+    Timetable timetable(routes);
+    REQUIRE(timetable.precede(1, 4));
+    REQUIRE(timetable.precede(5, 8));
+    const auto rights = timetable.critical_rights(9);
+    REQUIRE(rights.size() == 2);
+    CHECK(rights[0].first == 5);
+    CHECK(rights[1].first == 1);
+    CHECK(timetable.critical_rights(2).empty());
+}
+
 }  // namespace
 }  // namespace rightofway::test

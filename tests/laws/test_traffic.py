@@ -1,0 +1,77 @@
+"""The native routes among others are those that a plain search finds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway import _core
+from tests.oracles.distances import Edge, distances_to
+from tests.oracles.traffic import SHARES, Traffic
+
+law = settings(max_examples=200, derandomize=True, deadline=None)
+
+
+@st.composite
+def floors(draw: st.DrawFn) -> Traffic:
+    """Small graphs without loops or parallel edges; most edges go both ways."""
+    n_vertices = draw(st.integers(2, 8))
+    vertex = st.integers(0, n_vertices - 1)
+    pairs = draw(st.sets(st.tuples(vertex, vertex), min_size=n_vertices, max_size=20))
+    ticks = st.integers(1, draw(st.sampled_from([1, 4])))
+    one_ways = draw(st.booleans())
+    ends = {(u, v) for u, v in pairs if u != v}
+    ends |= set() if one_ways else {(v, u) for u, v in ends}
+    return Traffic(
+        n_vertices=n_vertices,
+        edges=[Edge(u, v, draw(ticks)) for u, v in sorted(ends)],
+        stations=frozenset(draw(st.sets(vertex))),
+        station=draw(st.sampled_from([0, 16, 40])),
+        oncoming=draw(st.sampled_from([0, 4, 100])),
+    )
+
+
+def kernel_of(floor: Traffic) -> _core.Traffic:
+    starts = [edge.start for edge in floor.edges]
+    return _core.Traffic(
+        np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
+        np.array([edge.end for edge in floor.edges], np.int32),
+        np.array([v in floor.stations for v in range(floor.n_vertices)], np.uint8),
+        floor.station,
+        floor.oncoming,
+    )
+
+
+@law
+@given(floors())
+def test_each_robots_path_is_the_cheapest_among_those_before(floor: Traffic) -> None:
+    kernel = kernel_of(floor)
+    ticks = np.array([edge.ticks for edge in floor.edges], np.int32)
+    for start in range(floor.n_vertices):
+        for target in range(floor.n_vertices):
+            to_go = distances_to(target, floor.n_vertices, floor.edges)
+            if to_go[start] < 0:
+                continue
+            path = kernel.path(start, target, ticks, np.array(to_go, np.int32))
+            assert path.tolist() == floor.path(start, target)
+            kernel.add(path)
+            floor.add(path.tolist())
+
+
+def test_a_target_out_of_reach_and_a_path_with_a_gap_are_refused() -> None:
+    floor = Traffic(
+        n_vertices=3, edges=[Edge(0, 1, 1)], stations=frozenset(), station=0, oncoming=0
+    )
+    kernel, ticks = kernel_of(floor), np.array([1], np.int32)
+    with pytest.raises(ValueError, match="target: 2 cannot be reached from 0"):
+        kernel.path(0, 2, ticks, np.array([-1, -1, 0], np.int32))
+    with pytest.raises(ValueError, match=r"path\[1\]: 2 is no neighbour of 0"):
+        kernel.add(np.array([0, 2], np.int32))
+    with pytest.raises(ValueError, match=r"start: 3 is not in 0\.\.2"):
+        kernel.path(3, 1, ticks, np.array([1, 0, -1], np.int32))
+
+
+def test_shares_are_those_of_the_twin() -> None:
+    assert _core.Traffic.SHARES == SHARES
