@@ -12,7 +12,7 @@ from typing import Any, cast
 from rightofway.errors import InputError
 from rightofway.planners.task import Planner
 
-__all__ = ["DEFAULT", "Choice", "Count", "Option", "PlannerSpec", "find", "registered"]
+__all__ = ["DEFAULT", "IMPROVER", "Choice", "Count", "Option", "PlannerSpec", "find", "registered"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,6 +180,10 @@ PLANNERS = (
 
 DEFAULT = "two-level"
 """What ``auto`` stands for."""
+
+
+IMPROVER = "local-search"
+"""What makes a plan better where no planner is named."""
 
 
 def registered() -> dict[str, PlannerSpec]:
