@@ -9,18 +9,16 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import PercentFormatter
 
 import rightofway
+from benchmarks.plot_gaps import plot
 from rightofway.errors import GaveUp
-from rightofway.metrics import measure
-from rightofway.metrics.alone import alone_completions
+from rightofway.metrics import alone_completions, measure
 from rightofway.model import Plan, Route, Rules, Scenario
 from rightofway.planners.routing import clear_routes, shortest_routes
 from rightofway.search import Distances
@@ -32,9 +30,6 @@ PAGE = DOCS / "improvement.md"
 PLOT = DOCS / "images" / "gaps.png"
 BEGIN, END = "<!-- written by `just gaps`: -->\n", "<!-- up to here -->\n"
 
-FLEETS = range(300)
-"""Their seeds."""
-
 TIME_LIMIT = 300
 """More than any plan here takes, so that none depends on the machine [s]."""
 
@@ -42,6 +37,18 @@ ROUTES: dict[str, Callable[[Scenario, Distances], list[Route]]] = {
     "shortest": shortest_routes,
     "clear": clear_routes,
 }
+
+
+class Family(NamedTuple):
+    """Random fleets of a size; from, to."""
+
+    size: tuple[int, int]
+    robots: tuple[int, int]
+    seeds: range
+
+
+SMALL = Family(size=(6, 10), robots=(4, 8), seeds=range(300))
+LARGER = Family(size=(12, 12), robots=(12, 12), seeds=range(60))
 
 
 class Method(NamedTuple):
@@ -70,13 +77,18 @@ METHODS = (
 
 
 class Case(NamedTuple):
-    """What one method made of one fleet; the optimum and the bound are those of its routes."""
+    """What one method made of one fleet.
+
+    ``optimum`` and ``alone`` are the least flowtime on its routes, and what it would be if nobody
+    had to wait; ``lower_bound`` is that of all routes.
+    """
 
     label: str
     routes: str
     seed: int
     flowtime: int
     optimum: int
+    alone: int
     lower_bound: int
 
     @property
@@ -85,19 +97,19 @@ class Case(NamedTuple):
         return self.flowtime / self.optimum - 1
 
 
-def fleet(seed: int) -> Scenario:
-    """Return 4 to 8 robots on 6 x 6 to 10 x 10 cells, of which one or two tenths are walls."""
+def fleet(family: Family, seed: int) -> Scenario:
+    """Return a fleet on a grid of which one or two tenths are walls."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     return random_fleet(
         seed,
-        size=draw.randint(6, 10),
-        robots=draw.randint(4, 8),
+        size=draw.randint(*family.size),
+        robots=draw.randint(*family.robots),
         walls=draw.choice([0.1, 0.15, 0.2]),
         rules=Rules(occupancy=draw.choice(["one", "both"])),
     )
 
 
-def compare(methods: Sequence[Method], seeds: Iterable[int]) -> tuple[list[Case], int]:
+def compare(methods: Sequence[Method], family: Family) -> tuple[list[Case], int]:
     """Plan fleets by all methods, and find the optimum on the routes of each plan.
 
     Returns
@@ -108,46 +120,52 @@ def compare(methods: Sequence[Method], seeds: Iterable[int]) -> tuple[list[Case]
     int
         On how many routes of fleets it was not proven.
     """
-    cases, unproven = [], 0
-    for seed in seeds:
-        scenario = fleet(seed)
-        best = _Optima(scenario)
-        cases += _cases(scenario, seed, methods, best)
-        unproven += len(best.unproven)
+    cases: list[Case] = []
+    unproven = 0
+    for seed in family.seeds:
+        one = _Fleet(fleet(family, seed), seed)
+        cases += chain(one.optima(), *map(one.cases, methods))
+        unproven += len(one.unproven)
     return cases, unproven
 
 
-class _Optima:
-    """The proven optimum on any routes of one fleet; each is looked for once."""
+class _Fleet:
+    """A fleet, and the optimum on any of its routes; each is looked for once."""
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, seed: int) -> None:
+        self.scenario = scenario
+        self.seed = seed
+        self.lower_bound = sum(alone_completions(self.scenario))
         self.unproven: set[tuple[Route, ...]] = set()
-        self.on = cache(lambda routes: self._on(scenario, routes))
+        self.best = cache(self._best)
 
-    def _on(self, scenario: Scenario, routes: tuple[Route, ...]) -> int | None:
-        best = best_on(scenario, routes)
-        if not isinstance(best, Optimum):
-            return None
-        if not best.proven:
+    def _best(self, routes: tuple[Route, ...]) -> int | None:
+        """Return the optimum if there is one, and it is proven."""
+        found = best_on(self.scenario, routes)
+        if isinstance(found, Optimum) and not found.proven:
             self.unproven.add(routes)
-            return None
-        return best.flowtime
+        return found.flowtime if isinstance(found, Optimum) and found.proven else None
 
+    def optima(self) -> Iterator[Case]:
+        """Yield the optimum on the routes of each kind."""
+        for kind, choose in ROUTES.items():
+            routes = choose(self.scenario, Distances(self.scenario.roadmap))
+            yield from self._cases("optimum", kind, routes, self.best(tuple(routes)))
 
-def _cases(
-    scenario: Scenario, seed: int, methods: Sequence[Method], best: _Optima
-) -> Iterator[Case]:
-    bound = sum(alone_completions(scenario))
-    for kind, choose in ROUTES.items():
-        least = best.on(tuple(choose(scenario, Distances(scenario.roadmap))))
-        if least is not None:
-            yield Case("optimum", kind, seed, least, least, bound)
-    for method in methods:
-        plan = plan_on_routes(scenario, method)
-        least = None if plan is None else best.on(tuple(routes_of(plan)))
-        if plan is not None and least is not None:
+    def cases(self, method: Method) -> Iterator[Case]:
+        """Yield what a method made of it, if it kept the routes."""
+        plan = plan_on_routes(self.scenario, method)
+        if plan is not None:
             flowtime = measure(plan).flowtime
-            yield Case(method.label, method.routes, seed, flowtime, least, bound)
+            yield from self._cases(method.label, method.routes, routes_of(plan), flowtime)
+
+    def _cases(
+        self, label: str, kind: str, routes: Sequence[Route], flowtime: int | None
+    ) -> Iterator[Case]:
+        least = self.best(tuple(routes))
+        if flowtime is not None and least is not None:
+            alone = sum(route.least(visit) for route in routes for visit in range(len(route)))
+            yield Case(label, kind, self.seed, flowtime, least, alone, self.lower_bound)
 
 
 def plan_on_routes(scenario: Scenario, method: Method) -> Plan | None:
@@ -159,20 +177,23 @@ def plan_on_routes(scenario: Scenario, method: Method) -> Plan | None:
     return plan if rightofway.check(plan).ok and not plan.run.reroutes else None
 
 
-def by_label(cases: Iterable[Case], routes: str) -> dict[str, list[Case]]:
-    """Sort the cases on routes of one kind by method."""
-    found: dict[str, list[Case]] = {}
-    for case in cases:
-        if case.routes == routes:
-            found.setdefault(case.label, []).append(case)
-    return found
+Groups = dict[str, list[Case]]
+"""The cases of each method on routes of one kind, the optimum first."""
 
 
-def where_all_solve(cases: Iterable[Case], routes: str) -> dict[str, list[Case]]:
-    """Sort the cases of those fleets that every method keeps on its routes."""
-    found = by_label(cases, routes)
-    seeds = set.intersection(*({case.seed for case in each} for each in found.values()))
-    return {label: [c for c in each if c.seed in seeds] for label, each in found.items()}
+def by_method(cases: Sequence[Case], methods: Sequence[Method], kind: str) -> Groups:
+    """Sort the cases on routes of one kind."""
+    labels = ["optimum", *(method.label for method in methods if method.routes == kind)]
+    here = [case for case in cases if case.routes == kind]
+    return {label: [case for case in here if case.label == label] for label in labels}
+
+
+def where_all_solve(groups: Groups) -> Groups:
+    """Keep the cases of those fleets that every method solves."""
+    seeds = set.intersection(*({case.seed for case in cases} for cases in groups.values()))
+    return {
+        label: [case for case in cases if case.seed in seeds] for label, cases in groups.items()
+    }
 
 
 HEADS = (
@@ -188,90 +209,74 @@ HEADS = (
 )
 
 
-def table(groups: Mapping[str, Mapping[str, Sequence[Case]]]) -> Iterator[str]:
+def table(kinds: Mapping[str, Groups]) -> Iterator[str]:
     """Yield a line for each method on each kind of routes."""
     yield "| " + " | ".join(HEADS) + " |"
     yield "|" + " --- |" * 2 + " ---: |" * (len(HEADS) - 2)
-    for routes, methods in groups.items():
-        for label, cases in methods.items():
-            yield "| " + " | ".join((routes, label, *figures(cases))) + " |"
+    for kind, groups in kinds.items():
+        for label, cases in groups.items():
+            yield "| " + " | ".join((kind, label, str(len(cases)), *figures(cases))) + " |"
 
 
-def figures(cases: Sequence[Case]) -> Iterator[str]:
-    """Yield what the table says of a method."""
+def figures(cases: Sequence[Case]) -> Sequence[str]:
+    """Return what the table says of a method that solves any fleet."""
+    if not cases:
+        return [""] * (len(HEADS) - 3)
     gaps = np.array([case.gap for case in cases])
-    yield str(len(cases))
-    yield f"{np.mean(gaps == 0):.0%}".replace("%", " %")
-    for gap in (gaps.mean(), np.median(gaps), np.quantile(gaps, 0.9), gaps.max()):
-        yield f"{gap:.1%}".replace("%", " %")
-    yield f"{np.mean([case.flowtime / case.lower_bound for case in cases]):.3f}"
+    shares = gaps.mean(), np.median(gaps), np.quantile(gaps, 0.9), gaps.max()
+    ratio = np.mean([case.flowtime / case.lower_bound for case in cases])
+    optimal = sum(case.flowtime == case.optimum for case in cases)
+    return [f"{optimal}", *(f"{100 * share:.1f} %" for share in shares), f"{ratio:.3f}"]
 
 
-def report(cases: Sequence[Case], unproven: int) -> str:
-    """Return what the page says of all methods."""
-    count = len({case.seed for case in cases})
-    common = {f"{kind}": where_all_solve(cases, kind) for kind in ROUTES}
-    return "\n".join(
-        (
-            f"{len(FLEETS)} fleets, of which {count} can keep the routes of at least one kind."
-            f" Optima that were not proven: {unproven}.",
-            "",
-            *table({kind: by_label(cases, kind) for kind in ROUTES}),
-            "",
-            "The same on those fleets only that all methods on these routes solve:",
-            "",
-            *table(common),
-            "",
-        )
+def report(family: Family, kinds: Mapping[str, Groups], unproven: int) -> str:
+    """Return what the page says of a family of fleets."""
+    robots, cells = (" to ".join(map(str, dict.fromkeys(each))) for each in family[1::-1])
+    lines = [
+        f"### {robots} robots, grids {cells} cells wide",
+        "",
+        f"{len(family.seeds)} fleets; optima that were not proven: {unproven}.",
+        *(some_plan(kind, groups["optimum"]) for kind, groups in kinds.items()),
+        "",
+        *table(kinds),
+        "",
+        "The same on those fleets only that all methods on these routes solve:",
+        "",
+        *table({kind: where_all_solve(groups) for kind, groups in kinds.items()}),
+    ]
+    return "\n".join(lines)
+
+
+def some_plan(kind: str, optima: Sequence[Case]) -> str:
+    """Say on how many fleets there is anything to find."""
+    easy = sum(case.optimum == case.alone for case in optima)
+    return (
+        f"On {kind} routes {len(optima)} of them have a plan; in {easy} of these nobody has to"
+        " wait in the best one."
     )
 
 
-STYLES = {
-    "published rule": ("#8a8a8a", "--"),
-    "`two-level`": ("#d55e00", "-"),
-    "`local-search`, `rounds=0`": ("#56b4e9", "-"),
-    "`local-search`": ("#0b4f8a", "-"),
-}
-
-
-def plot(cases: Sequence[Case], path: Path) -> None:
-    """Draw which part of the fleets that can keep their routes has a gap of at most so much."""
-    figure, panels = plt.subplots(1, len(ROUTES), sharey=True, figsize=(9, 3.6), dpi=120)
-    for axes, kind in zip(panels, ROUTES, strict=True):
-        _draw(axes, by_label(cases, kind))
-        axes.set_title(f"on {kind} routes", loc="left", fontsize=10)
-    panels[0].set_ylabel("fleets solved within this gap")
-    panels[-1].legend(loc="lower right", frameon=False, fontsize=9)
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Software": None})
-    plt.close(figure)
-
-
-def _draw(axes: Axes, methods: Mapping[str, Sequence[Case]]) -> None:
-    feasible = len(methods["optimum"])
-    widest = max(case.gap for cases in methods.values() for case in cases)
-    for label, cases in methods.items():
-        if label != "optimum":
-            gaps = np.sort([case.gap for case in cases])
-            steps = np.concatenate((np.arange(1, len(gaps) + 1), [len(gaps)])) / feasible
-            colour, line = STYLES.get(label, (None, "-"))
-            name = label.replace("`", "")
-            axes.step([*gaps, widest], steps, line, where="post", color=colour, label=name)
-    axes.set(xlabel="flowtime / optimum on the same routes - 1", ylim=(0, 1.02))
-    axes.xaxis.set_major_formatter(PercentFormatter(1))
-    axes.yaxis.set_major_formatter(PercentFormatter(1))
-    axes.grid(alpha=0.25)
-    axes.spines[["top", "right"]].set_visible(False)
+def gaps_of(kinds: Mapping[str, Groups]) -> dict[str, dict[str, list[float]]]:
+    """Keep nothing but the gaps."""
+    return {
+        kind: {label: [case.gap for case in cases] for label, cases in groups.items()}
+        for kind, groups in kinds.items()
+    }
 
 
 def main() -> None:
     """Write the page's tables and plot anew."""
-    cases, unproven = compare(METHODS, FLEETS)
+    reports = []
+    for family in (SMALL, LARGER):
+        cases, unproven = compare(METHODS, family)
+        kinds = {kind: by_method(cases, METHODS, kind) for kind in ROUTES}
+        reports.append(report(family, kinds, unproven))
+        if family is SMALL:
+            plot(gaps_of(kinds), PLOT)
     before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
     after = rest.split(END)[1]
-    text = f"{before}{BEGIN}\n{report(cases, unproven)}\n{END}{after}"
-    PAGE.write_text(text, encoding="utf-8")
-    plot(cases, PLOT)
+    text = "\n\n".join(reports)
+    PAGE.write_text(f"{before}{BEGIN}\n{text}\n\n{END}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":
