@@ -16,8 +16,6 @@ import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners import registered
-from rightofway.planners.routing import clear_routes
-from rightofway.search import Distances
 from tests.fleets import random_fleet
 from tests.oracles import precedence
 from tests.oracles.fixed_routes import best_on, least_flowtime, routes_of
@@ -28,7 +26,7 @@ if TYPE_CHECKING:
 
     from rightofway.model import Route
 
-MOST_ORDERS = 256
+MOST_ORDERS = 128
 """So many ways to order a system's visits are still looked at one by one."""
 
 RULES = (
@@ -37,7 +35,6 @@ RULES = (
     Rules(headway=Fraction(1)),
     Rules(occupancy="both", headway=Fraction(1, 2), ends="none"),
     Rules(rotations=False),
-    Rules(laps=2),
 )
 
 
@@ -156,10 +153,10 @@ def plan_of(scenario: Scenario, enter: Sequence[int], routes: Sequence[Route]) -
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="optimum"))
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(10))
 def test_the_optimum_is_a_plan_that_the_judge_passes(seed: int) -> None:
-    scenario = random_fleet(seed, size=8, robots=5, rules=RULES[seed % len(RULES)])
-    routes = clear_routes(scenario, Distances(scenario.roadmap))
+    scenario = random_fleet(seed, size=7, robots=5, rules=RULES[seed % len(RULES)])
+    routes = routes_of(rightofway.solve(scenario, "two-level", time_limit=60))
 
     found = best_on(scenario, routes)
 
