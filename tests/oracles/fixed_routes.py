@@ -138,9 +138,6 @@ def _forbid_rotations(model: cp_model.CpModel, system: System, orders: Orders) -
     """Say that whatever begins at one tick can still begin one after the other."""
     visits = range(len(system.vertex))
     turn = [model.new_int_var(0, len(visits), "") for _ in visits]
-    for x in visits:
-        if not system.is_last(x):
-            model.add(turn[x + 1] > turn[x])
     for (x, y), goes_first in orders.items():
         if not system.is_last(x):
             model.add(turn[y] > turn[x + 1]).only_enforce_if(goes_first)
