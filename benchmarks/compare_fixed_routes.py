@@ -196,6 +196,8 @@ def where_all_solve(groups: Groups) -> Groups:
     }
 
 
+PERCENT = "\N{NO-BREAK SPACE}%"
+
 HEADS = (
     "routes",
     "right of way by",
@@ -203,7 +205,7 @@ HEADS = (
     "optimal",
     "mean gap",
     "median",
-    "90 %",
+    f"90{PERCENT}",
     "worst",
     "flowtime / lower bound",
 )
@@ -226,7 +228,7 @@ def figures(cases: Sequence[Case]) -> Sequence[str]:
     shares = gaps.mean(), np.median(gaps), np.quantile(gaps, 0.9), gaps.max()
     ratio = np.mean([case.flowtime / case.lower_bound for case in cases])
     optimal = sum(case.flowtime == case.optimum for case in cases)
-    return [f"{optimal}", *(f"{100 * share:.1f} %" for share in shares), f"{ratio:.3f}"]
+    return [f"{optimal}", *(f"{100 * share:.1f}{PERCENT}" for share in shares), f"{ratio:.3f}"]
 
 
 def report(family: Family, kinds: Mapping[str, Groups], unproven: int) -> str:
