@@ -57,3 +57,7 @@ develop:
 bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
+
+# How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
+gaps:
+    MPLBACKEND=agg python -m benchmarks.compare_fixed_routes
