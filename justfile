@@ -57,3 +57,7 @@ develop:
 bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
+
+# Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
+priorities *args:
+    python -m benchmarks.compare_priorities {{ args }}

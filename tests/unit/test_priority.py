@@ -12,6 +12,8 @@ import rightofway
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Rules, Scenario, Track
 from rightofway.planners import Draft
+from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.search import Distances
 from tests.fleets import grid_fleet, random_fleet
 
 DOOR = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
@@ -74,12 +76,17 @@ def test_where_no_waiting_helps_one_is_sent_another_way() -> None:
     assert plan.run.status == "re-routed R2"
 
 
-@pytest.mark.parametrize(("routes", "passes_home"), [("clear", False), ("shortest", True)])
-def test_routes_keep_clear_of_homes_or_not(routes: str, passes_home: bool) -> None:
-    """The shortest way of R1 leads through N1, where R2 lives."""
-    scenario = grid_fleet(["...", "...", "..."], [("N0", "N2"), ("N1", "N7")])
-    plan = planned(scenario, "fixed-priority", routes=routes)
-    assert (scenario.roadmap.vertex("N1") in plan.tracks[0].vertices) is passes_home
+def test_routes_keep_clear_of_others_or_are_the_shortest() -> None:
+    scenario = random_fleet(1, size=16, robots=10)
+    distances = Distances(scenario.roadmap)
+    routes = {"clear": clear_routes, "shortest": shortest_routes}
+    driven = {}
+    for name, choose in routes.items():
+        plan = planned(scenario, "fixed-priority", routes=name)
+        assert plan.run.status == "waits only"
+        driven[name] = [tuple(track.vertices.tolist()) for track in plan.tracks]
+        assert driven[name] == [route.vertices for route in choose(scenario, distances)]
+    assert driven["clear"] != driven["shortest"]
 
 
 @pytest.mark.parametrize("planner", SEARCHES)
