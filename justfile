@@ -61,3 +61,7 @@ bench:
 # How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
 gaps:
     MPLBACKEND=agg python -m benchmarks.compare_fixed_routes
+
+# Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
+priorities *args:
+    python -m benchmarks.compare_priorities {{ args }}

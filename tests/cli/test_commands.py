@@ -51,6 +51,12 @@ def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: P
     assert "Their work takes 19 ticks together if R1 waits, 19 if R2 does." in words
 
 
+def test_the_log_says_who_goes_first_by_priority(cli: Cli, door: Path) -> None:
+    ended = cli("plan", door, "--log", "--planner", "fixed-priority")
+    words = " ".join(ended.out.split())
+    assert "R2 waits 1 tick in N2 and follows R1. priority: R1 has the higher one." in words
+
+
 def test_the_table_stands_under_the_summary(cli: Cli, door: Path) -> None:
     assert (
         "R1 final     0=  0   1   4   7   6   6   7   4   1   0" in cli("plan", door, "--table").out

@@ -176,6 +176,28 @@ PLANNERS = (
         (ROUTES, Count("rounds", 100, 0, "How often to favour some robots and go on from there.")),
         improves=True,
     ),
+    PlannerSpec(
+        "fixed-priority",
+        "rightofway.planners.priority:fixed_priority",
+        "Right of way by the robots' numbers: the first in the scenario goes first.",
+        (ROUTES,),
+    ),
+    PlannerSpec(
+        "random-priority",
+        "rightofway.planners.priority:random_priority",
+        "Right of way by random orders of the robots; the best of several plans.",
+        (Count("restarts", 20, 1, "How many orders to try."), ROUTES),
+    ),
+    PlannerSpec(
+        "priority-search",
+        "rightofway.planners.priority:priority_search",
+        "Right of way by an order of the robots that hill climbing improves.",
+        (
+            Count("rounds", 10, 1, "How many orders to try in a climb."),
+            Count("restarts", 2, 1, "How many climbs, each from another order."),
+            ROUTES,
+        ),
+    ),
 )
 
 DEFAULT = "two-level"
