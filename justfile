@@ -53,6 +53,11 @@ develop:
     pip install scikit-build-core nanobind
     pip install --no-build-isolation -e '.[dev,docs]'
 
+# Run the suite of random grids, or go on with it; the report is build/suite.html
+suite *args:
+    mkdir -p build
+    rightofway bench benchmarks/suite.toml -o build/suite.csv --report build/suite.html {{ args }}
+
 # Measure: planners, kernels, start-up (see benchmarks/README.md)
 bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name

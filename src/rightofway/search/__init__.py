@@ -3,6 +3,7 @@
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
 from rightofway.search.joint import joint_steps
+from rightofway.search.native import compiler
 from rightofway.search.sipp import earliest_track
 from rightofway.search.traffic import Traffic
 
@@ -13,6 +14,7 @@ __all__ = [
     "Distances",
     "Path",
     "Traffic",
+    "compiler",
     "earliest_track",
     "joint_steps",
 ]
