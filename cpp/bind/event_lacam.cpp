@@ -3,9 +3,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -52,8 +49,8 @@ time_limit : float or None
 Returns
 -------
 tuple of (int, int32[R + 1], int32[N], int64[N])
-    How it ended (0: found, 2: stopped), which visits each robot owns, and where and when each visit
-    begins.
+    How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
+    and where and when each visit begins.
 
 Raises
 ------
@@ -62,46 +59,45 @@ ValueError
 
 Notes
 -----
-Deterministic for a seed as long as there is time, not optimal. It never proves that there is no
-plan. The GIL is released; Ctrl-C is obeyed.)";
+Deterministic for a seed as long as there is time, not optimal. A stage out of reach
+is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.)";
 
 using Plan = std::tuple<int, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
 Plan plan_by_events(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
                     const ArrayIn<std::int32_t>& edge_class, const ArrayIn<VertexId>& home,
-                    const ArrayIn<std::int32_t>& first_stage,
-                    const ArrayIn<VertexId>& stage_vertex, const ArrayIn<Tick>& stage_dwell,
-                    const ArrayIn<std::int32_t>& class_ticks, Tick headway, bool books_ahead,
-                    bool may_rotate, bool spreads, std::uint64_t seed, std::int64_t most_choices,
+                    const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
+                    const ArrayIn<Tick>& stage_dwell, const ArrayIn<std::int32_t>& class_ticks,
+                    Tick headway, bool books_ahead, bool may_rotate, bool spreads,
+                    std::uint64_t seed, std::int64_t most_choices,
                     std::optional<double> time_limit) {
-    const Trips trips{{view(indptr), view(indices)}, view(edge_class),  view(home),
-                      view(first_stage),             view(stage_vertex), view(stage_dwell),
-                      view(class_ticks),             headway,            books_ahead,
+    const Trips trips{{view(indptr), view(indices)},
+                      view(edge_class),
+                      view(home),
+                      view(first_stage),
+                      view(stage_vertex),
+                      view(stage_dwell),
+                      view(class_ticks),
+                      headway,
+                      books_ahead,
                       may_rotate};
     const Deadline deadline(time_limit);
     SearchEnd end = SearchEnd::stopped;
     Tracks tracks;
     {
         const nb::gil_scoped_release released;
-        auto t0 = std::chrono::steady_clock::now();
-        auto lap = [&](const char* what) {
-            auto t1 = std::chrono::steady_clock::now();
-            if (std::getenv("EL_TIME")) std::fprintf(stderr, "  %s %.4f\n", what, std::chrono::duration<double>(t1 - t0).count());
-            t0 = t1;
-        };
         check(trips);
         StepTables tables(trips.graph);
         SpreadPaths paths(trips, tables);
-        if (!spreads || paths.choose(deadline)) {
-            lap("spread");
+        end = reach_all(trips, tables, deadline);
+        if (end == SearchEnd::found && spreads && !paths.choose(deadline)) {
+            end = SearchEnd::stopped;
+        }
+        if (end == SearchEnd::found) {
             EventLacam search(trips, tables, paths, seed);
-            lap("init");
             end = search.run(deadline, most_choices);
-            lap("search");
             tracks = search.tracks();
-            lap("tracks");
             retime(trips, tracks);
-            lap("retime");
         }
     }
     return {static_cast<int>(end), to_numpy(std::move(tracks.first_visit)),
@@ -116,8 +112,8 @@ void bind_event_lacam(nb::module_& module) {
                nb::arg("home").noconvert(), nb::arg("first_stage").noconvert(),
                nb::arg("stage_vertex").noconvert(), nb::arg("stage_dwell").noconvert(),
                nb::arg("class_ticks").noconvert(), nb::arg("headway"), nb::arg("books_ahead"),
-               nb::arg("may_rotate"), nb::arg("spreads"), nb::arg("seed"),
-               nb::arg("most_choices"), nb::arg("time_limit").none(), plan_doc);
+               nb::arg("may_rotate"), nb::arg("spreads"), nb::arg("seed"), nb::arg("most_choices"),
+               nb::arg("time_limit").none(), plan_doc);
 }
 
 }  // namespace rightofway::bind

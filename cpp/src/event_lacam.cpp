@@ -7,9 +7,27 @@ namespace rightofway {
 namespace {
 
 constexpr std::int32_t none = -1;
+constexpr std::int32_t stages_between_questions = 64;
 constexpr std::int64_t choices_between_questions = 4096;
 
 }  // namespace
+
+SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over) {
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        VertexId place = trips.home[r];
+        for (std::int32_t s = trips.first_stage[r]; s < trips.first_stage[r + 1]; ++s) {
+            const StepTables::TableId table = tables.table_of(trips.stage_vertex[s]);
+            if (tables.steps(table, place) == StepTables::unreachable) {
+                return SearchEnd::proven_none;
+            }
+            if ((s + 1) % stages_between_questions == 0 && is_over()) {
+                return SearchEnd::stopped;
+            }
+            place = trips.stage_vertex[s];
+        }
+    }
+    return SearchEnd::found;
+}
 
 EventLacam::EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
                        std::uint64_t seed)
@@ -73,6 +91,9 @@ SearchEnd EventLacam::expand() {
 // Tells the robots of the node's next constraint where to go; false if there is none left. Each
 // constraint is followed by those that tell one robot more, but only when somebody asks.
 bool EventLacam::next_constraint(Node& node) {
+    if (node.next_constraint > node.constraints.size()) {
+        return false;  // it was asked in vain before
+    }
     const auto k = static_cast<std::int32_t>(node.next_constraint++);
     if (k == 0) {
         node.constraints.push_back({none, 0, none, none});
@@ -115,9 +136,11 @@ void EventLacam::branch(Node& node, std::int32_t constraint) {
 // Who has been on its way for long is urgent; between equals, the longer way counts.
 void EventLacam::sort_by_urgency(std::vector<RobotId>& robots) const {
     std::sort(robots.begin(), robots.end(), [this](RobotId left, RobotId right) {
-        const Tick since_left = state_.on_its_way_since(left);
-        const Tick since_right = state_.on_its_way_since(right);
-        return since_left != since_right ? since_left < since_right : rank_[left] < rank_[right];
+        const Tick urgent_left = pibt_.pace(left) * (state_.now() - state_.on_its_way_since(left));
+        const Tick urgent_right =
+            pibt_.pace(right) * (state_.now() - state_.on_its_way_since(right));
+        return urgent_left != urgent_right ? urgent_left > urgent_right
+                                           : rank_[left] < rank_[right];
     });
 }
 

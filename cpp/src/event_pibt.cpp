@@ -24,10 +24,8 @@ EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& 
     for (const VertexId target : trips.stage_vertex) {
         stage_table_.push_back(tables.table_of(target));
     }
-    const auto n_classes = static_cast<std::size_t>(trips.n_classes());
-    for (std::size_t r = 0; r < trips.home.size(); ++r) {
-        const auto ticks = trips.class_ticks.subspan(r * n_classes, n_classes);
-        pace_.push_back(ticks.empty() ? 1 : *std::min_element(ticks.begin(), ticks.end()));
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        pace_.push_back(trips.pace(r));
     }
 }
 
@@ -122,7 +120,7 @@ bool EventPibt::try_places(const FleetState& now, RobotId robot, std::size_t fir
         }
         const bool pulls = partner != nobody && k == first && place != here;
         if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
-            edge_to(now.at(partner), here) >= 0) {
+            trips_.graph.edge(now.at(partner), here) >= 0) {
             take(partner, here);
         }
         return true;
@@ -136,15 +134,6 @@ bool EventPibt::is_idle(const FleetState& now, RobotId robot) const {
 
 std::int32_t EventPibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
     return tables_.steps(stage_table_[now.stage(robot)], vertex);
-}
-
-EdgeId EventPibt::edge_to(VertexId from, VertexId to) const {
-    for (EdgeId e = trips_.graph.indptr[from]; e < trips_.graph.indptr[from + 1]; ++e) {
-        if (trips_.graph.indices[e] == to) {
-            return e;
-        }
-    }
-    return -1;
 }
 
 // When the robot could be there, if whoever is free makes room at once.
@@ -171,8 +160,7 @@ void EventPibt::push_places(const FleetState& now, RobotId robot) {
     };
     for (EdgeId e = trips_.graph.indptr[here]; e < trips_.graph.indptr[here + 1]; ++e) {
         const VertexId head = trips_.graph.indices[e];
-        const std::int32_t steps =
-            head == preferred ? from_here - 1 : way(now, robot, head);
+        const std::int32_t steps = head == preferred ? from_here - 1 : way(now, robot, head);
         push(head, soonest(now, robot, head, trips_.drive(robot, e)), steps, head == preferred);
     }
     push(here, now.now() + pace_[robot], from_here, false);
@@ -293,10 +281,10 @@ bool EventPibt::settle_queue(const FleetState& now, RobotId last) {
         }
         const VertexId place = next_[next];
         const RobotId ahead = now.here(place);
-        const Tick left = ahead == nobody          ? now.left(place)
-                          : now.is_busy(ahead)     ? now.ready(ahead)
-                                                   : arrival_[ahead];
-        const Tick drive = trips_.drive(next, edge_to(now.at(next), place));
+        const Tick left = ahead == nobody      ? now.left(place)
+                          : now.is_busy(ahead) ? now.ready(ahead)
+                                               : arrival_[ahead];
+        const Tick drive = trips_.drive(next, trips_.graph.edge(now.at(next), place));
         arrival_[next] = std::max(now.now() + drive, left + trips_.gap(drive));
     }
     return true;
@@ -309,7 +297,8 @@ bool EventPibt::settle_circle(const FleetState& now, RobotId member) {
     Tick slowest = 0;
     RobotId robot = member;
     do {
-        slowest = std::max(slowest, trips_.drive(robot, edge_to(now.at(robot), next_[robot])));
+        slowest =
+            std::max(slowest, trips_.drive(robot, trips_.graph.edge(now.at(robot), next_[robot])));
         robot = now.here(next_[robot]);
     } while (robot != member);
     do {

@@ -18,19 +18,13 @@ struct Waits {
     Tick gap;
 };
 
-EdgeId edge_between(const Graph& graph, VertexId tail, VertexId head) {
-    const auto heads = graph.heads(tail);
-    return graph.indptr[tail] +
-           static_cast<EdgeId>(std::find(heads.begin(), heads.end(), head) - heads.begin());
-}
-
 // Each stage but the last is served in the first visit to its vertex that lasts long enough.
 void set_own(const Trips& trips, const Tracks& tracks, RobotId robot, std::vector<Waits>& waits) {
     std::int32_t stage = trips.first_stage[robot];
     const VisitId end = tracks.first_visit[robot + 1];
     for (VisitId x = tracks.first_visit[robot] + 1; x < end; ++x) {
-        const Tick drive = trips.drive(
-            robot, edge_between(trips.graph, tracks.vertex[x - 1], tracks.vertex[x]));
+        const Tick drive =
+            trips.drive(robot, trips.graph.edge(tracks.vertex[x - 1], tracks.vertex[x]));
         Tick least = drive;
         while (!trips.is_last(robot, stage) && trips.stage_vertex[stage] == tracks.vertex[x - 1] &&
                least + trips.stage_dwell[stage] <= tracks.enter[x] - tracks.enter[x - 1]) {

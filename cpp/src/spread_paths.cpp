@@ -1,80 +1,87 @@
 #include "rightofway/spread_paths.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace rightofway {
 namespace {
 
 constexpr EdgeId none = -1;
 constexpr VertexId nowhere = -1;
-constexpr std::int32_t legs_between_questions = 32;
 
-int env(const char* n, int d) { const char* s = std::getenv(n); return s ? std::atoi(s) : d; }
-const int per_edge = env("SP_EDGE", 16), per_use = env("SP_USE", 1), per_opp = env("SP_OPP", 8),
-          most_use = env("SP_MUSE", 16), most_opp = env("SP_MOPP", 64), per_rest=env("SP_REST",320);
+// What an edge costs, and what it costs more for each path against it and each at its end, up to
+// a bound: a crowd is worth a detour, but not any detour.
+constexpr std::int64_t edge_cost = 16;
+constexpr std::int64_t cost_against = 8;
+constexpr std::int64_t most_against = 64;
+constexpr std::int64_t cost_shared = 1;
+constexpr std::int64_t most_shared = 16;
+// What it costs to drive over a robot at the end of its trip: it has to make room, and come back.
+constexpr std::int64_t cost_ended = 320;
+// Above edge_cost, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
+constexpr std::int64_t estimate_per_step = 24;
+
+constexpr std::int64_t most_opened = 3'000'000;
+constexpr std::int64_t legs_between_questions = 32;
 
 }  // namespace
 
 SpreadPaths::SpreadPaths(const Trips& trips, StepTables& tables)
     : trips_(trips),
       tables_(tables),
-      reverse_(trips.graph.indices.size(), none),
       tail_(trips.graph.indices.size()),
+      back_(trips.graph.indices.size(), none),
+      ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), infinity),
       edge_use_(trips.graph.indices.size(), 0),
-      vertex_use_(static_cast<std::size_t>(trips.graph.n_vertices()), 0),
+      vertex_use_(ended_from_.size(), 0),
       first_hop_(trips.stage_vertex.size(), 0),
       end_hop_(trips.stage_vertex.size(), 0),
-      seen_in_(vertex_use_.size(), 0),
-      so_far_(vertex_use_.size(), 0),
-      rests_from_(vertex_use_.size(), infinity),
-      when_(vertex_use_.size(), 0),
-      by_(vertex_use_.size(), none) {
-    const Graph& graph = trips.graph;
+      best_(ended_from_.size(), {0, 0, none, 0}) {}
+
+void SpreadPaths::pair_edges() {
+    const Graph& graph = trips_.graph;
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
-        for (EdgeId e = graph.indptr[v]; e < graph.indptr[v + 1]; ++e) {
-            tail_[e] = v;
-            const VertexId head = graph.indices[e];
-            for (EdgeId b = graph.indptr[head]; b < graph.indptr[head + 1]; ++b) {
-                if (graph.indices[b] == v) {
-                    reverse_[e] = b;
-                }
-            }
-        }
+        std::fill(tail_.begin() + graph.indptr[v], tail_.begin() + graph.indptr[v + 1], v);
+    }
+    for (EdgeId e = 0; e < static_cast<EdgeId>(tail_.size()); ++e) {
+        back_[e] = graph.edge(graph.indices[e], tail_[e]);
     }
 }
 
-bool SpreadPaths::choose(const std::function<bool()>& is_over) {
-    find_rests();
-    std::int32_t n_legs = 0;
-    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
-        VertexId place = trips_.home[r];
-        Tick when = 0;
-        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
-            if (++n_legs % legs_between_questions == 0 && is_over()) {
-                return false;
-            }
-            when = choose_leg(r, place, s, when) + trips_.stage_dwell[s];
-            place = trips_.stage_vertex[s];
-        }
-    }
-    return true;
-}
-
-void SpreadPaths::find_rests() {
+// The last stages, and when their robots are there if nobody makes them wait.
+void SpreadPaths::find_ends() {
     for (RobotId r = 0; r < trips_.n_robots(); ++r) {
         VertexId place = trips_.home[r];
         Tick when = 0;
         for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
             const VertexId target = trips_.stage_vertex[s];
-            when += tables_.steps(tables_.table_of(target), place) * trips_.class_ticks[static_cast<std::size_t>(r) * trips_.n_classes()];
-            place = target;
+            when += trips_.pace(r) * tables_.steps(tables_.table_of(target), place);
             if (trips_.is_last(r, s)) {
-                rests_from_[target] = when;
+                ended_from_[target] = when;
             }
             when += trips_.stage_dwell[s];
+            place = target;
         }
     }
+}
+
+bool SpreadPaths::choose(const std::function<bool()>& is_over) {
+    pair_edges();
+    find_ends();
+    const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
+    std::int64_t n_chosen = 0;
+    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        VertexId place = trips_.home[r];
+        Tick when = 0;
+        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
+            if (++n_chosen % legs_between_questions == 0 && is_over()) {
+                return false;
+            }
+            credit_ += most_opened / n_legs;  // what one leg leaves over is for the next ones
+            when = choose_leg({r, place, s}, when) + trips_.stage_dwell[s];
+            place = trips_.stage_vertex[s];
+        }
+    }
+    return true;
 }
 
 VertexId SpreadPaths::next(std::int32_t stage, VertexId at) const {
@@ -85,80 +92,88 @@ VertexId SpreadPaths::next(std::int32_t stage, VertexId at) const {
     return hop != end && hop->from == at ? hop->to : nowhere;
 }
 
-Tick SpreadPaths::choose_leg(RobotId robot, VertexId start, std::int32_t stage, Tick when) {
-    const VertexId target = trips_.stage_vertex[stage];
-    first_hop_[stage] = end_hop_[stage] = hops_.size();
-    if (start != target && search(robot, start, target, tables_.table_of(target), when)) {
-        keep(start, target, stage);
-        return when_[target];
+// Returns when the robot would be there.
+Tick SpreadPaths::choose_leg(const Leg& leg, Tick when) {
+    const VertexId target = trips_.stage_vertex[leg.stage];
+    if (leg.start == target) {
+        return when;
     }
-    return when;
+    if (search(leg, when)) {
+        keep(leg);
+        return best_[target].when;
+    }
+    return when + trips_.pace(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
 bool SpreadPaths::is_worse(const Open& left, const Open& right) {
-    return left.cost != right.cost       ? left.cost > right.cost
-           : left.so_far != right.so_far ? left.so_far < right.so_far
-                                         : left.vertex > right.vertex;
+    return left.estimate != right.estimate ? left.estimate > right.estimate
+           : left.cost != right.cost       ? left.cost < right.cost
+                                           : left.vertex > right.vertex;
 }
 
-bool SpreadPaths::search(RobotId robot, VertexId start, VertexId target, StepTables::TableId table, Tick when) {
+bool SpreadPaths::search(const Leg& leg, Tick when) {
     const Graph& graph = trips_.graph;
+    const VertexId target = trips_.stage_vertex[leg.stage];
+    const StepTables::TableId table = tables_.table_of(target);
     ++round_;
     open_.clear();
-    reach({0, 0, when, start}, none, table);
-    while (!open_.empty()) {
+    open({0, 0, when, leg.start}, none, table);
+    for (; !open_.empty() && credit_ > 0; --credit_) {
         std::pop_heap(open_.begin(), open_.end(), is_worse);
         const Open top = open_.back();
         open_.pop_back();
         if (top.vertex == target) {
             return true;
         }
-        if (top.so_far > so_far_[top.vertex]) {
+        if (top.cost > best_[top.vertex].cost) {
             continue;  // reached at less cost since
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
-            const Tick then = top.when + trips_.drive(robot, e);
-            const bool is_rest = head != target && rests_from_[head] <= then;
-            reach({0, top.so_far + cost_of(e) + (is_rest ? per_rest : 0), then, head}, e, table);
+            const Tick then = top.when + trips_.drive(leg.robot, e);
+            const bool has_ended = head != target && ended_from_[head] <= then;
+            open({0, top.cost + cost_of(e) + (has_ended ? cost_ended : 0), then, head}, e, table);
         }
     }
     return false;
 }
 
-void SpreadPaths::reach(const Open& r, EdgeId by, StepTables::TableId table) {
-    if (seen_in_[r.vertex] == round_ && so_far_[r.vertex] <= r.so_far) {
+void SpreadPaths::open(Open reached, EdgeId by, StepTables::TableId table) {
+    Best& best = best_[reached.vertex];
+    if (best.round == round_ && best.cost <= reached.cost) {
         return;
     }
-    const std::int32_t steps = tables_.steps(table, r.vertex);
+    const std::int32_t steps = tables_.steps(table, reached.vertex);
     if (steps == StepTables::unreachable) {
         return;
     }
-    seen_in_[r.vertex] = round_;
-    so_far_[r.vertex] = r.so_far;
-    when_[r.vertex] = r.when;
-    by_[r.vertex] = by;
-    open_.push_back({r.so_far + std::int64_t{per_edge} * steps, r.so_far, r.when, r.vertex});
+    best = {reached.cost, reached.when, by, round_};
+    reached.estimate = reached.cost + estimate_per_step * steps;
+    open_.push_back(reached);
     std::push_heap(open_.begin(), open_.end(), is_worse);
 }
 
 std::int64_t SpreadPaths::cost_of(EdgeId edge) const {
-    const std::int32_t against = reverse_[edge] == none ? 0 : edge_use_[reverse_[edge]];
-    return per_edge + std::min(per_opp * against, most_opp) +
-           std::min(per_use * vertex_use_[trips_.graph.indices[edge]], most_use);
+    const std::int64_t against = back_[edge] == none ? 0 : edge_use_[back_[edge]];
+    const std::int64_t shared = vertex_use_[trips_.graph.indices[edge]];
+    return edge_cost + std::min(cost_against * against, most_against) +
+           std::min(cost_shared * shared, most_shared);
 }
 
-void SpreadPaths::keep(VertexId start, VertexId target, std::int32_t stage) {
-    for (VertexId at = target; at != start;) {
-        const EdgeId e = by_[at];
-        ++edge_use_[e];
+// Goes back along the edges by which the search came.
+void SpreadPaths::keep(const Leg& leg) {
+    const auto first = static_cast<std::ptrdiff_t>(hops_.size());
+    for (VertexId at = trips_.stage_vertex[leg.stage]; at != leg.start;) {
+        const EdgeId edge = best_[at].by;
+        ++edge_use_[edge];
         ++vertex_use_[at];
-        hops_.push_back({tail_[e], at});
-        at = tail_[e];
+        hops_.push_back({tail_[edge], at});
+        at = tail_[edge];
     }
-    std::sort(hops_.begin() + static_cast<std::ptrdiff_t>(first_hop_[stage]), hops_.end(),
+    std::sort(hops_.begin() + first, hops_.end(),
               [](const Hop& left, const Hop& right) { return left.from < right.from; });
-    end_hop_[stage] = hops_.size();
+    first_hop_[leg.stage] = static_cast<std::size_t>(first);
+    end_hop_[leg.stage] = hops_.size();
 }
 
 }  // namespace rightofway

@@ -12,8 +12,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -31,6 +29,9 @@ struct Tracks {
     std::vector<Tick> enter;
 };
 
+// Whether every robot, if it were alone, could go through all of its stages: `found` if so.
+SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over);
+
 class EventLacam {
   public:
     // Borrows everything.
@@ -38,7 +39,7 @@ class EventLacam {
                std::uint64_t seed);
 
     // Stops when `is_over` says so, asked every few thousand choices of a robot, or after so many
-    // choices. Never proves that there is no plan: `proven_none` is not among its ends.
+    // choices. `proven_none` is not among its ends.
     SearchEnd run(const std::function<bool()>& is_over, std::int64_t most_choices);
 
     // Where each robot is, when; empty unless a plan was found.
@@ -74,7 +75,7 @@ class EventLacam {
     EventPibt pibt_;
     const FleetState start_;
     FleetState state_;
-    std::int32_t state_of_;         // the node whose state that is
+    std::int32_t state_of_;           // the node whose state that is
     std::vector<std::int32_t> rank_;  // of each robot: longest way first
     std::vector<RobotId> order_;
     std::vector<Node> nodes_;

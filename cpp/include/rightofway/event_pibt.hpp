@@ -36,6 +36,9 @@ class EventPibt {
     // The moves that were chosen last.
     std::span<const Decision> decisions() const { return decisions_; }
 
+    // The ticks that a robot needs for its quickest edge.
+    Tick pace(RobotId robot) const { return pace_[robot]; }
+
     // How often a robot has chosen, since the beginning.
     std::int64_t n_choices() const { return n_choices_; }
 
@@ -72,7 +75,6 @@ class EventPibt {
     bool must_swap(const FleetState& now, Pair pair);
     bool can_swap(const FleetState& now, VertexId behind, VertexId ahead) const;
     std::int32_t way(const FleetState& now, RobotId robot, VertexId vertex);
-    EdgeId edge_to(VertexId from, VertexId to) const;
     bool settle_arrivals(const FleetState& now);
     bool settle_queue(const FleetState& now, RobotId last);
     bool settle_circle(const FleetState& now, RobotId member);
@@ -82,14 +84,14 @@ class EventPibt {
     StepTables& tables_;
     const SpreadPaths& paths_;
     std::vector<StepTables::TableId> stage_table_;
-    std::vector<Tick> pace_;         // of each robot: the ticks of its quickest edge
-    std::uint64_t draw_;             // state of the random numbers for ties
-    std::vector<RobotId> claim_;     // who will be at each vertex by a choice of this instant
-    std::vector<VertexId> next_;     // where each robot will be by that
-    std::vector<Tick> arrival_;      // of each robot, once it is settled
-    std::vector<RobotId> chosen_;    // this instant
+    std::vector<Tick> pace_;
+    std::uint64_t draw_;           // state of the random numbers for ties
+    std::vector<RobotId> claim_;   // who will be at each vertex by a choice of this instant
+    std::vector<VertexId> next_;   // where each robot will be by that
+    std::vector<Tick> arrival_;    // of each robot, once it is settled
+    std::vector<RobotId> chosen_;  // this instant
     std::vector<RobotId> queue_;
-    std::vector<Place> places_;      // a stack: those of each robot that is choosing
+    std::vector<Place> places_;  // a stack: those of each robot that is choosing
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;
     std::int64_t n_choices_ = 0;

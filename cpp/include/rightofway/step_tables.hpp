@@ -1,4 +1,5 @@
-// How many edges is it from here to there? Asked of many targets, and mostly of places near the way.
+// How many edges is it from here to there? Asked of many targets, and mostly of places near the
+// way.
 //
 // One breadth-first search per target over the reversed edges, which goes on only until it has
 // reached the vertex that was asked for, and is taken up again when one further away is asked for.

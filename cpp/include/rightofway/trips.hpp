@@ -1,6 +1,8 @@
 // What each robot of a fleet has to do, in ticks: its stages, its dwells, its time for every edge.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -31,6 +33,12 @@ struct Trips {
     }
     Tick drive(RobotId robot, EdgeId edge) const {
         return class_ticks[static_cast<std::size_t>(robot) * n_classes() + edge_class[edge]];
+    }
+    // The ticks that a robot needs for its quickest edge; 1 where there are no edges.
+    Tick pace(RobotId robot) const {
+        const auto n = static_cast<std::size_t>(n_classes());
+        const auto ticks = class_ticks.subspan(static_cast<std::size_t>(robot) * n, n);
+        return ticks.empty() ? 1 : *std::min_element(ticks.begin(), ticks.end());
     }
     // From when the vertex ahead is left to when a robot that drives there can be there.
     Tick gap(Tick drive_ticks) const { return headway + (books_ahead ? drive_ticks : 0); }

@@ -2,6 +2,7 @@
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
+from rightofway.search.events import plan_by_events
 from rightofway.search.joint import joint_steps
 from rightofway.search.sipp import earliest_track
 from rightofway.search.traffic import Traffic
@@ -15,4 +16,5 @@ __all__ = [
     "Traffic",
     "earliest_track",
     "joint_steps",
+    "plan_by_events",
 ]

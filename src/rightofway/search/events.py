@@ -12,12 +12,12 @@ from itertools import accumulate, chain, pairwise
 import numpy as np
 
 from rightofway import _core
+from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Scenario, Tick, Track
 
 __all__ = ["plan_by_events"]
 
-FOUND = 0
-NO_LIMIT = 2**62
+FOUND, PROVEN_NONE = 0, 1
 
 
 def plan_by_events(
@@ -25,7 +25,7 @@ def plan_by_events(
     *,
     headway: Tick,
     seed: int = 0,
-    most_choices: int = NO_LIMIT,
+    most_choices: int,
     time_limit: float | None = None,
     spreads: bool = True,
 ) -> list[Track] | None:
@@ -34,7 +34,7 @@ def plan_by_events(
     Parameters
     ----------
     scenario
-        The problem; every stage can be reached, and no two robots end at one vertex.
+        The problem; no two robots end at one vertex.
     headway
         Ticks that a vertex stays booked after it was left; at least those of the scenario.
     seed
@@ -50,6 +50,11 @@ def plan_by_events(
     -------
     list of Track or None
         None if the search stopped before it found a plan. That proves nothing.
+
+    Raises
+    ------
+    NoPlanExists
+        If a robot cannot get to a place.
 
     Notes
     -----
@@ -76,6 +81,8 @@ def plan_by_events(
         most_choices,
         time_limit,
     )
+    if end == PROVEN_NONE:
+        raise NoPlanExists("a robot has no way to one of its places (join the parts of the map)")
     if end != FOUND:
         return None
     return [
