@@ -14,7 +14,7 @@ constexpr Tick longest_dwell = Tick{1} << 40;
 
 void check_edges(const Trips& trips) {
     require_length("edge_class", trips.edge_class.size(), trips.graph.indices.size());
-    for (std::size_t e = 0; e < trips.edge_class.size(); ++e) {
+    for (std::size_t e = 0; e < trips.edge_class.size() && !trips.home.empty(); ++e) {
         require_id("edge_class[" + std::to_string(e) + "]", trips.edge_class[e], trips.n_classes());
     }
 }
