@@ -41,8 +41,8 @@ spreads : bool
     Whether robots prefer paths that were spread before the search.
 seed : int
     For ties.
-most_choices : int
-    After robots have chosen so many times the search stops.
+most_effort : int
+    When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
 time_limit : float or None
     After so many seconds the search stops.
 
@@ -69,7 +69,7 @@ Plan plan_by_events(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indi
                     const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
                     const ArrayIn<Tick>& stage_dwell, const ArrayIn<std::int32_t>& class_ticks,
                     Tick headway, bool books_ahead, bool may_rotate, bool spreads,
-                    std::uint64_t seed, std::int64_t most_choices,
+                    std::uint64_t seed, std::int64_t most_effort,
                     std::optional<double> time_limit) {
     const Trips trips{{view(indptr), view(indices)},
                       view(edge_class),
@@ -95,7 +95,7 @@ Plan plan_by_events(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indi
         }
         if (end == SearchEnd::found) {
             EventLacam search(trips, tables, paths, seed);
-            end = search.run(deadline, most_choices);
+            end = search.run(deadline, most_effort);
             tracks = search.tracks();
             retime(trips, tracks);
         }
@@ -112,7 +112,7 @@ void bind_event_lacam(nb::module_& module) {
                nb::arg("home").noconvert(), nb::arg("first_stage").noconvert(),
                nb::arg("stage_vertex").noconvert(), nb::arg("stage_dwell").noconvert(),
                nb::arg("class_ticks").noconvert(), nb::arg("headway"), nb::arg("books_ahead"),
-               nb::arg("may_rotate"), nb::arg("spreads"), nb::arg("seed"), nb::arg("most_choices"),
+               nb::arg("may_rotate"), nb::arg("spreads"), nb::arg("seed"), nb::arg("most_effort"),
                nb::arg("time_limit").none(), plan_doc);
 }
 

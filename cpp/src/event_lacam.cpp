@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 constexpr std::int32_t stages_between_questions = 64;
-constexpr std::int64_t choices_between_questions = 4096;
+constexpr std::int64_t effort_between_questions = 4096;
 
 }  // namespace
 
@@ -52,13 +52,14 @@ EventLacam::EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths
     }
 }
 
-SearchEnd EventLacam::run(const std::function<bool()>& is_over, std::int64_t most_choices) {
+SearchEnd EventLacam::run(const std::function<bool()>& is_over, std::int64_t most_effort) {
     add(none, 0);
-    std::int64_t next_question = choices_between_questions;
-    for (std::int64_t n_steps = 1; !open_.empty(); ++n_steps) {
-        if (std::max(pibt_.n_choices(), n_steps) >= next_question) {
-            next_question += choices_between_questions;
-            if (next_question > most_choices || is_over()) {
+    std::int64_t next_question = effort_between_questions;
+    for (; !open_.empty(); ++n_retaken_) {
+        const std::int64_t effort = pibt_.n_choices() + n_retaken_;
+        if (effort >= next_question) {
+            next_question = effort + effort_between_questions;
+            if (effort > most_effort || is_over()) {
                 return SearchEnd::stopped;
             }
         }
@@ -180,6 +181,8 @@ void EventLacam::restore(std::int32_t node) {
         for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
             state_.decide(decisions_[k]);
         }
+        n_retaken_ +=
+            1 + static_cast<std::int64_t>(nodes_[step].end_decision - nodes_[step].first_decision);
         if (nodes_[step].parent != none) {
             state_.advance();
         }

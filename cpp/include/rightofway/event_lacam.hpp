@@ -38,9 +38,10 @@ class EventLacam {
     EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
                std::uint64_t seed);
 
-    // Stops when `is_over` says so, asked every few thousand choices of a robot, or after so many
-    // choices. `proven_none` is not among its ends.
-    SearchEnd run(const std::function<bool()>& is_over, std::int64_t most_choices);
+    // Stops when `is_over` says so, asked every few thousand units of effort, or when that is
+    // spent. A choice of a robot is a unit, and so is a decision that is taken again to make a
+    // state. `proven_none` is not among its ends.
+    SearchEnd run(const std::function<bool()>& is_over, std::int64_t most_effort);
 
     // Where each robot is, when; empty unless a plan was found.
     Tracks tracks() const;
@@ -81,6 +82,7 @@ class EventLacam {
     std::vector<Node> nodes_;
     std::vector<std::int32_t> open_;
     std::vector<Decision> decisions_;
+    std::int64_t n_retaken_ = 0;                             // decisions, to make states again
     std::unordered_map<std::uint64_t, std::int32_t> known_;  // by fingerprint
     std::int32_t goal_;
 };

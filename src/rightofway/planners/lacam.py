@@ -21,8 +21,8 @@ __all__ = ["lacam"]
 SHARE_OF_TIME = 0.5
 """How much of its time the search with clocks may take, if it does not give up before."""
 
-LEAST_CHOICES = 200_000
-CHOICES_PER_PLACE = 4
+LEAST_EFFORT = 2_000_000
+EFFORT_PER_PLACE = 8
 """How patient the search with clocks is: choices per robot and vertex, but at least so many."""
 
 
@@ -57,7 +57,7 @@ def _by_events(task: Task) -> list[Track] | None:
             task.scenario,
             headway=planning_headway(task.scenario),
             seed=task.seed,
-            most_choices=_patience(task.scenario),
+            most_effort=_patience(task.scenario),
             time_limit=task.deadline.sooner(SHARE_OF_TIME).seconds_left(),
             spreads=task.options.get("paths") != "shortest",
         )
@@ -68,4 +68,4 @@ def _by_events(task: Task) -> list[Track] | None:
 
 def _patience(scenario: Scenario) -> int:
     places = len(scenario.robots) * scenario.roadmap.n_vertices
-    return max(LEAST_CHOICES, CHOICES_PER_PLACE * places)
+    return max(LEAST_EFFORT, EFFORT_PER_PLACE * places)

@@ -25,7 +25,7 @@ def plan_by_events(
     *,
     headway: Tick,
     seed: int = 0,
-    most_choices: int,
+    most_effort: int,
     time_limit: float | None = None,
     spreads: bool = True,
 ) -> list[Track] | None:
@@ -39,8 +39,9 @@ def plan_by_events(
         Ticks that a vertex stays booked after it was left; at least those of the scenario.
     seed
         For ties.
-    most_choices
-        After robots have chosen where to go so many times, the search stops.
+    most_effort
+        When the search stops: a choice of a robot is a unit, and so is a decision that it takes
+        again to go back to where it has been.
     time_limit
         When to stop [s].
     spreads
@@ -78,7 +79,7 @@ def plan_by_events(
         rules.rotations and not rules.books_ahead and headway == 0,
         spreads,
         seed,
-        most_choices,
+        most_effort,
         time_limit,
     )
     if end == PROVEN_NONE:
