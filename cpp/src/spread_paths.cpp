@@ -20,7 +20,9 @@ constexpr std::int64_t cost_ended = 320;
 // Above edge_cost, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
 constexpr std::int64_t estimate_per_step = 24;
 
+// The effort is bounded. Where it comes to less than this for a leg, it would be spent in vain.
 constexpr std::int64_t most_opened = 3'000'000;
+constexpr std::int64_t least_for_a_leg = 500;
 constexpr std::int64_t legs_between_questions = 32;
 
 }  // namespace
@@ -65,9 +67,12 @@ void SpreadPaths::find_ends() {
 }
 
 bool SpreadPaths::choose(const std::function<bool()>& is_over) {
+    const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
+    if (n_legs * least_for_a_leg > most_opened) {
+        return true;
+    }
     pair_edges();
     find_ends();
-    const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
     std::int64_t n_chosen = 0;
     for (RobotId r = 0; r < trips_.n_robots(); ++r) {
         VertexId place = trips_.home[r];

@@ -43,6 +43,20 @@ TEST_CASE("each leg of a trip has its own path") {
     CHECK(paths.next(1, 1) == 0);
 }
 
+TEST_CASE("so many legs that there is no time for any have no paths") {
+    std::vector<test::Stage> stages;
+    for (int lap = 0; lap < 3001; ++lap) {
+        stages.push_back({3});
+        stages.push_back({0});
+    }
+    test::ClockedFleet fleet{test::corridor(), {{0, stages}}};
+    const Trips trips = fleet.trips();
+    StepTables tables(trips.graph);
+    SpreadPaths paths(trips, tables);
+    REQUIRE(paths.choose(test::never));
+    CHECK(paths.next(0, 1) == -1);
+}
+
 TEST_CASE("choosing paths can be stopped") {
     test::ClockedFleet fleet{test::corridor(), {{0, std::vector<test::Stage>(100, {3})}}};
     const Trips trips = fleet.trips();

@@ -26,8 +26,8 @@ class SpreadPaths {
     // Without a preference for anything. Borrows the trips and the tables.
     SpreadPaths(const Trips& trips, StepTables& tables);
 
-    // Chooses the paths; false if told to stop before that was done. The effort is bounded: in
-    // very large fleets some robots are left without a path.
+    // Chooses the paths; false if told to stop before that was done. The effort is bounded: in a
+    // large fleet some robots are left without a path, and in a very large one all of them.
     bool choose(const std::function<bool()>& is_over);
 
     // Where the path to a stage goes on from a vertex; -1 where it does not pass.

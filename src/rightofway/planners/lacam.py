@@ -18,7 +18,7 @@ from rightofway.search import Distances, plan_by_events
 
 __all__ = ["lacam"]
 
-SHARE_OF_TIME = 0.5
+SHARE_OF_TIME = 0.9
 """How much of its time the search with clocks may take, if it does not give up before."""
 
 LEAST_EFFORT = 2_000_000
@@ -39,7 +39,7 @@ def lacam(task: Task) -> Draft:
     Notes
     -----
     Complete: the search without clocks finds an order of moves or proves that there is none.
-    Deterministic, as long as half of the time limit is enough for the search with clocks. Not
+    Deterministic, as long as nine tenths of the time limit are enough for the search with clocks. Not
     optimal.
     """
     refuse_shared_ends(task.scenario)
