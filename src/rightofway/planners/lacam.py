@@ -39,8 +39,8 @@ def lacam(task: Task) -> Draft:
     Notes
     -----
     Complete: the search without clocks finds an order of moves or proves that there is none.
-    Deterministic, as long as nine tenths of the time limit are enough for the search with clocks. Not
-    optimal.
+    Deterministic, as long as nine tenths of the time limit are enough for the search with clocks.
+    Not optimal.
     """
     refuse_shared_ends(task.scenario)
     tracks = _by_events(task)
