@@ -79,6 +79,56 @@ class DistanceTables:
     def n_edges(self) -> int:
         """The number of edges, E."""
 
+def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Plan a whole fleet with clocks, instant by instant.
+
+    Parameters
+    ----------
+    indptr, indices, edge_class : int32[V + 1], int32[E], int32[E]
+        The directed graph in compressed rows, and which length each edge has.
+    home : int32[R]
+        Where each robot is at first.
+    first_stage : int32[R + 1]
+        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+    stage_vertex, stage_dwell : int32[S], int64[S]
+        The vertices to go to, one after the other, and the ticks of work and turning there; a robot
+        stays at its last one.
+    class_ticks : int32[R * L]
+        For each robot, the ticks of an edge of each length.
+    headway : int
+        A vertex stays booked so many ticks after it was left.
+    books_ahead : bool
+        Whether a robot books a vertex from when it starts to drive there.
+    may_rotate : bool
+        Whether three or more robots may move round a circle at one instant; not with a headway or
+        booking ahead.
+    spreads : bool
+        Whether robots prefer paths that were spread before the search.
+    seed : int
+        For ties.
+    most_effort : int
+        When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int32[R + 1], int32[N], int64[N])
+        How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
+        and where and when each visit begins.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together.
+
+    Notes
+    -----
+    Deterministic for a seed as long as there is time, not optimal. A stage out of reach
+    is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
+    """
+
 def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.

@@ -17,6 +17,15 @@ struct Graph {
         const auto first = static_cast<std::size_t>(indptr[v]);
         return indices.subspan(first, static_cast<std::size_t>(indptr[v + 1]) - first);
     }
+    // The edge from one vertex to another, -1 if there is none.
+    EdgeId edge(VertexId tail, VertexId head) const {
+        for (EdgeId e = indptr[tail]; e < indptr[tail + 1]; ++e) {
+            if (indices[e] == head) {
+                return e;
+            }
+        }
+        return -1;
+    }
 };
 
 // Throws std::invalid_argument, naming the array, the index and the value, if that is no graph.

@@ -58,8 +58,9 @@ def run_on_cluster(
         yield from _rows(client, iter(cases))
     except InputError as error:
         raise InputError(error.problems, address) from None
-    except Exception:
-        if client.status == "running":
+    except Exception as error:
+        is_cut_off = isinstance(error, OSError)  # the client may not have noticed yet
+        if client.status == "running" and not is_cut_off:
             raise
         message = "the scheduler went away (run the same command again to go on)"
         raise InputError.at("", message, address) from None

@@ -170,6 +170,18 @@ PLANNERS = (
         ),
     ),
     PlannerSpec(
+        "lacam",
+        "rightofway.planners.lacam:lacam",
+        "All robots together, instant by instant: a plan at once, also where there is no room.",
+        (
+            Choice(
+                "paths",
+                ("spread", "shortest"),
+                "Spread the preferred paths first, or leave every robot its shortest way.",
+            ),
+        ),
+    ),
+    PlannerSpec(
         "local-search",
         "rightofway.planners.local_search:local_search",
         "Two-level, then flips of rights of way on critical paths until nothing improves.",

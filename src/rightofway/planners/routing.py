@@ -9,7 +9,13 @@ from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
 from rightofway.search import Distances, Path, Traffic
 
-__all__ = ["clear_routes", "refuse_the_impossible", "shortest_route", "shortest_routes"]
+__all__ = [
+    "clear_routes",
+    "refuse_shared_ends",
+    "refuse_the_impossible",
+    "shortest_route",
+    "shortest_routes",
+]
 
 
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -83,9 +89,21 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
     NoPlanExists
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
-    holders: dict[VertexId, str] = {}
+    refuse_shared_ends(scenario)
     for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
         _refuse_unreachable(robot.name, itinerary, distances)
+
+
+def refuse_shared_ends(scenario: Scenario) -> None:
+    """Raise if two robots would have to stay at one place for ever.
+
+    Raises
+    ------
+    NoPlanExists
+        Naming them.
+    """
+    holders: dict[VertexId, str] = {}
+    for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
         holder = holders.setdefault(itinerary.last, robot.name)
         if holder != robot.name:
             place = scenario.roadmap.name(itinerary.last)

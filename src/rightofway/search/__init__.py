@@ -2,6 +2,7 @@
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
+from rightofway.search.events import plan_by_events
 from rightofway.search.joint import joint_steps
 from rightofway.search.native import compiler
 from rightofway.search.sipp import earliest_track
@@ -17,4 +18,5 @@ __all__ = [
     "compiler",
     "earliest_track",
     "joint_steps",
+    "plan_by_events",
 ]

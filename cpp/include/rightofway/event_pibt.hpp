@@ -1,0 +1,100 @@
+// Priority inheritance with backtracking at one instant of a fleet with clocks.
+//
+// Only robots that are free decide, in order of priority. Each wants the neighbour from where it
+// would be at its target soonest: a robot that drives away from there is followed, and one that
+// stands there and is free inherits the priority and decides next; if that finds no place, the
+// first one tries its second choice. Robots on the move and at work cannot be pushed. When all
+// have chosen, the arrivals follow, from the front of each queue to its end; where robots may
+// rotate, a circle arrives at one instant, that of its slowest.
+//
+// With one speed, no work and no booking ahead this is PIBT (see pibt.hpp, for references too).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rightofway/fleet_state.hpp"
+#include "rightofway/spread_paths.hpp"
+#include "rightofway/step_tables.hpp"
+#include "rightofway/trips.hpp"
+
+namespace rightofway {
+
+class EventPibt {
+  public:
+    // Borrows everything.
+    EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& paths, std::uint64_t seed);
+
+    // Says where a free robot goes at this instant; its own place: it stays.
+    void fix(RobotId robot, VertexId vertex);
+
+    // Lets these robots choose in this order, and those they push; false if that does not work
+    // out. The fixed robots are free again afterwards.
+    bool choose(const FleetState& now, std::span<const RobotId> order);
+
+    // The moves that were chosen last.
+    std::span<const Decision> decisions() const { return decisions_; }
+
+    // The ticks that a robot needs for its quickest edge.
+    Tick pace(RobotId robot) const { return pace_[robot]; }
+
+    // How often a robot has chosen, since the beginning.
+    std::int64_t n_choices() const { return n_choices_; }
+
+  private:
+    static constexpr VertexId more = -2;
+    struct Fixed {
+        RobotId robot;
+        VertexId vertex;
+    };
+    struct Place {
+        std::int64_t cost;
+        std::uint32_t tie;
+        VertexId vertex;
+    };
+    struct Pair {
+        RobotId pusher;
+        RobotId puller;
+        VertexId behind;  // where the pusher is, and the puller ahead of it
+        VertexId ahead;
+    };
+
+    bool take_fixed(const FleetState& now);
+    bool choose_all(const FleetState& now, std::span<const RobotId> order);
+    bool choose_one(const FleetState& now, RobotId robot);
+    bool try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner);
+    bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
+    bool closes_circle(const FleetState& now, RobotId robot, VertexId place) const;
+    void take(RobotId robot, VertexId vertex);
+    void push_places(const FleetState& now, RobotId robot);
+    Tick soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const;
+    bool is_idle(const FleetState& now, RobotId robot) const;
+    RobotId swap_partner(const FleetState& now, RobotId robot, VertexId wanted);
+    VertexId only_way_on(const FleetState& now, VertexId from, VertexId at) const;
+    bool must_swap(const FleetState& now, Pair pair);
+    bool can_swap(const FleetState& now, VertexId behind, VertexId ahead) const;
+    std::int32_t way(const FleetState& now, RobotId robot, VertexId vertex);
+    bool settle_arrivals(const FleetState& now);
+    bool settle_queue(const FleetState& now, RobotId last);
+    bool settle_circle(const FleetState& now, RobotId member);
+    void forget(const FleetState& now);
+
+    const Trips& trips_;
+    StepTables& tables_;
+    const SpreadPaths& paths_;
+    std::vector<StepTables::TableId> stage_table_;
+    std::vector<Tick> pace_;
+    std::uint64_t draw_;           // state of the random numbers for ties
+    std::vector<RobotId> claim_;   // who will be at each vertex by a choice of this instant
+    std::vector<VertexId> next_;   // where each robot will be by that
+    std::vector<Tick> arrival_;    // of each robot, once it is settled
+    std::vector<RobotId> chosen_;  // this instant
+    std::vector<RobotId> queue_;
+    std::vector<Place> places_;  // a stack: those of each robot that is choosing
+    std::vector<Fixed> fixed_;
+    std::vector<Decision> decisions_;
+    std::int64_t n_choices_ = 0;
+};
+
+}  // namespace rightofway

@@ -1,0 +1,85 @@
+// A preferred path for every robot and stage, chosen one after another so that they spread.
+//
+// Robots that all follow shortest paths meet head-on in the same few aisles, and drive into others
+// that have ended their trips there. So each path is a cheap one where driving against earlier
+// paths costs most, a vertex of many paths costs a little, passing a robot at the end of its trip
+// costs a detour, and every edge costs something. Directions of traffic come about by themselves.
+//
+// Okumura, "Engineering LaCAM*: Towards real-time, large-scale, and near-optimal multi-agent
+// pathfinding", AAMAS 2024, spreads paths by the conflicts that they would have in time. Counting
+// uses asks less of the times, which with own speeds are known only roughly beforehand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "rightofway/step_tables.hpp"
+#include "rightofway/trips.hpp"
+#include "rightofway/types.hpp"
+
+namespace rightofway {
+
+class SpreadPaths {
+  public:
+    // Without a preference for anything. Borrows the trips and the tables.
+    SpreadPaths(const Trips& trips, StepTables& tables);
+
+    // Chooses the paths; false if told to stop before that was done. The effort is bounded: in a
+    // large fleet some robots are left without a path, and in a very large one all of them.
+    bool choose(const std::function<bool()>& is_over);
+
+    // Where the path to a stage goes on from a vertex; -1 where it does not pass.
+    VertexId next(std::int32_t stage, VertexId at) const;
+
+  private:
+    struct Leg {
+        RobotId robot;
+        VertexId start;
+        std::int32_t stage;
+    };
+    struct Hop {
+        VertexId from;
+        VertexId to;
+    };
+    struct Open {
+        std::int64_t estimate;  // of the cost to the target
+        std::int64_t cost;      // so far
+        Tick when;              // the robot would be there, without waits
+        VertexId vertex;
+    };
+    // How a vertex is reached at least cost, in the search of this round.
+    struct Best {
+        std::int64_t cost;
+        Tick when;
+        EdgeId by;
+        std::int32_t round;
+    };
+
+    static bool is_worse(const Open& left, const Open& right);
+    void pair_edges();
+    void find_ends();
+    Tick choose_leg(const Leg& leg, Tick when);
+    bool search(const Leg& leg, Tick when);
+    void open(Open reached, EdgeId by, StepTables::TableId table);
+    std::int64_t cost_of(EdgeId edge) const;
+    void keep(const Leg& leg);
+
+    const Trips& trips_;
+    StepTables& tables_;
+    std::vector<VertexId> tail_;            // of each edge
+    std::vector<EdgeId> back_;              // of each edge: the one the other way, or -1
+    std::vector<Tick> ended_from_;          // of each vertex: when a trip ends there at the soonest
+    std::vector<std::int32_t> edge_use_;    // paths so far
+    std::vector<std::int32_t> vertex_use_;  // paths so far
+    std::vector<Hop> hops_;                 // of all paths, those of one by `from`
+    std::vector<std::size_t> first_hop_;    // of each stage
+    std::vector<std::size_t> end_hop_;
+    std::int64_t credit_ = 0;  // how many vertices may still be opened
+    std::int32_t round_ = 0;
+    std::vector<Best> best_;  // of each vertex
+    std::vector<Open> open_;  // a heap
+};
+
+}  // namespace rightofway

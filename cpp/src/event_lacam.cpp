@@ -1,0 +1,235 @@
+#include "rightofway/event_lacam.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr std::int32_t stages_between_questions = 64;
+constexpr std::int64_t effort_between_questions = 4096;
+
+}  // namespace
+
+SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over) {
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        VertexId place = trips.home[r];
+        for (std::int32_t s = trips.first_stage[r]; s < trips.first_stage[r + 1]; ++s) {
+            const StepTables::TableId table = tables.table_of(trips.stage_vertex[s]);
+            if (tables.steps(table, place) == StepTables::unreachable) {
+                return SearchEnd::proven_none;
+            }
+            if ((s + 1) % stages_between_questions == 0 && is_over()) {
+                return SearchEnd::stopped;
+            }
+            place = trips.stage_vertex[s];
+        }
+    }
+    return SearchEnd::found;
+}
+
+EventLacam::EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
+                       std::uint64_t seed)
+    : trips_(trips),
+      pibt_(trips, tables, paths, seed),
+      start_(trips),
+      state_(start_),
+      state_of_(none),
+      rank_(trips.home.size()),
+      goal_(none) {
+    std::vector<std::int32_t> way(trips.home.size());
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        way[r] = tables.steps(tables.table_of(start_.target(r)), trips.home[r]);
+    }
+    std::vector<RobotId> robots(trips.home.size());
+    std::iota(robots.begin(), robots.end(), 0);
+    std::sort(robots.begin(), robots.end(), [&way](RobotId left, RobotId right) {
+        return way[left] != way[right] ? way[left] > way[right] : left < right;
+    });
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+        rank_[robots[k]] = static_cast<std::int32_t>(k);
+    }
+}
+
+SearchEnd EventLacam::run(const std::function<bool()>& is_over, std::int64_t most_effort) {
+    add(none, 0);
+    std::int64_t next_question = effort_between_questions;
+    for (; !open_.empty(); ++n_retaken_) {
+        const std::int64_t effort = pibt_.n_choices() + n_retaken_;
+        if (effort >= next_question) {
+            next_question = effort + effort_between_questions;
+            if (effort > most_effort || is_over()) {
+                return SearchEnd::stopped;
+            }
+        }
+        if (expand() == SearchEnd::found) {
+            return SearchEnd::found;
+        }
+    }
+    return SearchEnd::stopped;
+}
+
+SearchEnd EventLacam::expand() {
+    const std::int32_t top = open_.back();
+    restore(top);
+    if (state_.is_goal()) {
+        goal_ = top;
+        return SearchEnd::found;
+    }
+    if (!next_constraint(nodes_[top])) {
+        open_.pop_back();  // every choice from here has been tried
+        return SearchEnd::stopped;
+    }
+    order_.assign(state_.undecided().begin(), state_.undecided().end());
+    sort_by_urgency(order_);
+    if (pibt_.choose(state_, order_)) {
+        go_on(top);
+    }
+    return SearchEnd::stopped;
+}
+
+// Tells the robots of the node's next constraint where to go; false if there is none left. Each
+// constraint is followed by those that tell one robot more, but only when somebody asks.
+bool EventLacam::next_constraint(Node& node) {
+    if (node.next_constraint > node.constraints.size()) {
+        return false;  // it was asked in vain before
+    }
+    const auto k = static_cast<std::int32_t>(node.next_constraint++);
+    if (k == 0) {
+        node.constraints.push_back({none, 0, none, none});
+    } else {
+        branch(node, k - 1);
+    }
+    if (node.next_constraint > node.constraints.size()) {
+        return false;
+    }
+    for (std::int32_t c = k; node.constraints[c].depth > 0; c = node.constraints[c].parent) {
+        pibt_.fix(node.constraints[c].robot, node.constraints[c].vertex);
+    }
+    return true;
+}
+
+// Tells one more robot where to go, in every way there is.
+void EventLacam::branch(Node& node, std::int32_t constraint) {
+    if (constraint == 0) {
+        for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+            if (state_.has_arrived(r)) {
+                node.order.push_back(r);
+            }
+        }
+        std::vector<RobotId> undecided(state_.undecided().begin(), state_.undecided().end());
+        sort_by_urgency(undecided);
+        node.order.insert(node.order.begin(), undecided.begin(), undecided.end());
+    }
+    const std::int32_t depth = node.constraints[constraint].depth;
+    if (depth == static_cast<std::int32_t>(node.order.size())) {
+        return;
+    }
+    const RobotId robot = node.order[depth];
+    const VertexId here = state_.at(robot);
+    for (const VertexId head : trips_.graph.heads(here)) {
+        node.constraints.push_back({constraint, depth + 1, robot, head});
+    }
+    node.constraints.push_back({constraint, depth + 1, robot, here});
+}
+
+// Who has been on its way for long is urgent; between equals, the longer way counts.
+void EventLacam::sort_by_urgency(std::vector<RobotId>& robots) const {
+    std::sort(robots.begin(), robots.end(), [this](RobotId left, RobotId right) {
+        const Tick urgent_left = pibt_.pace(left) * (state_.now() - state_.on_its_way_since(left));
+        const Tick urgent_right =
+            pibt_.pace(right) * (state_.now() - state_.on_its_way_since(right));
+        return urgent_left != urgent_right ? urgent_left > urgent_right
+                                           : rank_[left] < rank_[right];
+    });
+}
+
+// Takes the decisions and lets the clock go on to the next state.
+void EventLacam::go_on(std::int32_t from) {
+    const std::size_t first = decisions_.size();
+    for (const Decision& decision : pibt_.decisions()) {
+        decisions_.push_back(decision);
+        state_.decide(decision);
+    }
+    if (!state_.advance()) {
+        return;  // nobody moves, so nothing ever changes
+    }
+    state_of_ = none;
+    const auto known = known_.find(state_.fingerprint());
+    if (known == known_.end()) {
+        add(from, first);
+    } else {
+        decisions_.resize(first);
+        open_.push_back(known->second);
+    }
+}
+
+void EventLacam::add(std::int32_t parent, std::size_t first_decision) {
+    state_of_ = static_cast<std::int32_t>(nodes_.size());
+    known_.emplace(state_.fingerprint(), state_of_);
+    nodes_.push_back({parent, first_decision, decisions_.size(), 0, {}, {}});
+    open_.push_back(state_of_);
+}
+
+void EventLacam::restore(std::int32_t node) {
+    if (state_of_ == node) {
+        return;
+    }
+    state_ = start_;
+    for (const std::int32_t step : path_to(node)) {
+        for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
+            state_.decide(decisions_[k]);
+        }
+        n_retaken_ +=
+            1 + static_cast<std::int64_t>(nodes_[step].end_decision - nodes_[step].first_decision);
+        if (nodes_[step].parent != none) {
+            state_.advance();
+        }
+    }
+    state_of_ = node;
+}
+
+std::vector<std::int32_t> EventLacam::path_to(std::int32_t node) const {
+    std::vector<std::int32_t> path;
+    for (; node != none; node = nodes_[node].parent) {
+        path.push_back(node);
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+Tracks EventLacam::tracks() const {
+    Tracks tracks;
+    if (goal_ == none) {
+        return tracks;
+    }
+    const std::vector<std::int32_t> path = path_to(goal_);
+    const auto for_each_decision = [&](auto&& use) {
+        for (const std::int32_t step : path) {
+            for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
+                use(decisions_[k]);
+            }
+        }
+    };
+    std::vector<VisitId> next(trips_.home.size() + 1, 1);
+    next[0] = 0;
+    for_each_decision([&next](const Decision& decision) { ++next[decision.robot + 1]; });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    tracks.first_visit = next;
+    tracks.vertex.resize(static_cast<std::size_t>(next.back()));
+    tracks.enter.resize(tracks.vertex.size());
+    const auto enter = [&](RobotId robot, VertexId vertex, Tick tick) {
+        tracks.vertex[next[robot]] = vertex;
+        tracks.enter[next[robot]++] = tick;
+    };
+    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        enter(r, trips_.home[r], 0);
+    }
+    for_each_decision([&enter](const Decision& decision) {
+        enter(decision.robot, decision.vertex, decision.arrival);
+    });
+    return tracks;
+}
+
+}  // namespace rightofway

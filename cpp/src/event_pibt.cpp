@@ -1,0 +1,322 @@
+#include "rightofway/event_pibt.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+constexpr RobotId nobody = FleetState::nobody;
+constexpr VertexId nowhere = -1;
+constexpr Tick unsettled = -1;
+constexpr Tick in_queue = -2;
+
+}  // namespace
+
+EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
+                     std::uint64_t seed)
+    : trips_(trips),
+      tables_(tables),
+      paths_(paths),
+      draw_(seed),
+      claim_(static_cast<std::size_t>(trips.graph.n_vertices()), nobody),
+      next_(trips.home.size(), nowhere),
+      arrival_(trips.home.size(), unsettled) {
+    for (const VertexId target : trips.stage_vertex) {
+        stage_table_.push_back(tables.table_of(target));
+    }
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        pace_.push_back(trips.pace(r));
+    }
+}
+
+void EventPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
+
+bool EventPibt::choose(const FleetState& now, std::span<const RobotId> order) {
+    decisions_.clear();
+    const bool found = take_fixed(now) && choose_all(now, order) && settle_arrivals(now);
+    forget(now);
+    return found;
+}
+
+bool EventPibt::take_fixed(const FleetState& now) {
+    return std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
+        const RobotId other = now.here(fixed.vertex);
+        const bool is_at_work =
+            other != nobody && now.is_busy(other) && now.to(other) == fixed.vertex;
+        if (is_at_work || !is_open(now, fixed.robot, fixed.vertex)) {
+            return false;
+        }
+        take(fixed.robot, fixed.vertex);
+        return true;
+    });
+}
+
+bool EventPibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
+    const auto choose_next = [&](RobotId r) { return next_[r] != nowhere || choose_one(now, r); };
+    return std::all_of(order.begin(), order.end(), choose_next) &&
+           std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
+               const RobotId other = now.here(fixed.vertex);  // it may have arrived already
+               return other == nobody || now.is_busy(other) || choose_next(other);
+           });
+}
+
+void EventPibt::take(RobotId robot, VertexId vertex) {
+    if (next_[robot] == nowhere) {
+        chosen_.push_back(robot);
+    }
+    claim_[vertex] = robot;
+    next_[robot] = vertex;
+}
+
+// Nobody else comes there, and the robot that is there does not come here.
+bool EventPibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
+    if (now.comes(place) != nobody || claim_[place] != nobody) {
+        return false;
+    }
+    const RobotId other = now.here(place);
+    return other == nobody || other == robot || next_[other] != now.at(robot);
+}
+
+bool EventPibt::closes_circle(const FleetState& now, RobotId robot, VertexId place) const {
+    RobotId other = now.here(place);
+    while (other != nobody && other != robot && next_[other] != nowhere &&
+           next_[other] != now.at(other)) {
+        other = now.here(next_[other]);
+    }
+    return other == robot;
+}
+
+bool EventPibt::choose_one(const FleetState& now, RobotId robot) {
+    ++n_choices_;
+    const std::size_t first = places_.size();
+    push_places(now, robot);
+    const RobotId partner = swap_partner(now, robot, places_[first].vertex);
+    if (partner != nobody) {
+        std::reverse(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
+    }
+    const bool found = try_places(now, robot, first, partner);
+    places_.resize(first);
+    if (!found) {
+        take(robot, now.at(robot));
+    }
+    return found;
+}
+
+bool EventPibt::try_places(const FleetState& now, RobotId robot, std::size_t first,
+                           RobotId partner) {
+    const VertexId here = now.at(robot);
+    const std::size_t end = places_.size();
+    for (std::size_t k = first; k < end; ++k) {
+        const VertexId place = places_[k].vertex;
+        const RobotId other = now.here(place);
+        const bool is_at_work = other != nobody && now.is_busy(other) && now.to(other) == place;
+        if (is_at_work || !is_open(now, robot, place) ||
+            (!trips_.may_rotate && place != here && closes_circle(now, robot, place))) {
+            continue;
+        }
+        take(robot, place);
+        if (other != robot && other != nobody && is_idle(now, other) && !choose_one(now, other)) {
+            continue;  // `other` stays, so this place is taken
+        }
+        const bool pulls = partner != nobody && k == first && place != here;
+        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
+            trips_.graph.edge(now.at(partner), here) >= 0) {
+            take(partner, here);
+        }
+        return true;
+    }
+    return false;
+}
+
+bool EventPibt::is_idle(const FleetState& now, RobotId robot) const {
+    return next_[robot] == nowhere && !now.is_busy(robot);
+}
+
+std::int32_t EventPibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
+    return tables_.steps(stage_table_[now.stage(robot)], vertex);
+}
+
+// When the robot could be there, if whoever is free makes room at once.
+Tick EventPibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const {
+    const RobotId other = now.here(place);
+    const bool drives_away = other != nobody && other != robot && now.is_busy(other);
+    const Tick left = drives_away ? now.ready(other) : other == nobody ? now.left(place) : 0;
+    return std::max(now.now() + drive, left + trips_.gap(drive));
+}
+
+// All places to go to, that from where the target is reached soonest first; ties at random. A step
+// along the preferred path counts as one nearer, and goes first among equals.
+void EventPibt::push_places(const FleetState& now, RobotId robot) {
+    const auto begin = static_cast<std::ptrdiff_t>(places_.size());
+    const VertexId here = now.at(robot);
+    const std::int32_t from_here = way(now, robot, here);
+    const VertexId preferred = paths_.next(now.stage(robot), here);
+    const auto push = [&](VertexId place, Tick soonest_there, std::int32_t steps, bool first) {
+        draw_ += 0x9e3779b97f4a7c15U;
+        std::uint64_t tie = (draw_ ^ (draw_ >> 30)) * 0xbf58476d1ce4e5b9U;
+        tie ^= tie >> 27;
+        places_.push_back({2 * (soonest_there - now.now() + steps * pace_[robot]) - (first ? 1 : 0),
+                           static_cast<std::uint32_t>(tie * 0x94d049bb133111ebU >> 32), place});
+    };
+    for (EdgeId e = trips_.graph.indptr[here]; e < trips_.graph.indptr[here + 1]; ++e) {
+        const VertexId head = trips_.graph.indices[e];
+        const std::int32_t steps = head == preferred ? from_here - 1 : way(now, robot, head);
+        push(head, soonest(now, robot, head, trips_.drive(robot, e)), steps, head == preferred);
+    }
+    push(here, now.now() + pace_[robot], from_here, false);
+    std::sort(places_.begin() + begin, places_.end(), [](const Place& left, const Place& right) {
+        return left.cost != right.cost ? left.cost < right.cost
+               : left.tie != right.tie ? left.tie < right.tie
+                                       : left.vertex < right.vertex;
+    });
+}
+
+// The robot to change places with: the one that stands where this one wants to go, or one behind
+// this one that has to get past it.
+RobotId EventPibt::swap_partner(const FleetState& now, RobotId robot, VertexId wanted) {
+    const VertexId here = now.at(robot);
+    if (wanted == here) {
+        return nobody;
+    }
+    const RobotId ahead = now.here(wanted);
+    if (ahead != nobody && is_idle(now, ahead) && must_swap(now, {robot, ahead, here, wanted}) &&
+        can_swap(now, wanted, here)) {
+        return ahead;
+    }
+    for (const VertexId place : trips_.graph.heads(here)) {
+        const RobotId behind = now.here(place);
+        if (behind != nobody && place != wanted && !now.is_busy(behind) &&
+            must_swap(now, {behind, robot, here, wanted}) && can_swap(now, wanted, here)) {
+            return behind;
+        }
+    }
+    return nobody;
+}
+
+// The one way on for whoever is pushed back along a corridor; `more` if there are several, and
+// `nowhere` if there is none.
+VertexId EventPibt::only_way_on(const FleetState& now, VertexId from, VertexId at) const {
+    VertexId found = nowhere;
+    for (const VertexId head : trips_.graph.heads(at)) {
+        const RobotId resident = now.here(head);
+        const bool is_blind = trips_.graph.heads(head).size() == 1 && resident != nobody &&
+                              now.target(resident) == head;
+        if (head == from || is_blind) {
+            continue;
+        }
+        if (found != nowhere) {
+            return more;
+        }
+        found = head;
+    }
+    return found;
+}
+
+// Whether the pusher, following the puller down the corridor, would only ever push it further from
+// where the puller wants to go.
+bool EventPibt::must_swap(const FleetState& now, Pair pair) {
+    auto [pusher, puller, behind, ahead] = pair;
+    while (way(now, pusher, ahead) < way(now, pusher, behind)) {
+        const VertexId on = only_way_on(now, behind, ahead);
+        if (on == more) {
+            return false;
+        }
+        if (on == nowhere) {
+            break;
+        }
+        behind = ahead;
+        ahead = on;
+    }
+    return way(now, puller, behind) < way(now, puller, ahead) &&
+           (way(now, pusher, behind) == 0 || way(now, pusher, ahead) < way(now, pusher, behind));
+}
+
+// Whether, going back along the corridor, there comes a place where the two can pass each other.
+bool EventPibt::can_swap(const FleetState& now, VertexId behind, VertexId ahead) const {
+    const VertexId start = behind;
+    while (ahead != start) {
+        const VertexId on = only_way_on(now, behind, ahead);
+        if (on == more) {
+            return true;
+        }
+        if (on == nowhere) {
+            return false;
+        }
+        behind = ahead;
+        ahead = on;
+    }
+    return false;
+}
+
+bool EventPibt::settle_arrivals(const FleetState& now) {
+    for (const RobotId robot : chosen_) {
+        if (next_[robot] == now.at(robot)) {
+            continue;
+        }
+        if (arrival_[robot] == unsettled && !settle_queue(now, robot)) {
+            return false;
+        }
+        decisions_.push_back({robot, next_[robot], arrival_[robot]});
+    }
+    return true;
+}
+
+// Follows the queue to its front, then settles it from there. False if it is a circle that may not
+// rotate.
+bool EventPibt::settle_queue(const FleetState& now, RobotId last) {
+    queue_.clear();
+    RobotId robot = last;
+    while (robot != nobody && next_[robot] != nowhere && arrival_[robot] == unsettled) {
+        arrival_[robot] = in_queue;
+        queue_.push_back(robot);
+        robot = now.here(next_[robot]);
+    }
+    if (robot != nobody && arrival_[robot] == in_queue && !settle_circle(now, robot)) {
+        return false;
+    }
+    for (; !queue_.empty(); queue_.pop_back()) {
+        const RobotId next = queue_.back();
+        if (arrival_[next] != in_queue) {
+            continue;  // part of a circle
+        }
+        const VertexId place = next_[next];
+        const RobotId ahead = now.here(place);
+        const Tick left = ahead == nobody      ? now.left(place)
+                          : now.is_busy(ahead) ? now.ready(ahead)
+                                               : arrival_[ahead];
+        const Tick drive = trips_.drive(next, trips_.graph.edge(now.at(next), place));
+        arrival_[next] = std::max(now.now() + drive, left + trips_.gap(drive));
+    }
+    return true;
+}
+
+bool EventPibt::settle_circle(const FleetState& now, RobotId member) {
+    if (!trips_.may_rotate) {
+        return false;
+    }
+    Tick slowest = 0;
+    RobotId robot = member;
+    do {
+        slowest =
+            std::max(slowest, trips_.drive(robot, trips_.graph.edge(now.at(robot), next_[robot])));
+        robot = now.here(next_[robot]);
+    } while (robot != member);
+    do {
+        arrival_[robot] = now.now() + slowest;
+        robot = now.here(next_[robot]);
+    } while (robot != member);
+    return true;
+}
+
+void EventPibt::forget(const FleetState& now) {
+    for (const RobotId robot : chosen_) {
+        claim_[next_[robot]] = nobody;
+        claim_[now.at(robot)] = nobody;
+        next_[robot] = nowhere;
+        arrival_[robot] = unsettled;
+    }
+    chosen_.clear();
+    fixed_.clear();
+}
+
+}  // namespace rightofway
