@@ -63,6 +63,10 @@ bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
 
+# How long right of way takes and how good it is: the tables of benchmarks/README.md (minutes)
+right-of-way:
+    python -m benchmarks.right_of_way
+
 # How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
 gaps:
     MPLBACKEND=agg python -m benchmarks.compare_fixed_routes

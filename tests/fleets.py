@@ -12,8 +12,14 @@ from typing import Any
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
 
 __all__ = [
-    "PAPER", "grid_fleet", "largest_part", "paper_scenario", "random_fleet", "random_grid",
-]  # fmt: skip
+    "PAPER",
+    "fleet_on",
+    "grid_fleet",
+    "largest_part",
+    "paper_scenario",
+    "random_fleet",
+    "random_grid",
+]
 
 PAPER: list[dict[str, Any]] = json.loads(
     (Path(__file__).parent / "data" / "paper.json").read_text(encoding="utf-8")
@@ -72,17 +78,28 @@ def random_fleet(
 ) -> Scenario:
     """Return a random fleet in the largest open part of a random grid; targets all differ."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    lines = random_grid(draw, size=size, walls=walls)
-    roadmap = roadmap_of_grid(lines)
+    return fleet_on(random_grid(draw, size=size, walls=walls), draw, robots=robots, rules=rules)
+
+
+def fleet_on(
+    grid: Sequence[str],
+    draw: random.Random,
+    *,
+    robots: int,
+    work: int = 5,
+    rules: Rules | None = None,
+) -> Scenario:
+    """Return a random fleet in the largest open part of a grid; targets all differ."""
+    roadmap = roadmap_of_grid(grid)
     places = largest_part(roadmap)
     homes, targets = draw.sample(places, robots), draw.sample(places, robots)
     speeds = [Fraction(1), Fraction(1, 2), Fraction(1, 3)]
     return grid_fleet(
-        lines,
+        grid,
         [(roadmap.name(h), roadmap.name(t)) for h, t in zip(homes, targets, strict=True)],
         rules=rules,
         speeds=[draw.choice(speeds) for _ in range(robots)],
-        work=[draw.randint(0, 5) for _ in range(robots)],
+        work=[draw.randint(0, work) for _ in range(robots)],
     )
 
 
