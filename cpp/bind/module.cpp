@@ -9,6 +9,7 @@ NB_MODULE(_core, module) {
     module.attr("FOREVER") = rightofway::forever;
     module.attr("INFINITY") = rightofway::infinity;
     rightofway::bind::bind_distance_tables(module);
+    rightofway::bind::bind_fleet_search(module);
     rightofway::bind::bind_lacam(module);
     rightofway::bind::bind_precedence_graph(module);
     rightofway::bind::bind_safe_interval_search(module);

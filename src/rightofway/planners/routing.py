@@ -9,7 +9,14 @@ from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
 from rightofway.search import Distances, Path, Traffic
 
-__all__ = ["clear_routes", "refuse_the_impossible", "shortest_route", "shortest_routes"]
+__all__ = [
+    "clear_routes",
+    "refuse_shared_ends",
+    "refuse_the_impossible",
+    "refuse_unreachable",
+    "shortest_route",
+    "shortest_routes",
+]
 
 
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -83,9 +90,21 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
     NoPlanExists
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
+    for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
+        refuse_unreachable(robot.name, itinerary, distances)
+    refuse_shared_ends(scenario)
+
+
+def refuse_shared_ends(scenario: Scenario) -> None:
+    """Raise if two robots would have to stay at one vertex for ever.
+
+    Raises
+    ------
+    NoPlanExists
+        Naming the two.
+    """
     holders: dict[VertexId, str] = {}
     for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
-        _refuse_unreachable(robot.name, itinerary, distances)
         holder = holders.setdefault(itinerary.last, robot.name)
         if holder != robot.name:
             place = scenario.roadmap.name(itinerary.last)
@@ -95,7 +114,14 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
             )
 
 
-def _refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
+def refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
+    """Raise if a robot has no way from one place of its trip to the next.
+
+    Raises
+    ------
+    NoPlanExists
+        Naming the robot and the two places.
+    """
     place, roadmap = itinerary.home, distances.roadmap
     for stage in itinerary.stages:
         if distances.to(stage.vertex, itinerary.edge_ticks)[place] < 0:

@@ -2,6 +2,7 @@
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
+from rightofway.search.fleet import FleetSearch
 from rightofway.search.joint import joint_steps
 from rightofway.search.sipp import earliest_track
 from rightofway.search.traffic import Traffic
@@ -11,6 +12,7 @@ __all__ = [
     "Booking",
     "Bookings",
     "Distances",
+    "FleetSearch",
     "Path",
     "Traffic",
     "earliest_track",
