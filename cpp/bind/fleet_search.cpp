@@ -100,6 +100,8 @@ Parameters
 ----------
 n_tasks : int
     How many times some robots are planned anew.
+patience : int
+    It ends after so many times in a row without a gain.
 time_limit : float or None
     After so many seconds it stops at once.
 pause : float or None
@@ -175,13 +177,15 @@ class FleetSearch {
         }
     }
 
-    std::int64_t improve(std::int64_t n_tasks, const Deadline& deadline, const Deadline& pause) {
+    std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const Deadline& deadline,
+                         const Deadline& pause) {
         alone(deadline);
         if (!improver_) {
             improver_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
         }
         const std::int64_t before = improver_->n_tasks();
-        improver_->run(n_tasks, deadline, [&] { return plan_.flowtime() == bound_ || pause(); });
+        improver_->run(n_tasks, patience, deadline,
+                       [&] { return plan_.flowtime() == bound_ || pause(); });
         return improver_->n_tasks() - before;
     }
 
@@ -202,6 +206,7 @@ class FleetSearch {
 
     RobotId n_robots() const { return fleet_.n_robots(); }
     Tick flowtime() const { return plan_.flowtime(); }
+    std::int64_t n_idle() const { return improver_ ? improver_->n_idle() : 0; }
     std::int64_t n_expanded() const { return improver_ ? improver_->n_expanded() : 0; }
 
   private:
@@ -276,17 +281,19 @@ void bind_fleet_search(nb::module_& module) {
             prioritize_doc)
         .def(
             "improve",
-            [](FleetSearch& self, std::int64_t n_tasks, std::optional<double> time_limit,
-               std::optional<double> pause) {
+            [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,
+               std::optional<double> time_limit, std::optional<double> pause) {
                 const Deadline deadline(time_limit);
                 const Deadline due(pause);
                 const nb::gil_scoped_release released;
-                return self.improve(n_tasks, deadline, due);
+                return self.improve(n_tasks, patience, deadline, due);
             },
-            nb::arg("n_tasks"), nb::arg("time_limit").none(), nb::arg("pause").none(), improve_doc)
+            nb::arg("n_tasks"), nb::arg("patience"), nb::arg("time_limit").none(),
+            nb::arg("pause").none(), improve_doc)
         .def("tracks", &FleetSearch::tracks,
              "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
         .def_prop_ro("flowtime", &FleetSearch::flowtime, "The sum of completions. [ticks]")
+        .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
         .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");
 }
 

@@ -56,11 +56,11 @@ std::int64_t Improver::n_expanded() const {
     return sum;
 }
 
-void Improver::run(std::int64_t n_tasks, const std::function<bool()>& is_over,
-                   const std::function<bool()>& is_due) {
+void Improver::run(std::int64_t n_tasks, std::int64_t patience,
+                   const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
     is_stopped_ = false;
     thrown_ = nullptr;
-    while (n_tasks > 0 && !is_stopped_) {
+    while (n_tasks > 0 && n_idle_ < patience && !is_stopped_) {
         const auto n = std::min<std::int64_t>(n_tasks, static_cast<std::int64_t>(tasks_.size()));
         round(static_cast<std::size_t>(n), is_over);
         settle(static_cast<std::size_t>(n));
@@ -178,7 +178,7 @@ void Improver::settle(std::size_t n) {
         Task& task = tasks_[k];
         const bool is_adopted = task.gain >= 0 && adopt(task, is_changed);
         is_changed |= is_adopted;
-        n_improved_ += is_adopted && task.gain > 0 ? 1 : 0;
+        n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + 1;
         learn(task, is_adopted);
         ++n_tasks_;
     }

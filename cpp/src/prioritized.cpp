@@ -5,10 +5,15 @@
 namespace rightofway {
 namespace {
 
-double env(const char* n, double d) {
-    const char* v = std::getenv(n);
-    return v ? std::atof(v) : d;
-}
+// For how many of its slowest edges a robot's home is kept free.
+constexpr Tick hold_edges = 4;
+
+// What it costs to take a robot's track away, in such holds: at first, and how much more each time.
+constexpr Tick first_price = 10;
+constexpr Tick dearer = 5;
+
+// See Errand.
+constexpr Tick greed = 1;
 
 }  // namespace
 
@@ -19,7 +24,7 @@ Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan)
       reader_(fleet),
       prices_(static_cast<std::size_t>(fleet.n_robots())) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
-        prices_[static_cast<std::size_t>(robot)] = first_price * hold(robot) / 2;
+        prices_[static_cast<std::size_t>(robot)] = first_price * hold(robot);
     }
 }
 
@@ -66,9 +71,7 @@ void Prioritized::evict(RobotId robot) {
     TimedTrack none;
     plan_.exchange(robot, none);
     plan_.hold_home(robot, hold(robot));
-    static const double g = env("GROW", 0.5);
-    prices_[static_cast<std::size_t>(robot)] +=
-        Tick(g * env("PRICE", 10) * double(hold(robot))) + 1;
+    prices_[static_cast<std::size_t>(robot)] += dearer * hold(robot);
     waiting_.push_back(robot);
     ++n_evictions_;
 }

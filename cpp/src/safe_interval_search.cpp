@@ -199,7 +199,8 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
 void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach) {
     const auto to = bookings_->at(candidate.vertex);
     const std::int32_t n = static_cast<std::int32_t>(to.size());
-    for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n; ++k) {
+    for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n;
+         ++k) {
         if (k > 0) {
             candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
         }
@@ -216,8 +217,7 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
 
 // Enters as soon as it can, and whenever a booking has just ended, at the price of those that have
 // not.
-void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest,
-                                      Tick approach) {
+void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach) {
     const auto to = bookings_->at(soonest.vertex);
     const auto enter = [&](Tick tick) {
         Node candidate = soonest;

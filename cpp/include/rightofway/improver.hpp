@@ -35,14 +35,14 @@ class Improver {
              std::size_t n_threads);
     ~Improver();
 
-    // Does that many tasks; less if `is_over` says so, or after the first round that ends when
-    // `is_due` does. Both are asked by the calling thread only. What `is_over` throws is passed on
-    // when the plan is whole again.
-    void run(std::int64_t n_tasks, const std::function<bool()>& is_over,
+    // Does that many tasks; less after `patience` of them in a row without a gain, if `is_over`
+    // says so, or after the first round that ends when `is_due` does. Both are asked by the calling
+    // thread only. What `is_over` throws is passed on when the plan is whole again.
+    void run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
              const std::function<bool()>& is_due);
 
     std::int64_t n_tasks() const { return n_tasks_; }
-    std::int64_t n_improved() const { return n_improved_; }
+    std::int64_t n_idle() const { return n_idle_; }  // since the last gain
     std::int64_t n_expanded() const;
 
   private:
@@ -89,7 +89,7 @@ class Improver {
     std::exception_ptr thrown_;
     std::uint64_t n_rounds_ = 0;
     std::int64_t n_tasks_ = 0;
-    std::int64_t n_improved_ = 0;
+    std::int64_t n_idle_ = 0;
 };
 
 }  // namespace rightofway

@@ -13,18 +13,16 @@ planning*, AAMAS 2018.
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
 
 import numpy as np
 
-from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Scenario, Track
+from rightofway.model import Scenario, Track
 from rightofway.planners.joint import plan_jointly
 from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.search import Distances, FleetSearch
 
-__all__ = ["ORDERS", "first_plan", "fleet_search", "plan_in_turn", "prioritized"]
+__all__ = ["ORDERS", "first_plan", "fleet_search", "prioritized"]
 
 SHARE = 0.4
 """The part of the time that planning in turn gets; the rest is for planning all together."""
@@ -32,7 +30,8 @@ SHARE = 0.4
 SEARCHES_PER_ROBOT = 20
 """How often robots may be planned, per robot of the fleet."""
 
-ORDERS = ("longest", "shortest", "slowest", "file", "random")
+ORDERS = ("shortest", "longest", "slowest", "file", "random")
+"""Who is planned first: by the least completion alone, by speed, as in the file, or as drawn."""
 
 
 def prioritized(task: Task) -> Draft:
@@ -50,9 +49,8 @@ def prioritized(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    search = fleet_search(task)
-    return Draft(tracks=(drafted := first_plan(task, search, task.options["order"]))[0],
-                 status=drafted[1])
+    tracks, status = first_plan(task, fleet_search(task), task.options["order"])
+    return Draft(tracks=tracks, status=status)
 
 
 def fleet_search(task: Task) -> FleetSearch:
@@ -89,9 +87,21 @@ def first_plan(task: Task, search: FleetSearch, order: str) -> tuple[tuple[Track
         time_limit=task.deadline.sooner(SHARE).seconds_left(),
     )
     if is_planned:
-        return search.tracks(), f"one after another, {order} first"
+        return search.tracks(), "one after another"
     task.deadline.check("planning robots one after another")
     return (
         tuple(plan_jointly(task, Distances(task.scenario.roadmap))),
         "all together, because robots one after another found no way",
     )
+
+
+def _in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
+    robots = list(range(len(scenario.robots)))
+    if order == "random":
+        random.Random(seed).shuffle(robots)  # noqa: S311 (no secret depends on it)
+    elif order == "slowest":
+        robots.sort(key=lambda robot: scenario.robots[robot].speed)
+    elif order != "file":
+        alone = search.alone()
+        robots.sort(key=lambda robot: alone[robot], reverse=order == "longest")
+    return robots

@@ -65,9 +65,12 @@ class FleetSearch:
         """The sum of completions of all robots with a track [ticks]."""
         return Tick(self._core.flowtime)
 
-    def prioritize(
-        self, order: Sequence[int], *, searches: int, time_limit: float | None
-    ) -> bool:
+    @property
+    def idle(self) -> int:
+        """How many times in a row `improve` has brought no gain."""
+        return self._core.n_idle
+
+    def prioritize(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
         """Give the robots tracks one after another; tell whether all have one.
 
         Parameters
@@ -97,7 +100,12 @@ class FleetSearch:
         )
 
     def improve(
-        self, tasks: int, *, time_limit: float | None = None, pause: float | None = None
+        self,
+        tasks: int,
+        *,
+        patience: int,
+        time_limit: float | None = None,
+        pause: float | None = None,
     ) -> int:
         """Replace tracks by better ones, a few robots at a time; return how many times.
 
@@ -105,12 +113,14 @@ class FleetSearch:
         ----------
         tasks
             How many times some robots are planned anew.
+        patience
+            Ends after so many times in a row without a gain.
         time_limit
             When to stop at once [s].
         pause
             When to stop at the next point that depends on no clock [s].
         """
-        return self._core.improve(tasks, time_limit, pause)
+        return self._core.improve(tasks, patience, time_limit, pause)
 
     def tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
