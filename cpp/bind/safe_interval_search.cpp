@@ -18,7 +18,7 @@ namespace rightofway::bind {
 namespace {
 
 constexpr auto table_doc =
-    R"(Who has booked which vertex when; no two robots' bookings of a vertex overlap.
+    R"(Who has booked which vertex when.
 
 Parameters
 ----------
@@ -45,6 +45,22 @@ Raises
 ------
 ValueError
     If there is no such vertex, the booking is empty, or it overlaps another robot's.)";
+
+constexpr auto insert_doc = R"(Book a vertex, whoever else has booked it.
+
+Parameters
+----------
+vertex : int
+    The vertex.
+start, end : int
+    It is booked for ``[start, end)``. [ticks]
+robot : int
+    By whom.
+
+Raises
+------
+ValueError
+    If there is no such vertex or robot, or the booking is empty.)";
 
 constexpr auto erase_doc = R"(Take back a booking.
 
@@ -201,6 +217,16 @@ void bind_safe_interval_search(nb::module_& module) {
                 self.book(vertex, {start, end}, robot);
             },
             nb::arg("vertex"), nb::arg("start"), nb::arg("end"), nb::arg("robot"), book_doc)
+        .def(
+            "insert",
+            [](BookingTable& self, VertexId vertex, Tick start, Tick end, RobotId robot) {
+                require_vertex(self, vertex);
+                if (robot < 0 || end <= start) {
+                    reject("end", end, "is not after start, or the robot is none");
+                }
+                self.insert(vertex, {start, end}, robot);
+            },
+            nb::arg("vertex"), nb::arg("start"), nb::arg("end"), nb::arg("robot"), insert_doc)
         .def(
             "erase",
             [](BookingTable& self, VertexId vertex, Tick start, RobotId robot) {

@@ -5,10 +5,12 @@
 namespace rightofway {
 namespace {
 
-// For how many of its slowest edges a robot's home is kept free.
+// For how many of its slowest edges a robot's home is kept free: at first, and as much longer each
+// time it has lost its track.
 constexpr Tick hold_edges = 4;
 
-// What it costs to take a robot's track away, in such holds: at first, and how much more each time.
+// What it costs to take a robot's track away, in first holds: at first, and how much more each
+// time.
 constexpr Tick first_price = 10;
 constexpr Tick dearer = 5;
 
@@ -22,13 +24,15 @@ Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan)
       plan_(plan),
       search_(fleet.roads(), fleet.rules()),
       reader_(fleet),
-      prices_(static_cast<std::size_t>(fleet.n_robots())) {
+      prices_(static_cast<std::size_t>(fleet.n_robots())),
+      holds_(prices_.size()) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
-        prices_[static_cast<std::size_t>(robot)] = first_price * hold(robot);
+        prices_[static_cast<std::size_t>(robot)] = first_price * first_hold(robot);
+        holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
     }
 }
 
-Tick Prioritized::hold(RobotId robot) const {
+Tick Prioritized::first_hold(RobotId robot) const {
     const auto pace = fleet_.pace(robot);
     return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
 }
@@ -37,7 +41,7 @@ SearchEnd Prioritized::run(std::span<const RobotId> order, std::int64_t n_search
                            const SafeIntervalSearch::IsOver& is_over) {
     waiting_.assign(order.begin(), order.end());
     for (const RobotId robot : order) {
-        plan_.hold_home(robot, hold(robot));
+        plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
     }
     while (!waiting_.empty()) {
         const RobotId robot = waiting_.front();
@@ -70,8 +74,9 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
 void Prioritized::evict(RobotId robot) {
     TimedTrack none;
     plan_.exchange(robot, none);
-    plan_.hold_home(robot, hold(robot));
-    prices_[static_cast<std::size_t>(robot)] += dearer * hold(robot);
+    plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
+    prices_[static_cast<std::size_t>(robot)] += dearer * first_hold(robot);
+    holds_[static_cast<std::size_t>(robot)] += first_hold(robot);
     waiting_.push_back(robot);
     ++n_evictions_;
 }

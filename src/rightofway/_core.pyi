@@ -560,7 +560,7 @@ class PrecedenceGraph:
 
 class BookingTable:
     """
-    Who has booked which vertex when; no two robots' bookings of a vertex overlap.
+    Who has booked which vertex when.
 
     Parameters
     ----------
@@ -592,6 +592,25 @@ class BookingTable:
         ------
         ValueError
             If there is no such vertex, the booking is empty, or it overlaps another robot's.
+        """
+
+    def insert(self, vertex: int, start: int, end: int, robot: int) -> None:
+        """
+        Book a vertex, whoever else has booked it.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex.
+        start, end : int
+            It is booked for ``[start, end)``. [ticks]
+        robot : int
+            By whom.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex or robot, or the booking is empty.
         """
 
     def erase(self, vertex: int, start: int, robot: int) -> None:

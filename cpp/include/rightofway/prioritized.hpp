@@ -2,8 +2,9 @@
 //
 // The home of a robot without a track is kept free for a while, so that it can leave. A track may
 // run across others, at a price for each; those robots lose their tracks and queue again. The more
-// often a robot has lost its track, the more it costs to take it away, so that in the end somebody
-// else gives way (ejection chains with a memory).
+// often a robot has lost its track, the more it costs to take it away and the longer its home is
+// kept free, so that in the end somebody else gives way, or lets it out first (ejection chains with
+// a memory).
 //
 // Silver, "Cooperative pathfinding", AIIDE 2005; Andreychuk & Yakovlev, "Two techniques that
 // enhance the performance of multi-robot prioritized path planning", AAMAS 2018 (start holds);
@@ -37,7 +38,7 @@ class Prioritized {
   private:
     bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
     void evict(RobotId robot);
-    Tick hold(RobotId robot) const;
+    Tick first_hold(RobotId robot) const;
 
     const Fleet& fleet_;
     FleetPlan& plan_;
@@ -45,6 +46,7 @@ class Prioritized {
     TripReader reader_;
     std::deque<RobotId> waiting_;
     std::vector<Tick> prices_;
+    std::vector<Tick> holds_;
     std::vector<RobotId> met_;
     TimedTrack track_;
     std::int64_t n_evictions_ = 0;
