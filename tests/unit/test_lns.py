@@ -80,7 +80,7 @@ def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
 
     monkeypatch.setattr(module, "_plan_in_turn", fails_at_first)
     for occupancy in ("one", "both"):
-        rules = Rules(occupancy=occupancy, headway=Fraction(1, 2))  # type: ignore[arg-type]
+        rules = Rules(occupancy=occupancy, headway=Fraction(1, 2))
         fleet = random_fleet(8, size=9, robots=14, rules=rules)
         tried.clear()
         draft = prioritized(Task(scenario=fleet, options={"order": "shortest"}))
