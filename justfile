@@ -53,7 +53,20 @@ develop:
     pip install scikit-build-core nanobind
     pip install --no-build-isolation -e '.[dev,docs]'
 
+# Run the suite of random grids, or go on with it; the report is build/suite.html
+suite *args:
+    mkdir -p build
+    rightofway bench benchmarks/suite.toml -o build/suite.csv --report build/suite.html {{ args }}
+
 # Measure: planners, kernels, start-up (see benchmarks/README.md)
 bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
+
+# How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
+gaps:
+    MPLBACKEND=agg python -m benchmarks.compare_fixed_routes
+
+# Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
+priorities *args:
+    python -m benchmarks.compare_priorities {{ args }}

@@ -11,7 +11,9 @@ from typing import Any
 
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
 
-__all__ = ["PAPER", "grid_fleet", "paper_scenario", "random_fleet"]
+__all__ = [
+    "PAPER", "grid_fleet", "largest_part", "paper_scenario", "random_fleet", "random_grid",
+]  # fmt: skip
 
 PAPER: list[dict[str, Any]] = json.loads(
     (Path(__file__).parent / "data" / "paper.json").read_text(encoding="utf-8")
@@ -70,11 +72,9 @@ def random_fleet(
 ) -> Scenario:
     """Return a random fleet in the largest open part of a random grid; targets all differ."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    lines = [
-        "".join("@" if draw.random() < walls else "." for _ in range(size)) for _ in range(size)
-    ]
+    lines = random_grid(draw, size=size, walls=walls)
     roadmap = roadmap_of_grid(lines)
-    places = _largest_part(roadmap)
+    places = largest_part(roadmap)
     homes, targets = draw.sample(places, robots), draw.sample(places, robots)
     speeds = [Fraction(1), Fraction(1, 2), Fraction(1, 3)]
     return grid_fleet(
@@ -86,7 +86,15 @@ def random_fleet(
     )
 
 
-def _largest_part(roadmap: Roadmap) -> list[int]:
+def random_grid(draw: random.Random, *, size: int, walls: float) -> list[str]:
+    """Return a square grid in which each cell is blocked with the same probability."""
+    return [
+        "".join("@" if draw.random() < walls else "." for _ in range(size)) for _ in range(size)
+    ]
+
+
+def largest_part(roadmap: Roadmap) -> list[int]:
+    """Return the most vertices that are joined to each other, on a roadmap without one-ways."""
     unseen, parts = set(range(roadmap.n_vertices)), []
     while unseen:
         part, edge = [], [min(unseen)]

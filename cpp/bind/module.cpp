@@ -1,6 +1,22 @@
 #include "bindings.hpp"
 #include "rightofway/types.hpp"
 
+namespace {
+
+constexpr const char* compiler() {
+#if defined(__clang__)
+    return "Clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "GCC " __VERSION__;
+#elif defined(_MSC_VER)
+    return "MSVC";
+#else
+    return "unknown";
+#endif
+}
+
+}  // namespace
+
 NB_MODULE(_core, module) {
     module.doc() =
         "The native kernels: arrays and integers in, arrays and integers out.\n\n"
@@ -8,6 +24,7 @@ NB_MODULE(_core, module) {
         "``INFINITY`` is the end of a booking that never ends. [ticks]";
     module.attr("FOREVER") = rightofway::forever;
     module.attr("INFINITY") = rightofway::infinity;
+    module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
     rightofway::bind::bind_distance_tables(module);
     rightofway::bind::bind_fleet_search(module);
     rightofway::bind::bind_lacam(module);

@@ -1,8 +1,9 @@
 """Parts of pages that are taken from the program itself, so that they cannot drift from it.
 
 ``command-help`` shows what ``--help`` prints, ``planner-options`` and ``planner-list`` come from
-the registry, ``document-keys`` from the JSON Schema of a format, ``public-names`` from ``__all__``,
-``native-headers`` from the comments that C++ headers begin with.
+the registry, ``document-keys`` from the JSON Schema of a format, ``result-columns`` from the
+benchmark, ``public-names`` from ``__all__``, ``native-headers`` from the comments that C++ headers
+begin with.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.util.docutils import SphinxDirective
 
+from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
@@ -132,6 +134,16 @@ class DocumentKeys(LiveDirective):
         return table(("key", "what", "default"), rows)
 
 
+class ResultColumns(LiveDirective):
+    """The columns of the results of a benchmark."""
+
+    required_arguments = 0
+
+    def lines(self, *_: str) -> Iterable[str]:
+        """Return a table."""
+        return table(("column", "what"), ((f"`{each.name}`", each.what) for each in COLUMNS))
+
+
 def _defaults() -> dict[str, dict[str, Any]]:
     """Return the defaults that the model has, where the schema leaves them to it."""
     rules, robot = Rules(), Robot(name="R1", home=0, stops=(Stop(at=0),))  # type: ignore[arg-type]
@@ -207,6 +219,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("planner-list", PlannerList)
     app.add_directive("planner-options", PlannerOptions)
     app.add_directive("document-keys", DocumentKeys)
+    app.add_directive("result-columns", ResultColumns)
     app.add_directive("native-headers", NativeHeaders)
     app.add_directive("public-names", PublicNames)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from rightofway.check import Fault, Report, check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
 from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
-from rightofway.solve import solve
+from rightofway.solve import improve, solve
 
 if TYPE_CHECKING:
     from rightofway.io import load, load_plan, save_plan
@@ -57,6 +57,7 @@ __all__ = [
     "Scenario",
     "Stop",
     "check",
+    "improve",
     "load",
     "load_plan",
     "measure",

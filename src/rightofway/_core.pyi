@@ -16,6 +16,9 @@ FOREVER: int = 4294967296
 
 INFINITY: int = 4611686018427387904
 
+def compiler() -> str:
+    """Return the name and version of what compiled this module."""
+
 class DistanceTables:
     """
     Least ticks from every vertex to one target.

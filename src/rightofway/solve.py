@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from rightofway.check import check
-from rightofway.errors import InvalidPlan
-from rightofway.model import Plan, PlannerRun, Scenario
-from rightofway.planners import Deadline, Draft, Task, find
+from rightofway.errors import InputError, InvalidPlan
+from rightofway.model import Plan, PlannerRun, Scenario, Track
+from rightofway.planners import IMPROVER, Deadline, Draft, PlannerSpec, Task, find, registered
 
-__all__ = ["solve"]
+__all__ = ["improve", "solve"]
 
 
 def solve(
@@ -55,26 +56,83 @@ def solve(
         If none was found in time, or by the means of the planner.
     """
     spec = find(planner)
-    settled = spec.settle(options or {})
-    began = time.perf_counter()
+    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    return _run(spec, scenario, given)
+
+
+def improve(
+    plan: Plan,
+    planner: str = IMPROVER,
+    time_limit: float | None = 10,
+    seed: int = 0,
+    *,
+    options: Mapping[str, Any] | None = None,
+    report: Callable[[str], None] | None = None,
+) -> Plan:
+    """Make a plan better, whoever made it, and have the result judged.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules.
+    planner
+        Name of a planner that can start from a plan.
+    time_limit, seed, options, report
+        As for `solve`.
+
+    Returns
+    -------
+    Plan
+        Passed by `rightofway.check`, and of no larger flowtime.
+
+    Raises
+    ------
+    InputError
+        If the plan has faults, for a planner that cannot start from one, or an unknown option.
+    """
+    judged, spec = check(plan), find(planner)
+    if not judged.ok:
+        raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
+    if not spec.improves:
+        able = " or ".join(one.name for one in registered().values() if one.improves)
+        raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
+    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    return _run(spec, plan.scenario, given, start=plan.tracks)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Given:
+    """What the caller says besides the problem."""
+
+    time_limit: float | None
+    seed: int
+    options: Mapping[str, Any] | None
+    report: Callable[[str], None] | None
+
+
+def _run(
+    spec: PlannerSpec, scenario: Scenario, given: _Given, start: tuple[Track, ...] | None = None
+) -> Plan:
     task = Task(
         scenario=scenario,
-        options=settled,
-        seed=seed,
-        deadline=Deadline.after(time_limit),
-        report=report or (lambda _: None),
+        options=spec.settle(given.options or {}),
+        seed=given.seed,
+        deadline=Deadline.after(given.time_limit),
+        report=given.report or (lambda _: None),
+        start=start,
     )
+    began = time.perf_counter()
     draft = spec.load()(task)
     run = PlannerRun(
         name=spec.name,
-        options=settled,
-        seed=seed,
+        options=task.options,
+        seed=task.seed,
         status=draft.status,
         seconds=time.perf_counter() - began,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
     )
-    plan = Plan(scenario=scenario, tracks=draft.tracks, run=run)
+    plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
     _refuse_faults(plan, draft)
     return plan
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.cli.main import run
+from tests.odd_planners import install
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -42,3 +43,12 @@ def cli(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
 def door() -> Path:
     """Return the paper's door."""
     return EXAMPLES / "door.yaml"
+
+
+@pytest.fixture
+def others(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Install the planners that misbehave, for this process and those that it starts."""
+    directory = tmp_path_factory.mktemp("site")
+    install(directory)
+    monkeypatch.syspath_prepend(directory)
+    monkeypatch.setenv("PYTHONPATH", str(directory))

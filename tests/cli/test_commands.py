@@ -51,6 +51,12 @@ def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: P
     assert "Their work takes 19 ticks together if R1 waits, 19 if R2 does." in words
 
 
+def test_the_log_says_who_goes_first_by_priority(cli: Cli, door: Path) -> None:
+    ended = cli("plan", door, "--log", "--planner", "fixed-priority")
+    words = " ".join(ended.out.split())
+    assert "R2 waits 1 tick in N2 and follows R1. priority: R1 has the higher one." in words
+
+
 def test_the_table_stands_under_the_summary(cli: Cli, door: Path) -> None:
     assert (
         "R1 final     0=  0   1   4   7   6   6   7   4   1   0" in cli("plan", door, "--table").out
@@ -151,7 +157,7 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", EXAMPLES / "door.yaml", "--time-limit", "nan"], "nan is not positive (give"),
         (["plan", "nowhere.yaml", "-o", "no/plan.json"], "there is no directory 'no'"),
         (["plan", "nowhere.yaml", "-o", "."], "'.' is a directory"),
-        (["plan", "nowhere.yaml", "-o", "./nowhere.yaml"], "would replace the scenario"),
+        (["plan", "nowhere.yaml", "-o", "./nowhere.yaml"], "would replace nowhere.yaml"),
         (["plan", "nowhere.yaml", "--show", "page.png"], "'page.png' is no .html or .htm"),
         (["plan", "nowhere.yaml", "-o", "-", "--log"], "--log and -o - both go to standard output"),
         (["plan", "nowhere.yaml", "-o", "-", "--json"], "--json and -o - both go to"),
@@ -254,3 +260,19 @@ def test_help_lists_the_planners_with_their_options(cli: Cli) -> None:
     words = " ".join(cli("plan", "--help").out.split())
     assert "two-level The paper's method: right of way" in words
     assert "swaps=resolve|leave Keep robots that meet head-on apart" in words
+
+
+def test_a_plan_is_improved_and_the_page_of_planners_lists_only_those_that_can(cli: Cli) -> None:
+    Path("scenario.yaml").write_text(BEHIND, encoding="utf-8")
+    cli("plan", "scenario.yaml", "-o", "plan.json")
+    ended = cli("improve", "plan.json", "--planner", "local-search", "-o", "better.json")
+    assert (ended.code, ended.err) == (0, "wrote better.json\n")
+    assert "planner   local-search: flips took the flowtime from" in ended.out
+    assert cli("check", "better.json").code == 0
+    assert "two-level" not in cli("improve", "--help").out.partition("Planners and")[2]
+
+
+def test_a_plan_is_not_replaced_by_its_improvement(cli: Cli, door: Path) -> None:
+    cli("plan", door, "-o", "plan.json")
+    ended = cli("improve", "plan.json", "-o", "plan.json")
+    assert (ended.code, "would replace plan.json" in ended.err) == (2, True)

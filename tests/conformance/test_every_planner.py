@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import pytest
 
 import rightofway
@@ -82,3 +84,22 @@ def test_every_option_has_its_default_first_and_refuses_what_it_does_not_know(pl
     given: dict[str, Any] = {"no-such-option": 1}
     with pytest.raises(rightofway.InputError, match="is unknown to"):
         spec.settle(given)
+
+
+@pytest.mark.parametrize("planner", [name for name in PLANNERS if registered()[name].improves])
+@pytest.mark.parametrize("seed", range(3))
+def test_who_can_start_from_a_plan_makes_it_no_worse(planner: str, seed: int) -> None:
+    first = rightofway.solve(random_fleet(seed, robots=6), "two-level")
+    better = rightofway.improve(first, planner, time_limit=5)
+    assert rightofway.check(better).ok
+    assert measure(better).flowtime <= measure(first).flowtime
+
+
+def test_only_a_plan_without_faults_is_improved_and_only_by_who_can() -> None:
+    plan = rightofway.solve(random_fleet(1, robots=3), "two-level")
+    with pytest.raises(rightofway.InputError, match="planner: two-level cannot start from a plan"):
+        rightofway.improve(plan, "two-level")
+    early = replace(plan.tracks[0], enter=np.arange(len(plan.tracks[0])))
+    wrong = replace(plan, tracks=(early, *plan.tracks[1:]))
+    with pytest.raises(rightofway.InputError, match="the plan has 1 fault"):
+        rightofway.improve(wrong)

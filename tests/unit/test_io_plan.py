@@ -3,6 +3,7 @@
 import copy
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -125,6 +126,16 @@ def test_a_plan_is_read_back_without_the_seconds(tmp_path: Path) -> None:
     assert plan_of(dump_plan(plan, seconds=True)) == plan
     save_plan(plan, tmp_path / "door.json", seconds=True)
     assert load_plan(tmp_path / "door.json") == plan
+
+
+def test_a_decision_by_priority_is_read_back_without_counts() -> None:
+    plan = door_plan()
+    level: dict[str, Any] = {"level": "priority", "conflicts_left": (None, None)}
+    decision = replace(plan.run.decisions[0], **level, completion_sums=None)
+    plan = replace(plan, run=replace(plan.run, decisions=(decision,)))
+    document = dump_plan(plan, seconds=True)
+    assert document["planner"]["decisions"][0]["level"] == "priority"
+    assert plan_of(document) == plan
 
 
 def test_a_plan_may_be_wrong() -> None:

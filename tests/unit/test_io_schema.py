@@ -87,5 +87,7 @@ def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
 
 
 def test_there_is_no_schema_of_anything_else() -> None:
-    with pytest.raises(InputError, match=r"'fleet' is no kind of document \(give scenario or plan"):
+    with pytest.raises(
+        InputError, match=r"'fleet' is no kind of document \(give one of: scenario, plan, suite"
+    ):
         schema("fleet")  # type: ignore[arg-type]

@@ -60,6 +60,13 @@ def test_rounds_find_what_no_single_flip_does() -> None:
     assert flowtime(improved(scenario, 40)) < flowtime(improved(scenario, 0))
 
 
+@pytest.mark.parametrize("seed", [24, 29, 112])
+def test_flips_do_not_make_rotations_where_these_are_forbidden(seed: int) -> None:
+    rules = Rules(rotations=False)
+    scenario = random_fleet(seed, size=6, robots=9, walls=0.05, rules=rules)
+    assert rightofway.check(improved(scenario, 100)).ok
+
+
 def test_where_nobody_waits_there_is_nothing_to_flip() -> None:
     plan = improved(grid_fleet(["...", "..."], [("N0", "N2"), ("N3", "N5")]), 5)
     assert plan.run.status == "waits only; flips took the flowtime from 10 to 10 ticks"

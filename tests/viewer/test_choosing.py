@@ -1,5 +1,7 @@
 """Choosing robots and decisions, and what the page then tells."""
 
+from dataclasses import replace
+
 from tests.viewer.conftest import Opener
 from tests.viewer.plans import crowd, door, loop
 
@@ -31,6 +33,19 @@ def test_a_decision_leads_to_its_moment_and_tells_its_reason(show: Opener) -> No
         ["Conflicts", "left", "0", "0"],
         ["Sum", "of", "completion", "times", "19", "19"],
     ]
+
+
+def test_a_decision_by_priority_needs_no_figures(show: Opener) -> None:
+    plan = door()
+    decision = replace(
+        plan.run.decisions[0], level="priority", conflicts_left=(None, None), completion_sums=None
+    )
+    viewer = show(replace(plan, run=replace(plan.run, decisions=(decision,))))
+    viewer.page.click("#tab-decisions")
+    assert "at 1 · 1 tick later · by priority" in viewer.text("#decision-list")
+    viewer.page.click("#decision-list .row")
+    assert "R1 waits because R2 has the higher priority." in viewer.text("#card")
+    assert viewer.page.locator("#card table").count() == 0
 
 
 def test_a_reroute_chooses_its_robot(show: Opener) -> None:

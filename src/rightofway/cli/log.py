@@ -48,6 +48,8 @@ def _reason(one: Decision, names: list[str]) -> str:
     left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"
     if one.level == "only":
         return f"only choice: {names[_goes_first(one)]} cannot wait here."
+    if one.level == "priority":
+        return f"priority: {names[_goes_first(one)]} has the higher one."
     if one.level == "settled":
         return f"node level: the other choice meets robots that are settled already ({left})."
     if one.level == "node":

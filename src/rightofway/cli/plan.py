@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
-
 import click
 
-from rightofway.cli.terminal import put, put_json, read_scenario, say, width, writable
-from rightofway.planners import registered
-
-if TYPE_CHECKING:
-    from rightofway.model import Plan
+from rightofway.cli.planning import (
+    PlanningCommand,
+    hand_over,
+    options_of_planning,
+    refuse_bad_outputs,
+)
+from rightofway.cli.terminal import read_scenario, say
 
 __all__ = ["plan"]
 
@@ -25,57 +22,9 @@ Examples:
 """
 
 
-class _PlanCommand(click.Command):
-    """A command whose help lists the planners that there are."""
-
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Planners and their options"):
-            formatter.write_dl(list(_planners()))
-        super().format_epilog(ctx, formatter)
-
-
-def _planners() -> Iterator[tuple[str, str]]:
-    for spec in registered().values():
-        yield spec.name, spec.summary
-        for option in spec.options:
-            yield f"  {option.name}={option.accepts}", option.summary
-
-
-def _options(
-    _context: click.Context, _parameter: click.Parameter, given: Sequence[str]
-) -> dict[str, str]:
-    pairs = [text.partition("=") for text in given]
-    for name, sign, _ in pairs:
-        if not (name and sign):
-            raise click.BadParameter(f"{name!r} is not name=value (for example swaps=leave)")
-    return {name: value for name, _, value in pairs}
-
-
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
-    if not given > 0:
-        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
-    return None if given == math.inf else given
-
-
-@click.command(cls=_PlanCommand, epilog=EXAMPLE)
+@click.command(cls=PlanningCommand, epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
-@click.option("-o", "--output", metavar="PLAN", callback=writable(),
-              help="Write the plan there; - for standard output.")  # fmt: skip
-@click.option("--planner", default="auto", show_default=True, metavar="NAME",
-              help="Which planner to use.")  # fmt: skip
-@click.option(
-    "--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
-    help="Tell the planner something; may be repeated.",
-)  # fmt: skip
-@click.option("--time-limit", type=float, default=10, show_default=True, callback=_seconds,
-              metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
-@click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True,
-              metavar="N", help="For planners that draw at random.")  # fmt: skip
-@click.option("--show", "page", metavar="PAGE", callback=writable(".html", ".htm"),
-              help="Write a page that plays the plan (HTML).")  # fmt: skip
-@click.option("--log", is_flag=True, help="Print every decision: who waits, where and why.")
-@click.option("--table", is_flag=True, help="Print the time/space table.")
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
+@options_of_planning("auto")
 def plan(
     *,
     scenario: str,
@@ -95,65 +44,9 @@ def plan(
     """
     from rightofway.solve import solve
 
-    _refuse_two_results(output, log=log, table=table, as_json=as_json)
-    if output and output != "-" and Path(output).resolve() == Path(scenario).resolve():
-        raise click.UsageError(f"-o {output} would replace the scenario (give another name)")
+    refuse_bad_outputs(scenario, output, log=log, table=table, as_json=as_json)
     found = solve(
         read_scenario(scenario), planner,
         options=options, time_limit=time_limit, seed=seed, report=say,
     )  # fmt: skip
-    _write(found, output, page)
-    if output != "-":
-        _report(found, log=log, table=table, as_json=as_json)
-    return _end(found)
-
-
-def _refuse_two_results(output: str | None, *, log: bool, table: bool, as_json: bool) -> None:
-    """Make sure that what programs read from standard output is one document."""
-    words = "--log" if log else "--table" if table else None
-    if output == "-" and (words or as_json):
-        raise click.UsageError(f"{words or '--json'} and -o - both go to standard output")
-    if as_json and words:
-        raise click.UsageError(f"{words} is for people, --json for programs: choose one")
-
-
-def _write(found: Plan, output: str | None, page: str | None) -> None:
-    from rightofway.io import plan_text, save_plan
-
-    if output == "-":
-        put(plan_text(found).rstrip("\n"))
-    elif output:
-        save_plan(found, output)
-        say(f"wrote {output}")
-    if page:
-        from rightofway.viz import write_page
-
-        write_page(found, page)
-        say(f"wrote {page} (open it in a browser)")
-
-
-def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
-    from rightofway.cli.log import decision_log
-    from rightofway.cli.summary import summary, summary_data
-
-    if as_json:
-        put_json(summary_data(found))
-        return
-    put(summary(found))
-    if log:
-        put("\n" + decision_log(found))
-    if table:
-        from rightofway.viz.table import as_text, table_of
-
-        put("\n" + as_text(table_of(found), width()))
-
-
-def _end(found: Plan) -> int:
-    """Return 1 and say so where swaps were left in on request."""
-    from rightofway.check import check
-
-    report = check(found)
-    if report.ok:
-        return 0
-    say(f"the plan still has {report.summary}; swaps=resolve takes them out")
-    return 1
+    return hand_over(found, output, page, log=log, table=table, as_json=as_json)

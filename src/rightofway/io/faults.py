@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from rightofway.errors import InputError, Problem
-from rightofway.io.formats import PLAN_FORMAT, SCENARIO_FORMAT
+from rightofway.io.formats import PLAN_FORMAT, SCENARIO_FORMAT, SUITE_FORMAT
 from rightofway.io.words import nearest, place_of, shown
 
 if TYPE_CHECKING:
@@ -102,11 +102,12 @@ def checked_format(document: Any, known: str) -> dict[str, Any]:
     InputError
         If it does not. Nothing else is said of it then, because nothing else is known.
     """
+    line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
         found = "nothing is in it" if document is None else f"{shown(document)} is no document"
-        raise InputError.at("", f"{found} (begin with format: {known})")
+        raise InputError.at("", f"{found} (begin with {line})")
     if "format" not in document:
-        raise InputError.at("format", f"is missing (put format: {known} at the top)")
+        raise InputError.at("format", f"is missing (put {line} at the top)")
     found = document["format"]
     if found != known:
         raise InputError.at("format", f"{shown(found)} is {_not_wanted(found, known)}")
@@ -114,9 +115,9 @@ def checked_format(document: Any, known: str) -> dict[str, Any]:
 
 
 def _not_wanted(found: object, known: str) -> str:
-    if found == PLAN_FORMAT:
+    if found == PLAN_FORMAT and known == SCENARIO_FORMAT:
         return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
-    if found == SCENARIO_FORMAT:
+    if found == SCENARIO_FORMAT and known == PLAN_FORMAT:
         return "a scenario, not a plan (plan it first)"
     return f"not known here (give {known}, or update)"
 

@@ -8,10 +8,10 @@ from rightofway.errors import InputError
 
 __all__ = ["SCHEMAS", "schema"]
 
-SCHEMAS = ("scenario", "plan")
+SCHEMAS = ("scenario", "plan", "suite")
 
 
-def schema(kind: Literal["scenario", "plan"]) -> dict[str, Any]:
+def schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a kind of document.
 
     Notes
@@ -28,10 +28,15 @@ def schema(kind: Literal["scenario", "plan"]) -> dict[str, Any]:
 
     from rightofway.io.plan.shape import PlanDocument
     from rightofway.io.scenario.shape import ScenarioDocument
+    from rightofway.io.suite.shape import SuiteDocument
 
-    models: dict[str, type[BaseModel]] = {"scenario": ScenarioDocument, "plan": PlanDocument}
+    models: dict[str, type[BaseModel]] = {
+        "scenario": ScenarioDocument,
+        "plan": PlanDocument,
+        "suite": SuiteDocument,
+    }
     if kind not in models:
-        message = f"{kind!r} is no kind of document (give {' or '.join(SCHEMAS)})"
+        message = f"{kind!r} is no kind of document (give one of: {', '.join(SCHEMAS)})"
         raise InputError.at("", message)
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {**dialect, **_without_titles(models[kind].model_json_schema())}

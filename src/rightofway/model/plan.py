@@ -82,9 +82,11 @@ class Decision:
     level
         ``node``: fewer conflicts were left in the whole system. ``robot``: as many were left, but
         both achieve their work sooner. ``settled``: the other choice would have met robots that
-        are settled already. ``only``: the other choice was impossible.
+        are settled already. ``priority``: the robot of higher priority goes first. ``only``: the
+        other choice was impossible.
     conflicts_left
-        Conflicts left in the system if i waits, and if j waits; None where that was impossible.
+        Conflicts left in the system if i waits, and if j waits; None where that was impossible, or
+        played no part.
     completion_sums
         Sum of both completion times if ties let i wait, and if ties let j wait [ticks]; None where
         no tie came up, and in the place of a group that found no way.
@@ -97,7 +99,7 @@ class Decision:
     waits: int
     waits_at: VertexId
     ticks: Tick
-    level: Literal["node", "robot", "settled", "only"]
+    level: Literal["node", "robot", "settled", "priority", "only"]
     conflicts_left: tuple[int | None, int | None]
     completion_sums: tuple[int | None, int | None] | None = None
 

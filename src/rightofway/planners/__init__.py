@@ -2,6 +2,7 @@
 
 from rightofway.planners.registry import (
     DEFAULT,
+    IMPROVER,
     Choice,
     Count,
     Option,
@@ -13,6 +14,7 @@ from rightofway.planners.task import Deadline, Draft, Planner, Task, planning_he
 
 __all__ = [
     "DEFAULT",
+    "IMPROVER",
     "Choice",
     "Count",
     "Deadline",

@@ -28,7 +28,7 @@ from typing import NamedTuple
 from rightofway.errors import GaveUp
 from rightofway.model import Tick
 from rightofway.planners.giving_way import rights_if_waits
-from rightofway.planners.task import Draft, Task
+from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
 
@@ -68,11 +68,12 @@ def local_search(task: Task) -> Draft:
         As `two_level`, where no plan to start from is given.
     """
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
-    graph = graph_of(task.scenario, first.tracks)
-    search = _Search(task, graph)
-    before = graph.flowtime()
-    search.run(rounds=int(task.options["rounds"]))
-    said = f"flips took the flowtime from {before} to {graph.flowtime()} ticks"
+    before = graph_of(task.scenario, first.tracks)
+    graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
+    _Search(task, graph).run(rounds=int(task.options["rounds"]))
+    if graph.flowtime() > before.flowtime():  # the headway of planning may cost more than it won
+        graph = before
+    said = f"flips took the flowtime from {before.flowtime()} to {graph.flowtime()} ticks"
     return Draft(
         tracks=tuple(graph.tracks()),
         status=f"{first.status}; {said}" if first.status else said,

@@ -12,7 +12,7 @@ from typing import Any, cast
 from rightofway.errors import InputError
 from rightofway.planners.task import Planner
 
-__all__ = ["DEFAULT", "Choice", "Count", "Option", "PlannerSpec", "find", "registered"]
+__all__ = ["DEFAULT", "IMPROVER", "Choice", "Count", "Option", "PlannerSpec", "find", "registered"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +177,28 @@ PLANNERS = (
         improves=True,
     ),
     PlannerSpec(
+        "fixed-priority",
+        "rightofway.planners.priority:fixed_priority",
+        "Right of way by the robots' numbers: the first in the scenario goes first.",
+        (ROUTES,),
+    ),
+    PlannerSpec(
+        "random-priority",
+        "rightofway.planners.priority:random_priority",
+        "Right of way by random orders of the robots; the best of several plans.",
+        (Count("restarts", 20, 1, "How many orders to try."), ROUTES),
+    ),
+    PlannerSpec(
+        "priority-search",
+        "rightofway.planners.priority:priority_search",
+        "Right of way by an order of the robots that hill climbing improves.",
+        (
+            Count("rounds", 10, 1, "How many orders to try in a climb."),
+            Count("restarts", 2, 1, "How many climbs, each from another order."),
+            ROUTES,
+        ),
+    ),
+    PlannerSpec(
         "prioritized",
         "rightofway.planners.prioritized:prioritized",
         "One robot after another, each round those before it; who is in the way gives way.",
@@ -206,6 +228,10 @@ PLANNERS = (
 
 DEFAULT = "two-level"
 """What ``auto`` stands for."""
+
+
+IMPROVER = "local-search"
+"""What makes a plan better where no planner is named."""
 
 
 def registered() -> dict[str, PlannerSpec]:

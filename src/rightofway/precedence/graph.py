@@ -242,7 +242,9 @@ class PrecedenceGraph:
         ]
 
 
-def graph_of(scenario: Scenario, tracks: Sequence[Track]) -> PrecedenceGraph:
+def graph_of(
+    scenario: Scenario, tracks: Sequence[Track], *, headway: Tick | None = None
+) -> PrecedenceGraph:
     """Return the precedence graph of a plan: its routes, and its order of visits at every vertex.
 
     Parameters
@@ -251,10 +253,12 @@ def graph_of(scenario: Scenario, tracks: Sequence[Track]) -> PrecedenceGraph:
         The problem.
     tracks
         A plan that keeps the rules, by any planner.
+    headway
+        A longer one than the scenario asks for [ticks].
 
     Notes
     -----
-    No robot is later in the timetable of the graph than in the plan.
+    With the headway of the scenario, no robot is later in the timetable than in the plan.
     """
     itineraries = scenario.timing.itineraries
     graph = PrecedenceGraph(
@@ -262,7 +266,7 @@ def graph_of(scenario: Scenario, tracks: Sequence[Track]) -> PrecedenceGraph:
             route_of(scenario.roadmap, itinerary, track)
             for itinerary, track in zip(itineraries, tracks, strict=True)
         ],
-        headway=scenario.timing.headway,
+        headway=scenario.timing.headway if headway is None else headway,
         books_ahead=scenario.rules.books_ahead,
     )
     graph.keep_order([track.enter.tolist() for track in tracks])

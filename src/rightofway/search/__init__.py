@@ -4,6 +4,7 @@ from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch
 from rightofway.search.joint import joint_steps
+from rightofway.search.native import compiler
 from rightofway.search.sipp import earliest_track
 from rightofway.search.traffic import Traffic
 
@@ -15,6 +16,7 @@ __all__ = [
     "FleetSearch",
     "Path",
     "Traffic",
+    "compiler",
     "earliest_track",
     "joint_steps",
 ]

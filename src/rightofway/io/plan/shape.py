@@ -34,9 +34,11 @@ class DecisionDocument(Document):
     waits: Name = Field(description="the name of the one that waits")
     waits_at: Name = Field(description="the name of the vertex it waits in")
     ticks: Ticks = Field(description="how much later it leaves there, a whole number of ticks")
-    level: Literal["node", "robot", "settled", "only"] = Field(description="node, robot, or only")
+    level: Literal["node", "robot", "settled", "priority", "only"] = Field(
+        description="node, robot, settled, priority, or only"
+    )
     conflicts_left: PairOfCounts = Field(
-        description="two counts: conflicts left if the first robot waits, and if the second does"
+        description="two counts, or null: conflicts left if the first robot waits, or the second"
     )
     completion_sums: PairOfCounts | None = Field(
         default=None, description="two sums of completion times in ticks, or null"

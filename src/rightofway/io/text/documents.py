@@ -26,6 +26,9 @@ def read_document(path: Path) -> Any:
     if suffix == ".map":
         message = "a map has no robots (write a scenario with map: {file: ...}, or give a .scen)"
         raise InputError.at("", message)
+    if suffix == ".toml":
+        message = "TOML is for the suites of benchmarks (write scenarios and plans as YAML or JSON)"
+        raise InputError.at("", message)
     looks_like_json = text.lstrip().startswith(("{", "["))
     is_json = suffix == ".json" or (suffix not in {".yaml", ".yml"} and looks_like_json)
     return parse_json(text) if is_json else parse_yaml(text)

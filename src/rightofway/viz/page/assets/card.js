@@ -83,11 +83,11 @@ class Card {
       this.#header(swatch(pair[0]), swatch(pair[1]), title),
       element("p", { className: "name" }, this.words.decisionAtLength(decision)),
       element("p", { className: "name" }, this.words.reason(decision)),
-      this.#choices(decision, pair),
+      ...this.#choices(decision, pair),
     ];
   }
 
-  /** The two choices side by side, the one that was taken stronger. */
+  /** The two choices side by side, the one that was taken stronger; nothing where no figure decided. */
   #choices(decision, pair) {
     const cell = (tag, text, side) =>
       element(tag, { className: decision.waits === decision.robots[side] ? "taken" : "" }, String(text));
@@ -95,6 +95,6 @@ class Card {
       element("tr", {}, element("th", {}, label), ...both.map((text, side) => cell(tag, text, side)));
     const head = row("th", "If it waits", pair.map((robot) => robot.name));
     const rows = this.words.figures(decision).map(([label, ...both]) => row("td", label, both));
-    return element("table", { className: "choices" }, head, ...rows);
+    return rows.length ? [element("table", { className: "choices" }, head, ...rows)] : [];
   }
 }

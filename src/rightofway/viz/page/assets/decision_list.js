@@ -4,6 +4,7 @@ const REASONS = {
   node: "fewer conflicts left",
   robot: "done sooner",
   settled: "others are settled",
+  priority: "by priority",
   only: "the only way",
 };
 

@@ -100,6 +100,7 @@ class Words {
     switch (decision.level) {
       case "node": return `${waits} waits because that leaves fewer conflicts in the whole system.`;
       case "settled": return `${first} cannot wait: it would then meet robots that are settled already.`;
+      case "priority": return `${waits} waits because ${first} has the higher priority.`;
       case "only": return `${first} cannot wait: that was impossible.`;
       default: return this.#robotLevel(decision.completionSums ?? [null, null]);
     }
@@ -113,7 +114,10 @@ class Words {
 
   /** What both choices lead to: a label, and a figure for each robot if it is the one that waits. */
   figures(decision) {
-    const rows = [["Conflicts left", ...decision.conflictsLeft.map((count) => count ?? "impossible")]];
+    const rows = [];
+    if (decision.conflictsLeft.some((count) => count !== null)) {
+      rows.push(["Conflicts left", ...decision.conflictsLeft.map((count) => count ?? "impossible")]);
+    }
     if (decision.completionSums) {
       const sums = decision.completionSums.map((sum) => (sum === null ? "no way" : this.time(sum)));
       rows.push(["Sum of completion times", ...sums]);

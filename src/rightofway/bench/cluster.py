@@ -1,0 +1,113 @@
+"""Cases on a cluster, through Dask: one case is one task; if its worker dies, another has it."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
+from textwrap import shorten
+from typing import Any
+
+from rightofway.bench.cases import Case
+from rightofway.bench.extras import needed
+from rightofway.bench.process import lost, run_on_worker
+from rightofway.bench.rows import Row
+from rightofway.errors import InputError
+
+__all__ = ["run_on_cluster"]
+
+PATIENCE = 30
+"""How long a scheduler has to answer [s]."""
+
+LONGEST = 200
+"""Characters of what a worker says that a message shows."""
+
+IN_FLIGHT = 2
+"""Tasks for each thread of the workers that the scheduler knows of at a time, so that none of them
+waits for work."""
+
+
+def run_on_cluster(
+    cases: Iterable[Case], address: str, *, report: Callable[[str], None] = lambda _: None
+) -> Iterator[Row]:
+    """Yield the row of each case, in the order in which they end.
+
+    Parameters
+    ----------
+    cases
+        What to run.
+    address
+        Of the scheduler: ``tcp://host:8786``. Its workers need this package, of this version.
+    report
+        Takes a sentence if there is something to wait for.
+
+    Raises
+    ------
+    InputError
+        If no scheduler answers there, or it goes away. The rows that came are good.
+
+    Notes
+    -----
+    The scheduler gives a case to another worker if its worker dies, and a result that was lost with
+    its worker is made again; a case whose workers die four times is a row that says so.
+    """
+    client = _client(address)
+    try:
+        if not client.nthreads():
+            report(f"{address} has no workers yet; waiting for some")
+        yield from _rows(client, iter(cases))
+    except InputError as error:
+        raise InputError(error.problems, address) from None
+    except Exception:
+        if client.status == "running":
+            raise
+        message = "the scheduler went away (run the same command again to go on)"
+        raise InputError.at("", message, address) from None
+    finally:
+        client.close(timeout=PATIENCE)
+
+
+def _client(address: str) -> Any:
+    distributed = needed("distributed", "a cluster")
+    try:
+        return distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, TimeoutError, ValueError) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        message = f"no scheduler answers: {reason} (start one with: dask scheduler)"
+        raise InputError.at("", message, address) from None
+
+
+def _rows(client: Any, cases: Iterator[Case]) -> Iterator[Row]:
+    distributed = needed("distributed", "a cluster")
+    run, waiting = uuid.uuid4().hex, dict[Any, Case]()
+
+    def submit(case: Case) -> Any:
+        future = client.submit(run_on_worker, case, key=f"rightofway-{run}-{case.key}", pure=False)
+        waiting[future] = case
+        return future
+
+    def room() -> int:
+        threads: int = sum(client.nthreads().values())
+        return max(0 if waiting else 1, IN_FLIGHT * threads - len(waiting))
+
+    done = distributed.as_completed(
+        [submit(case) for case in islice(cases, room())], loop=client.loop
+    )
+    for future in done:
+        case = waiting.pop(future)
+        yield _row(future, case, distributed)
+        done.update([submit(case) for case in islice(cases, room())])
+
+
+def _row(future: Any, case: Case, distributed: Any) -> Row:
+    try:
+        row: Row = future.result()
+    except distributed.KilledWorker:
+        return lost(case, "each worker that tried it died, perhaps for its memory")
+    except Exception as error:
+        if future.status != "error":
+            raise
+        what = shorten(f"{type(error).__name__}: {error}", LONGEST, placeholder=" …")
+        message = f"a worker cannot run cases: {what} (install this rightofway on all workers)"
+        raise InputError.at("", message) from None
+    return row

@@ -1,0 +1,117 @@
+"""Rows of results, grouped and summed up."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rightofway.bench.rows import Row
+
+__all__ = ["Group", "Spread", "by_planner", "by_robots", "grouped", "planner_names"]
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """The middle of some numbers, and how far half of them spread."""
+
+    first_quartile: float
+    median: float
+    third_quartile: float
+
+    @classmethod
+    def of(cls, values: Iterable[float | None]) -> Spread | None:
+        """Return the spread of those that are there, or None if there is none."""
+        known = [value for value in values if value is not None]
+        return cls(*map(float, np.percentile(known, [25, 50, 75]))) if known else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """Some rows, summed up.
+
+    Attributes
+    ----------
+    cases, solved
+        How many there are, and how many of them are solved.
+    ratio
+        Flowtime / lower bound of the solved ones.
+    seconds
+        Until the first plan of the solved ones [s].
+    memory
+        The most memory that one of them held [MB].
+    statuses
+        How many ended in which way.
+    """
+
+    cases: int
+    solved: int
+    ratio: Spread | None
+    seconds: Spread | None
+    memory: float | None
+    statuses: Mapping[str, int]
+
+    @classmethod
+    def of(cls, rows: Sequence[Row]) -> Group:
+        """Sum up rows."""
+        memory = (row["peak_memory"] for row in rows if row["peak_memory"] is not None)
+        return cls(
+            cases=len(rows),
+            solved=sum(row["solved"] for row in rows),
+            ratio=Spread.of(row["ratio"] for row in rows if row["solved"]),
+            seconds=Spread.of(row["first_plan_seconds"] for row in rows),
+            memory=max(memory, default=None),
+            statuses=dict(Counter(row["status"] for row in rows)),
+        )
+
+
+def grouped(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]:
+    """Return the rows that agree in some columns, in the order of their first."""
+    groups: dict[tuple[Any, ...], list[Row]] = {}
+    for row in rows:
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return groups
+
+
+def planner_names(rows: Iterable[Row]) -> dict[str, str]:
+    """Return, by the key of each row, its planner's name with what else tells it apart.
+
+    Options are part of the name where they differ between runs of the planner, and so is the time
+    limit where it differs.
+    """
+    variants = grouped(rows, "planner", "options", "limit")
+    common = _common_options(variants)
+    has_limits = len({limit for _, _, limit in variants}) > 1
+    names = {}
+    for (planner, options, limit), each in variants.items():
+        own = [option for option in options.split() if option not in common[planner]]
+        name = " ".join([planner, *own, *[f"({limit:g} s)"] * has_limits])
+        names.update({row["key"]: name for row in each})
+    return names
+
+
+def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> dict[str, list[Row]]:
+    """Return the rows of each planner; names are those among all rows, if these are only some."""
+    names = names or planner_names(rows)
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(names[row["key"]], []).append(row)
+    return groups
+
+
+def _common_options(variants: Iterable[tuple[Any, ...]]) -> dict[str, set[str]]:
+    """Return the options that each planner is told in all its runs."""
+    common: dict[str, set[str]] = {}
+    for planner, options, _ in variants:
+        own = set(options.split())
+        common[planner] = common.get(planner, own) & own
+    return common
+
+
+def by_robots(rows: Iterable[Row]) -> dict[int, Group]:
+    """Return the groups of equal numbers of robots, the smallest first."""
+    groups = grouped(rows, "robots")
+    return {robots: Group.of(each) for (robots,), each in sorted(groups.items())}

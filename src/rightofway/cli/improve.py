@@ -1,0 +1,57 @@
+"""``rightofway improve``: a plan in, a better one out."""
+
+from __future__ import annotations
+
+import click
+
+from rightofway.cli.planning import (
+    PlanningCommand,
+    hand_over,
+    options_of_planning,
+    refuse_bad_outputs,
+)
+from rightofway.cli.terminal import read_plan, say
+from rightofway.planners import IMPROVER, PlannerSpec
+
+__all__ = ["improve"]
+
+EXAMPLE = """\b
+Examples:
+  rightofway improve plan.json -o better.json
+  rightofway improve plan.json --planner local-search --option rounds=1000
+"""
+
+
+class _ImproveCommand(PlanningCommand):
+    def can_use(self, spec: PlannerSpec) -> bool:
+        return spec.improves
+
+
+@click.command(cls=_ImproveCommand, epilog=EXAMPLE)
+@click.argument("plan", type=click.Path())
+@options_of_planning(IMPROVER)
+def improve(
+    *,
+    plan: str,
+    output: str | None,
+    planner: str,
+    options: dict[str, str],
+    time_limit: float | None,
+    seed: int,
+    page: str | None,
+    log: bool,
+    table: bool,
+    as_json: bool,
+) -> int:
+    """Make a PLAN better, whoever made it, and check the result.
+
+    The result is never worse. A PLAN of - is standard input.
+    """
+    from rightofway.solve import improve as make_better
+
+    refuse_bad_outputs(plan, output, log=log, table=table, as_json=as_json)
+    found = make_better(
+        read_plan(plan), planner,
+        options=options, time_limit=time_limit, seed=seed, report=say,
+    )  # fmt: skip
+    return hand_over(found, output, page, log=log, table=table, as_json=as_json)

@@ -1,0 +1,1 @@
+"""Suite documents: what the benchmark is to run."""

@@ -1,0 +1,74 @@
+"""A case in a process of its own: what it costs is its own."""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rightofway
+from rightofway.bench import Case, cases_of, read_suite, run_here
+from rightofway.bench.machine import cores, machine
+from rightofway.bench.process import Interrupted, Processes
+from rightofway.bench.run import run
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Case:
+    path = tmp_path / "suite.toml"
+    path.write_text(
+        'format = "rightofway-suite/1"\ncounts = [4]\nmaps = [{random = {size = [9, 9]}}]\n'
+        'planners = [{name = "two-level"}]\n',
+        encoding="utf-8",
+    )
+    [case] = cases_of(read_suite(path))
+    return case
+
+
+def test_a_row_has_what_solving_the_case_here_gives(case: Case) -> None:
+    plan = rightofway.solve(case.scenario(), "two-level")
+    metrics = rightofway.measure(plan)
+    [row] = run_here([case])
+    assert (row["flowtime"], row["makespan"]) == (metrics.flowtime, metrics.makespan)
+    assert row["lower_bound"] == metrics.lower_bound
+    assert row["message"] == plan.run.status
+    assert {name: row[name] for name in case.labels} == case.labels
+    assert {name: row[name] for name in machine()} == machine()
+
+
+def test_the_memory_of_a_case_is_not_that_of_who_started_it(case: Case) -> None:
+    much = np.ones(60_000_000)  # 480 MB
+    [row] = run_here([case])
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss > much.nbytes / 1024
+    assert row["peak_memory"] < 200
+
+
+def test_the_outcome_of_a_case_in_this_process_has_its_costs(case: Case) -> None:
+    outcome = run(case)
+    assert outcome["status"] == "solved"
+    assert 0 < outcome["cpu_seconds"] < 5
+    assert outcome["first_plan_seconds"] == outcome["wall_seconds"]
+
+
+def test_no_process_is_started_after_the_end(case: Case) -> None:
+    processes = Processes()
+    processes.end()
+    with pytest.raises(Interrupted):
+        processes.run(case)
+
+
+def test_the_machine_is_told() -> None:
+    found = machine()
+    assert found["cores"] == cores() >= 1
+    assert found["version"] == rightofway.__version__
+    assert found["cpu"]
+    package = Path(rightofway.__file__).parent
+    git = subprocess.run(
+        ["git", "-C", package, "rev-parse", "HEAD"], capture_output=True, text=True, check=False
+    )
+    if git.returncode == 0 and "site-packages" not in package.parts:
+        assert git.stdout.startswith(found["commit"].removesuffix("-dirty"))
+        assert len(found["commit"].removesuffix("-dirty")) == 12

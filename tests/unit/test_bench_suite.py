@@ -1,0 +1,115 @@
+"""Suites are read with every fault named; each bad file says in its comments what is wrong."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from rightofway.bench import cases_of, read_suite
+from rightofway.errors import InputError
+from rightofway.io import load, schema
+from rightofway.io.text.toml_text import parse_toml
+from rightofway.planners import find
+
+ROOT = Path(__file__).parents[2]
+DATA = ROOT / "tests" / "data"
+BAD = DATA / "bad_suites"
+SUITES = [ROOT / "examples" / "suite.toml", ROOT / "benchmarks" / "suite.toml"]
+
+
+@pytest.mark.parametrize("path", sorted(BAD.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_fault_is_told_with_place_value_and_remedy(path: Path) -> None:
+    places = {"{here}": str(BAD), "{bad}": str(BAD / ".." / "bad")}
+    expected = [
+        line.removeprefix("# expect: ")
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if line.startswith("# expect: ")
+    ]
+    for short, long in places.items():
+        expected = [line.replace(short, long) for line in expected]
+    with pytest.raises(InputError) as caught:
+        read_suite(path)
+    told = str(caught.value).splitlines()
+    assert len(told) == len(expected)
+    for line, pattern in zip(sorted(told), sorted(expected), strict=True):
+        anything = re.escape(pattern).replace("…", ".*")
+        assert re.fullmatch(f"{re.escape(str(path))}: {anything}", line), line
+
+
+@pytest.mark.parametrize("path", SUITES, ids=lambda path: path.parent.name)
+def test_ours_can_be_read_and_fit_the_schema(path: Path) -> None:
+    assert len(cases_of(read_suite(path))) >= 20
+    assert fits(tomllib.loads(path.read_text(encoding="utf-8")))
+
+
+def fits(document: Any) -> bool:
+    validator = jsonschema.Draft202012Validator(schema("suite"))
+    return bool(validator.is_valid(document))
+
+
+@pytest.mark.parametrize("name", ["missing-keys", "no-format", "unknown-keys", "version", "maps"])
+def test_what_is_bad_by_its_shape_does_not_fit_the_schema(name: str) -> None:
+    assert not fits(tomllib.loads((BAD / f"{name}.toml").read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("counts", [0]),
+        ("counts", []),
+        ("counts", [5, 5]),
+        ("seeds", [-1]),
+        ("limits", [0]),
+        ("maps", []),
+        ("maps", [{"random": {"size": [8]}}]),
+        ("maps", [{"random": {"size": [8, 8], "walls": 1}}]),
+        ("maps", [{"file": "hall.map"}]),
+        ("fleets", [{"name": "odd", "work": [1]}]),
+        ("fleets", [{"name": "odd", "deal": "random"}]),
+    ],
+)
+def test_a_wrong_value_does_not_fit_the_schema(key: str, value: Any) -> None:
+    good = {
+        "format": "rightofway-suite/1",
+        "counts": [5],
+        "maps": [{"random": {"size": [8, 8]}}],
+        "planners": [{"name": "two-level"}],
+    }
+    assert fits(good)
+    assert not fits({**good, key: value})
+
+
+def test_what_is_left_out_has_a_default(tmp_path: Path) -> None:
+    (tmp_path / "small.toml").write_text(
+        'format = "rightofway-suite/1"\ncounts = [2]\n'
+        'maps = [{random = {size = [8, 9]}}]\nplanners = [{name = "auto"}]\n',
+        encoding="utf-8",
+    )
+    suite = read_suite(tmp_path / "small.toml")
+    assert (suite.name, suite.seeds, suite.limits) == ("small", (0,), (Fraction(10),))
+    assert [(ground.name, ground.counts) for ground in suite.grounds] == [("random-8-9-0", (2,))]
+    assert [(fleet.name, fleet.speeds) for fleet in suite.fleets] == [("default", (Fraction(1),))]
+    [contender] = suite.contenders
+    spec = find("auto")
+    assert (contender.planner, contender.options) == (spec.name, spec.settle({}))
+
+
+def test_numbers_are_exact() -> None:
+    assert parse_toml("a = 0.1\nb = 1e400") == {"a": Decimal("0.1"), "b": "1e400"}
+
+
+def test_toml_is_refused_without_end() -> None:
+    with pytest.raises(InputError, match="it is nested too deeply"):
+        parse_toml("a = " + "[" * 100_000)
+
+
+def test_a_suite_is_no_scenario() -> None:
+    with pytest.raises(InputError, match="TOML is for the suites of benchmarks"):
+        load(SUITES[0])
