@@ -15,11 +15,24 @@ std::size_t checked_count(VertexId n_vertices) {
     return static_cast<std::size_t>(n_vertices);
 }
 
-bool ends_by(const BookedBy& booking, Tick time) { return booking.time.end <= time; }
+constexpr std::int32_t smallest_class = 2;
+
+// The first of another robot's bookings that overlaps, or nullptr.
+const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
+    auto k = BookingTable::started(here, time.end - 1);
+    const BookedBy* found = nullptr;
+    while (k > 0 && here[static_cast<std::size_t>(k - 1)].reach > time.start) {
+        const BookedBy& one = here[static_cast<std::size_t>(--k)];
+        if (one.robot != robot && one.time.end > time.start) {
+            found = &one;
+        }
+    }
+    return found;
+}
 
 }  // namespace
 
-BookingTable::BookingTable(VertexId n_vertices) : at_(checked_count(n_vertices)) {}
+BookingTable::BookingTable(VertexId n_vertices) : rows_(checked_count(n_vertices)) {}
 
 void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
     require_id("vertex", vertex, n_vertices());
@@ -29,55 +42,66 @@ void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
     if (time.is_empty()) {
         reject("end", time.end, "is not after start, " + std::to_string(time.start));
     }
-    auto& here = at_[vertex];
-    const auto first = std::lower_bound(here.begin(), here.end(), time.start, ends_by);
-    Booking whole = time;
-    auto last = first;
-    for (; last != here.end() && last->time.start < time.end; ++last) {
-        if (last->robot != robot) {
-            reject("start", time.start,
-                   "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
-                       std::to_string(last->robot));
-        }
-        whole.start = std::min(whole.start, last->time.start);
-        whole.end = std::max(whole.end, last->time.end);
+    if (const BookedBy* other = overlapping(at(vertex), time, robot)) {
+        reject("start", time.start,
+               "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
+                   std::to_string(other->robot));
     }
-    here.insert(here.erase(first, last), {whole, robot});
-    if (of_.size() <= static_cast<std::size_t>(robot)) {
-        of_.resize(static_cast<std::size_t>(robot) + 1);
-    }
-    of_[robot].push_back(vertex);
+    insert(vertex, time, robot);
 }
 
-void BookingTable::release(RobotId robot) {
-    if (robot < 0 || static_cast<std::size_t>(robot) >= of_.size()) {
+bool BookingTable::is_free(VertexId vertex, const Booking& time, RobotId robot) const {
+    return overlapping(at(vertex), time, robot) == nullptr;
+}
+
+void BookingTable::insert(VertexId vertex, const Booking& time, RobotId robot) {
+    Row& row = rows_[static_cast<std::size_t>(vertex)];
+    if (row.size_class < 0 || row.size == (std::int32_t{1} << row.size_class)) {
+        grow(row);
+    }
+    BookedBy* here = pool_.data() + row.first;
+    std::int32_t k = row.size++;
+    for (; k > 0 && here[k - 1].time.start > time.start; --k) {
+        here[k] = here[k - 1];
+        here[k].reach = std::max(here[k].reach, time.end);
+    }
+    here[k] = {time, k > 0 ? std::max(here[k - 1].reach, time.end) : time.end, robot};
+}
+
+void BookingTable::erase(VertexId vertex, Tick start, RobotId robot) {
+    Row& row = rows_[static_cast<std::size_t>(vertex)];
+    BookedBy* here = pool_.data() + row.first;
+    std::int32_t k = started(at(vertex), start) - 1;
+    while (k >= 0 && here[k].time.start == start && here[k].robot != robot) {
+        --k;
+    }
+    if (k < 0 || here[k].time.start != start) {
         return;
     }
-    for (const VertexId vertex : of_[robot]) {
-        std::erase_if(at_[vertex], [robot](const BookedBy& b) { return b.robot == robot; });
+    Tick reach = k > 0 ? here[k - 1].reach : -infinity;
+    --row.size;
+    for (; k < row.size; ++k) {
+        here[k] = here[k + 1];
+        reach = here[k].reach = std::max(reach, here[k].time.end);
     }
-    of_[robot].clear();
 }
 
-Gap BookingTable::gap(VertexId vertex, std::int32_t k) const {
-    const auto& here = at_[vertex];
-    Gap gap{-infinity, infinity, -1, -1};
-    if (k > 0) {
-        gap.start = here[k - 1].time.end;
-        gap.before = here[k - 1].robot;
+void BookingTable::grow(Row& row) {
+    const std::int32_t wanted = row.size_class < 0 ? smallest_class : row.size_class + 1;
+    auto& unused = unused_[static_cast<std::size_t>(wanted)];
+    std::uint32_t place = static_cast<std::uint32_t>(pool_.size());
+    if (unused.empty()) {
+        pool_.resize(pool_.size() + (std::size_t{1} << wanted));
+    } else {
+        place = unused.back();
+        unused.pop_back();
     }
-    if (static_cast<std::size_t>(k) < here.size()) {
-        gap.end = here[k].time.start;
-        gap.after = here[k].robot;
+    std::copy_n(pool_.begin() + row.first, row.size, pool_.begin() + place);
+    if (row.size_class >= 0) {
+        unused_[static_cast<std::size_t>(row.size_class)].push_back(row.first);
     }
-    return gap;
-}
-
-std::int32_t BookingTable::first_gap_after(VertexId vertex, Tick time) const {
-    const auto& here = at_[vertex];
-    const auto next = std::upper_bound(here.begin(), here.end(), time,
-                                       [](Tick t, const BookedBy& b) { return t < b.time.start; });
-    return static_cast<std::int32_t>(next - here.begin());
+    row.first = place;
+    row.size_class = wanted;
 }
 
 }  // namespace rightofway

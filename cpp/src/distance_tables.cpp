@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "rightofway/distance_view.hpp"
 #include "rightofway/graph.hpp"
 #include "rightofway/reject.hpp"
 
@@ -75,6 +76,30 @@ std::vector<std::int32_t> DistanceTables::to(VertexId target,
         return breadth_first(target, edge_ticks.empty() ? 1 : edge_ticks.front());
     }
     return dijkstra(target, edge_ticks);
+}
+
+bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& counts) const {
+    require_id("target", target, n_vertices());
+    counts.assign(static_cast<std::size_t>(n_vertices()), DistanceView::no_way);
+    thread_local std::vector<VertexId> queue;
+    queue.resize(counts.size());
+    VertexId* end = queue.data();
+    *end++ = target;
+    counts[target] = 0;
+    for (const VertexId* next = queue.data(); next != end; ++next) {
+        const std::uint16_t farther = static_cast<std::uint16_t>(counts[*next] + 1);
+        if (farther == DistanceView::no_way) {
+            return false;
+        }
+        for (EdgeId k = arriving_[*next]; k < arriving_[*next + 1]; ++k) {
+            const VertexId from = source_[k];
+            if (counts[from] == DistanceView::no_way) {
+                counts[from] = farther;
+                *end++ = from;
+            }
+        }
+    }
+    return true;
 }
 
 std::vector<std::int32_t> DistanceTables::breadth_first(VertexId target, std::int32_t ticks) const {

@@ -1,49 +1,59 @@
 #include "rightofway/safe_interval_search.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include "rightofway/reject.hpp"
 
 namespace rightofway {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr std::int64_t states_between_questions = 4096;
+constexpr std::int64_t states_between_questions = 256;
+constexpr std::size_t first_slots = 256;
+
+// A key holds f in its upper bits, as ticks beyond the least f, and the rest of the way in the
+// lower ones. No plan comes near these bounds; beyond them only the order would suffer.
+constexpr int bits_of_rest = 26;
+constexpr Tick most_rest = (Tick{1} << bits_of_rest) - 1;
+constexpr Tick most_f = (Tick{1} << (63 - bits_of_rest)) - 1;
+
+std::uint64_t scatter(std::uint64_t key) {
+    key *= 0x9E3779B97F4A7C15U;
+    return key ^ (key >> 32);
+}
 
 }  // namespace
 
-SafeIntervalSearch::SafeIntervalSearch(const Graph& graph, const BookingTable& bookings,
-                                       const BookingRules& rules, const Trip& trip)
-    : graph_(graph), bookings_(bookings), rules_(rules), trip_(trip) {
-    check(trip);
-    const std::size_t places = trip.stage_vertex.size() + 1;
-    first_here_.assign(places * static_cast<std::size_t>(bookings.n_vertices()), none);
-    to_go_.assign(trip.stage_vertex.size(), 0);
-    for (std::int32_t stage = n_stages() - 1; stage >= 0; --stage) {
-        to_go_[stage] = trip.stage_dwell[stage];
-        if (stage + 1 < n_stages()) {
-            to_go_[stage] += rest(trip.stage_vertex[stage], stage + 1);
-        }
-    }
+SafeIntervalSearch::SafeIntervalSearch(const Roads& roads, const BookingRules& rules)
+    : roads_(roads), rules_(rules), slots_(first_slots, Slot{0, 0, none}) {}
+
+void SafeIntervalSearch::begin(const Errand& errand) {
+    trip_ = &errand.trip;
+    bookings_ = &errand.bookings;
+    prices_ = errand.prices;
+    limit_ = errand.limit;
+    nodes_.clear();
+    open_.clear();
+    goal_ = none;
+    mask_ = first_slots - 1;
+    greed_ = errand.greed;
+    next_generation();
+    measure_stages(errand.trip);
 }
 
-void SafeIntervalSearch::check(const Trip& trip) const {
-    const VertexId n_vertices = bookings_.n_vertices();
-    require_length("indptr", graph_.indptr.size(), static_cast<std::size_t>(n_vertices) + 1);
-    require_length("edge_ticks", trip.edge_ticks.size(), graph_.indices.size());
-    require_length("stage_dwell", trip.stage_dwell.size(), trip.stage_vertex.size());
-    require_length("stage_tables", trip.stage_tables.size(), trip.stage_vertex.size());
-    require_id("home", trip.home, n_vertices);
-    VertexId place = trip.home;
-    for (std::size_t k = 0; k < trip.stage_vertex.size(); ++k) {
-        require_id("stage_vertex[" + std::to_string(k) + "]", trip.stage_vertex[k], n_vertices);
-        require_length("stage_tables[" + std::to_string(k) + "]", trip.stage_tables[k].size(),
-                       static_cast<std::size_t>(n_vertices));
-        if (trip.stage_tables[k][place] < 0) {
-            reject_entry("stage_vertex", k, trip.stage_vertex[k], "cannot be reached");
-        }
-        place = trip.stage_vertex[k];
+// Of the stages at the last vertex, all that are left can be served in the last visit, which needs
+// no turning; before, each stage takes its work and turning and then the way to the next one.
+void SafeIntervalSearch::measure_stages(const Trip& trip) {
+    const std::size_t n = trip.n_stages();
+    std::size_t first = n - 1;
+    while (first > 0 && trip.stage_vertex[first - 1] == trip.stage_vertex[n - 1]) {
+        --first;
+    }
+    first_last_ = static_cast<std::int32_t>(first);
+    to_go_.assign(n + 1, 0);
+    for (std::size_t k = n; k-- > 0;) {
+        to_go_[k] = trip.stage_work[k];
+        to_go_[k] += k >= first ? to_go_[k + 1]
+                                : trip.stage_turn[k] +
+                                      rest(trip.stage_vertex[k], static_cast<std::int32_t>(k) + 1);
     }
 }
 
@@ -52,29 +62,32 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     if (stage == n_stages()) {
         return 0;
     }
-    const Tick way = trip_.stage_tables[stage][vertex];
-    return way < 0 ? way : way + to_go_[stage];
+    const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
+    return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
 }
 
-SearchEnd SafeIntervalSearch::run(const std::function<bool()>& is_over) {
-    const std::int32_t gap = bookings_.first_gap_after(trip_.home, 0);
-    if (bookings_.gap(trip_.home, gap).start > 0) {
+SearchEnd SafeIntervalSearch::run(const Errand& errand, const IsOver& is_over) {
+    begin(errand);
+    const auto here = bookings_->at(trip_->home);
+    Node first{0,    0, trip_->home, BookingTable::started(here, rules_.headway), 0, none,
+               none, 0, false};
+    first.cost = price_of_entry(first, 0);
+    if (first.cost >= infinity) {
         return SearchEnd::proven_none;  // somebody else holds home at tick 0
     }
-    reach({trip_.home, gap, 0, none, none, false, true, 0, 0});
-    std::int64_t n_expanded = 0;
+    first_f_ = rest(first.vertex, 0);
+    reach(first, first_f_);
     while (!open_.empty()) {
-        std::pop_heap(open_.begin(), open_.end(), is_later);
-        const Open top = open_.back();
-        open_.pop_back();
-        if (nodes_[top.node].is_closed || top.ready > nodes_[top.node].ready) {
-            continue;  // reached earlier since
+        const Open top = pop();
+        const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+        if (node.is_beaten) {
+            continue;
         }
-        if (nodes_[top.node].stage == n_stages()) {
+        if (node.stage == n_stages()) {
             goal_ = top.node;
             return SearchEnd::found;
         }
-        if (++n_expanded % states_between_questions == 0 && is_over()) {
+        if (++n_expanded_ % states_between_questions == 0 && is_over()) {
             return SearchEnd::stopped;
         }
         expand(top.node);
@@ -83,108 +96,304 @@ SearchEnd SafeIntervalSearch::run(const std::function<bool()>& is_over) {
 }
 
 void SafeIntervalSearch::expand(std::int32_t node) {
-    nodes_[node].is_closed = true;
+    finish(node);
     serve(node);
-    const VertexId vertex = nodes_[node].vertex;
-    for (EdgeId edge = graph_.indptr[vertex]; edge < graph_.indptr[vertex + 1]; ++edge) {
+    if (!prices_.empty()) {
+        stay_on(node);
+    }
+    const VertexId vertex = nodes_[static_cast<std::size_t>(node)].vertex;
+    for (EdgeId edge = roads_.graph.indptr[vertex]; edge < roads_.graph.indptr[vertex + 1];
+         ++edge) {
         drive(node, edge);
     }
 }
 
-// Serves the next stage, if this is its vertex and the gap is long enough; the last stage needs a
-// gap that never ends.
-void SafeIntervalSearch::serve(std::int32_t node) {
-    const Node here = nodes_[node];
-    if (here.stage == n_stages() || trip_.stage_vertex[here.stage] != here.vertex) {
+// Stays for ever: needs a gap that never ends.
+void SafeIntervalSearch::finish(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
         return;
     }
-    const Tick end = bookings_.gap(here.vertex, here.gap).end;
-    const Tick done = here.ready + trip_.stage_dwell[here.stage];
-    const bool is_last = here.stage + 1 == n_stages();
-    if (is_last ? end == infinity : done + rules_.headway < end) {
-        reach({here.vertex, here.gap, here.stage + 1, node, none, false, false, done, done});
+    const auto here = bookings_->at(after.vertex);
+    for (auto k = static_cast<std::size_t>(after.gap); k < here.size(); ++k) {
+        after.cost += price(here[k].robot);
+        if (after.cost >= infinity) {
+            return;
+        }
     }
+    after.ready += to_go_[static_cast<std::size_t>(after.stage)];
+    after.gap = static_cast<std::int32_t>(here.size());
+    after.stage = n_stages();
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
+}
+
+// Serves the next stage, if this is its vertex and the gap is long enough.
+void SafeIntervalSearch::serve(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    if (after.stage + 1 >= n_stages() || trip_->stage_vertex[after.stage] != after.vertex) {
+        return;
+    }
+    after.ready += trip_->stage_work[after.stage] + trip_->stage_turn[after.stage];
+    const auto here = bookings_->at(after.vertex);
+    const std::int32_t n = static_cast<std::int32_t>(here.size());
+    for (; after.gap < n && here[after.gap].time.start <= after.ready + rules_.headway;
+         ++after.gap) {
+        after.cost += price(here[after.gap].robot);
+        if (after.cost >= infinity) {
+            return;
+        }
+    }
+    ++after.stage;
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
+}
+
+// Stays when the next booking begins, at its price.
+void SafeIntervalSearch::stay_on(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    const auto here = bookings_->at(after.vertex);
+    if (static_cast<std::size_t>(after.gap) == here.size()) {
+        return;
+    }
+    const BookedBy& next = here[after.gap];
+    after.cost += price(next.robot);
+    if (after.cost >= infinity) {
+        return;
+    }
+    after.ready = std::max(after.ready, next.time.start - rules_.headway);
+    ++after.gap;
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
 }
 
 // Drives an edge into each gap of its end that can be entered before this gap is over.
 void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
-    const Node here = nodes_[node];
-    const Gap from = bookings_.gap(here.vertex, here.gap);
-    const VertexId head = graph_.indices[edge];
-    const Tick ticks = trip_.edge_ticks[edge];
-    const Tick approach = rules_.books_ahead ? ticks : 0;
-    const Tick soonest = here.ready + ticks;
-    const Tick latest = from.end == infinity ? infinity : from.end - rules_.headway;
-    const std::int32_t n_gaps = bookings_.n_gaps(head);
-    if (soonest > latest || rest(head, here.stage) < 0) {
+    const Node& here = nodes_[static_cast<std::size_t>(node)];
+    const auto from = bookings_->at(here.vertex);
+    const std::int32_t ticks = trip_->pace[roads_.length_class[edge]];
+    Node candidate = here;
+    candidate.vertex = roads_.graph.indices[edge];
+    candidate.ready += ticks;
+    candidate.parent = node;
+    candidate.drive = ticks;
+    const bool never_ends = static_cast<std::size_t>(here.gap) == from.size();
+    const Tick latest = never_ends ? infinity : from[here.gap].time.start - rules_.headway;
+    const Tick way = rest(candidate.vertex, candidate.stage);
+    if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
         return;
     }
-    for (std::int32_t k = bookings_.first_gap_after(head, soonest - approach); k < n_gaps; ++k) {
-        const Gap to = bookings_.gap(head, k);
-        const Tick enter = std::max(soonest, to.start + approach);
-        if (enter > latest) {
+    const Tick in_time = limit_ == infinity ? latest : std::min(latest, limit_ - way - here.cost);
+    const Tick approach = rules_.books_ahead ? ticks : 0;
+    if (prices_.empty()) {
+        drive_between(candidate, way, in_time, approach);
+    } else {
+        drive_across(candidate, way, in_time, approach);
+    }
+}
+
+// Enters each gap between bookings as soon as it can.
+void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach) {
+    const auto to = bookings_->at(candidate.vertex);
+    const std::int32_t n = static_cast<std::int32_t>(to.size());
+    for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n;
+         ++k) {
+        if (k > 0) {
+            candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
+        }
+        if (candidate.ready > latest || candidate.ready >= infinity) {
             return;
         }
-        // The robot that leaves the head at this instant would enter the vertex that is left.
-        const bool is_swap = enter == to.start && enter == from.end && to.before == from.after;
-        if (enter + rules_.headway < to.end && !is_swap) {
-            reach({head, k, here.stage, node, none, false, true, enter, enter});
+        candidate.gap = k;
+        if ((k == n || candidate.ready + rules_.headway < to[k].time.start) &&
+            price_of_swaps(candidate) == 0) {
+            reach(candidate, way);
         }
     }
 }
 
-// Notes that a state can be reached, if it is not known to be reached as early already.
-void SafeIntervalSearch::reach(const Node& candidate) {
-    std::int32_t node = find(candidate);
-    if (node == none) {
-        const std::size_t place = static_cast<std::size_t>(candidate.stage) *
-                                      static_cast<std::size_t>(bookings_.n_vertices()) +
-                                  static_cast<std::size_t>(candidate.vertex);
-        node = static_cast<std::int32_t>(nodes_.size());
-        nodes_.push_back(candidate);
-        nodes_[node].next_here = first_here_[place];
-        first_here_[place] = node;
-    } else if (!nodes_[node].is_closed && candidate.ready < nodes_[node].ready) {
-        const std::int32_t next_here = nodes_[node].next_here;
-        nodes_[node] = candidate;
-        nodes_[node].next_here = next_here;
-    } else {
+// Enters as soon as it can, and whenever a booking has just ended, at the price of those that have
+// not.
+void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach) {
+    const auto to = bookings_->at(soonest.vertex);
+    const auto enter = [&](Tick tick) {
+        Node candidate = soonest;
+        candidate.ready = tick;
+        candidate.gap = BookingTable::started(to, tick + rules_.headway);
+        candidate.cost += price_of_entry(candidate, approach);
+        if (candidate.cost < infinity) {
+            candidate.cost += price_of_swaps(candidate);
+        }
+        if (candidate.cost < infinity) {
+            reach(candidate, way);
+        }
+    };
+    enter(soonest.ready);
+    const auto first = std::partition_point(to.begin(), to.end(), [&](const BookedBy& one) {
+        return one.reach + approach <= soonest.ready;
+    });
+    for (auto one = first; one != to.end() && one->time.start + approach < latest; ++one) {
+        const Tick tick = one->time.end + approach;
+        if (one->time.end < infinity && tick > soonest.ready && tick <= latest) {
+            enter(tick);
+        }
+    }
+}
+
+// What it costs that bookings have not ended when the robot comes.
+Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) const {
+    const auto to = bookings_->at(candidate.vertex);
+    const Tick start = candidate.ready - approach;
+    Tick sum = 0;
+    for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach > start; --k) {
+        if (to[k - 1].time.end > start) {
+            sum += price(to[k - 1].robot);
+        }
+        if (sum >= infinity) {
+            return infinity;
+        }
+    }
+    return sum;
+}
+
+// A robot that leaves the end of the edge at this instant may be one that comes to its beginning
+// then. Where robots keep a headway or book ahead, their bookings would overlap as well.
+Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
+    if (rules_.headway > 0 || rules_.books_ahead) {
+        return 0;
+    }
+    const Node& before = nodes_[static_cast<std::size_t>(candidate.parent)];
+    const auto from = bookings_->at(before.vertex);
+    const auto to = bookings_->at(candidate.vertex);
+    Tick sum = 0;
+    for (auto j = static_cast<std::size_t>(before.gap);
+         j < from.size() && from[j].time.start == candidate.ready; ++j) {
+        for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach >= candidate.ready; --k) {
+            if (to[k - 1].time.end == candidate.ready && to[k - 1].robot == from[j].robot) {
+                sum += price(from[j].robot);
+            }
+        }
+    }
+    return std::min(sum, infinity);
+}
+
+Tick SafeIntervalSearch::price(RobotId robot) const {
+    return prices_.empty() ? infinity : prices_[static_cast<std::size_t>(robot)];
+}
+
+// Notes that a state can be reached, unless it is known to be reached as early and as cheaply.
+void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
+    const Tick f = candidate.ready + way + candidate.cost;
+    if (way < 0 || f > limit_) {
         return;
     }
-    const Tick to_go = rest(candidate.vertex, candidate.stage);
-    open_.push_back({candidate.ready + to_go, to_go, n_pushed_++, node, candidate.ready});
-    std::push_heap(open_.begin(), open_.end(), is_later);
-}
-
-std::int32_t SafeIntervalSearch::find(const Node& candidate) const {
-    const std::size_t place = static_cast<std::size_t>(candidate.stage) *
-                                  static_cast<std::size_t>(bookings_.n_vertices()) +
-                              static_cast<std::size_t>(candidate.vertex);
-    std::int32_t node = first_here_[place];
-    while (node != none && nodes_[node].gap != candidate.gap) {
-        node = nodes_[node].next_here;
+    Slot& slot = slot_of(candidate);
+    for (std::int32_t k = slot.node; k != none; k = nodes_[k].next) {
+        Node& known = nodes_[k];
+        if (known.ready <= candidate.ready && known.cost <= candidate.cost) {
+            return;
+        }
+        if (greed_ > 0 && known.ready + known.cost <= candidate.ready + candidate.cost) {
+            return;
+        }
+        known.is_beaten |= candidate.ready <= known.ready && candidate.cost <= known.cost;
     }
-    return node;
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    nodes_.push_back(candidate);
+    nodes_.back().next = slot.node;
+    slot.node = node;
+    const Tick ahead = f - first_f_ + way * greed_ / 8;
+    push({(static_cast<std::uint64_t>(std::min(ahead, most_f)) << bits_of_rest) |
+              static_cast<std::uint64_t>(std::min(way, most_rest)),
+          node});
 }
 
-bool SafeIntervalSearch::is_later(const Open& left, const Open& right) {
-    if (left.f != right.f) {
-        return left.f > right.f;
+// A heap of four children a node: half as deep as one of two, and its children share a cache line.
+void SafeIntervalSearch::push(const Open& open) {
+    std::size_t k = open_.size();
+    open_.push_back(open);
+    while (k > 0 && is_before(open, open_[(k - 1) / 4])) {
+        open_[k] = open_[(k - 1) / 4];
+        k = (k - 1) / 4;
     }
-    return left.rest != right.rest ? left.rest > right.rest : left.order > right.order;
+    open_[k] = open;
 }
 
-FoundTrack SafeIntervalSearch::track() const {
-    FoundTrack found;
+SafeIntervalSearch::Open SafeIntervalSearch::pop() {
+    const Open top = open_.front();
+    const Open last = open_.back();
+    open_.pop_back();
+    const std::size_t n = open_.size();
+    std::size_t k = 0;
+    for (std::size_t child = 1; child < n; child = 4 * k + 1) {
+        std::size_t least = child;
+        for (std::size_t other = child + 1; other < std::min(child + 4, n); ++other) {
+            least = is_before(open_[other], open_[least]) ? other : least;
+        }
+        if (!is_before(open_[least], last)) {
+            break;
+        }
+        open_[k] = open_[least];
+        k = least;
+    }
+    if (n > 0) {
+        open_[k] = last;
+    }
+    return top;
+}
+
+SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
+    if (2 * nodes_.size() > mask_) {
+        enlarge_slots();
+    }
+    const auto place = static_cast<std::uint64_t>(node.stage) *
+                           static_cast<std::uint64_t>(bookings_->n_vertices()) +
+                       static_cast<std::uint64_t>(node.vertex);
+    const auto gap = static_cast<std::uint64_t>(node.gap);
+    const std::uint64_t state = (place << 24) ^ gap;
+    // The gaps of a vertex lie side by side.
+    std::size_t k = (scatter(place) * 4 + gap) & mask_;
+    while (slots_[k].generation == generation_ && slots_[k].state != state) {
+        k = (k + 1) & mask_;
+    }
+    if (slots_[k].generation != generation_) {
+        slots_[k] = {state, generation_, none};
+    }
+    return slots_[k];
+}
+
+void SafeIntervalSearch::enlarge_slots() {
+    mask_ = 4 * mask_ + 3;
+    if (slots_.size() <= mask_) {
+        slots_.resize(mask_ + 1, Slot{0, 0, none});
+    }
+    next_generation();
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        Slot& slot = slot_of(nodes_[k]);
+        nodes_[k].next = slot.node;
+        slot.node = static_cast<std::int32_t>(k);
+    }
+}
+
+void SafeIntervalSearch::next_generation() {
+    if (++generation_ == 0) {
+        std::fill(slots_.begin(), slots_.end(), Slot{0, 0, none});
+        generation_ = 1;
+    }
+}
+
+void SafeIntervalSearch::track(std::vector<Visit>& visits) const {
+    visits.clear();
     for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
-        if (nodes_[node].by_drive) {
-            found.vertices.push_back(nodes_[node].vertex);
-            found.enter.push_back(nodes_[node].enter);
+        const Node& one = nodes_[node];
+        if (one.drive > 0 || one.parent == none) {
+            visits.push_back({one.ready, one.vertex, one.drive});
         }
     }
-    std::reverse(found.vertices.begin(), found.vertices.end());
-    std::reverse(found.enter.begin(), found.enter.end());
-    return found;
+    std::reverse(visits.begin(), visits.end());
 }
 
 }  // namespace rightofway

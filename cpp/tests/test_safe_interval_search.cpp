@@ -11,6 +11,12 @@ namespace {
 using Ticks = std::vector<Tick>;
 using Vertices = std::vector<VertexId>;
 
+struct FoundTrack {
+    Vertices vertices;
+    Ticks enter;
+    Tick cost = -1;
+};
+
 // One robot on its way from `home` past stages, among bookings.
 struct Case {
     test::Roads roads;
@@ -18,21 +24,34 @@ struct Case {
     BookingRules rules{0, false};
     VertexId home = 0;
     Vertices stages;
-    Ticks dwell;
+    Ticks work;
+    Ticks prices{};
+    Tick limit = infinity;
 
     SearchEnd run(FoundTrack& found) const {
-        const auto ticks = roads.ticks();
+        const std::vector<std::int32_t> classes(roads.heads.size(), 0);
+        const std::vector<std::int32_t> pace{1};
+        const Ticks turn(stages.size(), 0);
         std::vector<std::vector<std::int32_t>> tables;
-        Trip trip{home, stages, dwell, ticks, {}};
         for (const VertexId stage : stages) {
             tables.push_back(roads.table(stage));
         }
+        Trip trip{home, stages, work, turn, pace, {}};
         for (const auto& one : tables) {
-            trip.stage_tables.push_back(one);
+            trip.to_stage.emplace_back(one.data(), 1);
         }
-        SafeIntervalSearch search(roads.graph(), table, rules, trip);
-        const SearchEnd end = search.run(test::never);
-        found = search.track();
+        const Roads all{roads.graph(), classes};
+        require_trip(all, trip);
+        SafeIntervalSearch search(all, rules);
+        const SearchEnd end = search.run({trip, table, prices, limit}, test::never);
+        std::vector<Visit> visits;
+        search.track(visits);
+        found = {};
+        for (const Visit& visit : visits) {
+            found.vertices.push_back(visit.vertex);
+            found.enter.push_back(visit.enter);
+        }
+        found.cost = end == SearchEnd::found ? search.cost() : -1;
         return end;
     }
 };
@@ -90,6 +109,66 @@ TEST_CASE("without an end that stays free there is no track, and that is proven"
     one.table.book(3, {50, infinity}, 9);
     CHECK(one.run(found) == SearchEnd::proven_none);
     CHECK(found.vertices.empty());
+}
+
+TEST_CASE("a robot overlaps others where that is cheaper than to wait, and says what it cost") {
+    FoundTrack found;
+    Case one{test::corridor(), BookingTable(4), {0, false}, 0, {3}, {0}};
+    one.table.insert(2, {1, 6}, 0);
+    one.prices = {2};
+    CHECK(one.run(found) == SearchEnd::found);
+    CHECK(found.enter == Ticks{0, 1, 2, 3});
+    CHECK(found.cost == 5);
+    one.prices = {5};  // waiting in 1 until 6 costs 4
+    CHECK(one.run(found) == SearchEnd::found);
+    CHECK(found.enter == Ticks{0, 1, 6, 7});
+    CHECK(found.cost == 7);
+}
+
+TEST_CASE("at a price a robot stays where somebody else comes, and changes places") {
+    FoundTrack found;
+    Case one{test::corridor(), BookingTable(4), {0, false}, 0, {1}, {3}};
+    one.table.insert(1, {2, 3}, 0);
+    one.table.insert(1, {4, 5}, 0);
+    one.prices = {1};
+    CHECK(one.run(found) == SearchEnd::found);
+    // In 1 from tick 1 for ever, done at 4, both bookings paid; to wait until 5 would make it 8.
+    CHECK(found.enter == Ticks{0, 1});
+    CHECK(found.cost == 6);
+    Case other{test::corridor(), BookingTable(4), {0, false}, 0, {2}, {0}};
+    other.table.insert(1, {0, 1}, 0);
+    other.table.insert(0, {1, infinity}, 0);
+    other.prices = {9};
+    CHECK(other.run(found) == SearchEnd::found);
+    CHECK(found.enter == Ticks{0, 1, 2});
+    CHECK(found.cost == 11);
+}
+
+TEST_CASE("tracks beyond the limit are of no use") {
+    FoundTrack found;
+    Case one{test::corridor(), BookingTable(4), {0, false}, 0, {3}, {0}};
+    one.table.book(2, {1, 6}, 9);
+    one.limit = 6;
+    CHECK(one.run(found) == SearchEnd::proven_none);
+    one.limit = 7;
+    CHECK(one.run(found) == SearchEnd::found);
+}
+
+TEST_CASE("one object serves many searches") {
+    const test::Roads roads = test::corridor_with_bay();
+    const std::vector<std::int32_t> classes(roads.heads.size(), 0);
+    const std::vector<std::int32_t> pace{1};
+    const auto table = roads.table(2);
+    const Vertices stage{2};
+    const Ticks nothing{0};
+    const Trip trip{0, stage, nothing, nothing, pace, {{table.data(), 1}}};
+    SafeIntervalSearch search({roads.graph(), classes}, {0, false});
+    BookingTable bookings(4);
+    for (Tick k = 0; k < 1500; ++k) {  // the table of states has to grow on the way
+        bookings.book(2, {2 * k + 2, 2 * k + 3}, 5);
+        REQUIRE(search.run({trip, bookings}, test::never) == SearchEnd::found);
+        CHECK(search.completion() == 2 * k + 3);
+    }
 }
 
 TEST_CASE("arrays that do not fit together are refused") {

@@ -129,6 +129,136 @@ def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
     """
 
+class FleetSearch:
+    """
+    The tracks of a whole fleet: finding first ones, and better ones.
+
+    Parameters
+    ----------
+    indptr, heads : int32[V + 1], int32[E]
+        The directed graph in compressed rows.
+    length_class : int32[E]
+        The length class of each edge.
+    paces : int32[P * C]
+        Ticks for an edge of each of the C length classes, one row for each pace.
+    pace_of : int32[R]
+        The pace of each robot.
+    home : int32[R]
+        Where each robot is at tick 0.
+    first_stage : int32[R + 1]
+        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+    stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
+        Where each stage is, and how long it takes to work and then to turn. [ticks]
+    n_classes : int
+        C.
+    headway : int
+        Ticks that a vertex stays booked after it was left.
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+    seed : int
+        For all that is drawn.
+    n_threads : int
+        For `improve`; what it finds does not depend on it.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; names the array, the index and the value.
+
+    Notes
+    -----
+    Robots without a track are left where they are by `tracks`: an empty one. The GIL is released in all
+    long calls; Ctrl-C is obeyed, and leaves a plan as good as before.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, seed: int, n_threads: int) -> None: ...
+
+    def alone(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """
+        Return the least completion of each robot without the others.
+
+        Returns
+        -------
+        int64[R]
+            Ticks; -1 for a robot that cannot get to a stage.
+        """
+
+    def start(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Take over tracks.
+
+        Parameters
+        ----------
+        first_visit : int32[R + 1]
+            Robot ``r`` has visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+        vertices, enter : int32[N], int64[N]
+            Where each visit is, and when it begins. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If they are no tracks of these trips, or overlap.
+        """
+
+    def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
+        """
+        Give the robots tracks one after another.
+
+        Parameters
+        ----------
+        order : int32[R]
+            Every robot once.
+        n_searches : int
+            After so many searches it gives up.
+        time_limit : float or None
+            After so many seconds as well.
+
+        Returns
+        -------
+        bool
+            Whether every robot has a track now; if not, none has.
+        """
+
+    def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
+        """
+        Replace tracks by better ones, a few robots at a time.
+
+        Every robot has a track. Ends when nothing can be better.
+
+        Parameters
+        ----------
+        n_tasks : int
+            How many times some robots are planned anew.
+        patience : int
+            It ends after so many times in a row without a gain.
+        time_limit : float or None
+            After so many seconds it stops at once.
+        pause : float or None
+            After so many seconds it stops at the next point that does not depend on clocks.
+
+        Returns
+        -------
+        int
+            How many times that was done.
+        """
+
+    def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return where each robot's visits begin, int32[R + 1], their vertices and enters.
+        """
+
+    @property
+    def flowtime(self) -> int:
+        """The sum of completions. [ticks]"""
+
+    @property
+    def n_idle(self) -> int:
+        """How many times in a row brought no gain."""
+
+    @property
+    def n_expanded(self) -> int:
+        """States expanded by `improve`."""
+
 def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
@@ -483,7 +613,7 @@ class PrecedenceGraph:
 
 class BookingTable:
     """
-    Who has booked which vertex when; no two robots' bookings of a vertex overlap.
+    Who has booked which vertex when.
 
     Parameters
     ----------
@@ -517,14 +647,42 @@ class BookingTable:
             If there is no such vertex, the booking is empty, or it overlaps another robot's.
         """
 
-    def release(self, robot: int) -> None:
+    def insert(self, vertex: int, start: int, end: int, robot: int) -> None:
         """
-        Take back all that a robot has booked.
+        Book a vertex, whoever else has booked it.
 
         Parameters
         ----------
+        vertex : int
+            The vertex.
+        start, end : int
+            It is booked for ``[start, end)``. [ticks]
         robot : int
-            The robot; one without bookings will do.
+            By whom.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex or robot, or the booking is empty.
+        """
+
+    def erase(self, vertex: int, start: int, robot: int) -> None:
+        """
+        Take back a booking.
+
+        Parameters
+        ----------
+        vertex : int
+            The vertex.
+        start : int
+            When the booking starts; nothing happens if there is none. [ticks]
+        robot : int
+            Whose it is.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex.
         """
 
     def at(self, vertex: int) -> list[tuple[int, int, int]]:
@@ -547,16 +705,18 @@ class BookingTable:
             If there is no such vertex.
         """
 
-def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bookings: BookingTable, headway: int, books_ahead: bool, home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bookings: BookingTable, headway: int, books_ahead: bool, home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], prices: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], int]:
     """
-    Find the track of one robot that completes first and overlaps no booking.
+    Find the best track of one robot among the bookings of others.
 
     Parameters
     ----------
     indptr, indices : int32[V + 1], int32[E]
         The directed graph in compressed rows.
-    edge_ticks : int32[E]
-        What each edge takes. [ticks]
+    length_class : int32[E]
+        The length class of each edge.
+    pace : int32[C]
+        What an edge of each length class takes. [ticks]
     bookings : BookingTable
         What the other robots have booked.
     headway : int
@@ -567,18 +727,20 @@ def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
         Where the robot is at tick 0.
     stage_vertex : int32[S]
         Where it has something to do, in order; it stays at the last one for ever.
-    stage_dwell : int64[S]
-        How long that takes there, turning included where an edge follows. [ticks]
+    stage_work, stage_turn : int64[S], int64[S]
+        How long it works there, and then turns if it drives on. [ticks]
     stage_tables : list of int32[V]
         For each stage, the least ticks from each vertex to its vertex.
+    prices : int64[R]
+        For each other robot, what it costs to overlap one of its bookings; empty: never. [ticks]
     time_limit : float or None
         After so many seconds the search stops.
 
     Returns
     -------
-    tuple of (int, int32[n], int64[n])
-        How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices and
-        when each is entered. [ticks]
+    tuple of (int, int32[n], int64[n], int)
+        How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices,
+        when each is entered, and the completion with all prices. [ticks]
 
     Raises
     ------

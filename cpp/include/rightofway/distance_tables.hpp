@@ -28,6 +28,10 @@ class DistanceTables {
     // std::overflow_error if a least distance does not fit the type.
     std::vector<std::int32_t> to(VertexId target, std::span<const std::int32_t> edge_ticks) const;
 
+    // The fewest edges from each vertex to the target, DistanceView::no_way where no way leads
+    // there; false where a count does not fit, and then `counts` is of no use.
+    bool steps_to(VertexId target, std::vector<std::uint16_t>& counts) const;
+
   private:
     void reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
     void check_request(VertexId target, std::span<const std::int32_t> edge_ticks) const;

@@ -1,11 +1,20 @@
-// The earliest track of one robot among the bookings of the others (safe interval path planning).
+// The best track of one robot among the bookings of the others (safe interval path planning).
 //
 // A state is (vertex, gap, stage): in one gap between the bookings of one vertex, being there
-// earlier is never worse than later, for whoever is early can wait. So each state is expanded once,
-// at its earliest time. What the robot has to do (stops, work, turning, the way home) is a list of
-// stages; serving the next one is a move like any other and costs nothing extra.
+// earlier is never worse than later, for whoever is early can wait. What the robot has to do
+// (stops, work, turning, the way home) is a list of stages; serving the next one is a move like any
+// other and costs nothing extra.
+//
+// Bookings may have a price instead of being walls: then the robot may overlap the bookings of
+// another at that price, and finds the track whose completion and prices together are least. With
+// prices far above any time this is the track with the fewest conflicts.
+//
+// One object serves many searches: nodes, heap and the table of states keep their memory, and a
+// generation stamp takes the place of clearing.
 //
 // Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
+// Li et al., "MAPF-LNS2: Fast repairing for multi-agent path finding via large neighborhood
+// search", AAAI 2022 (soft intervals).
 #pragma once
 
 #include <cstdint>
@@ -14,83 +23,104 @@
 #include <vector>
 
 #include "rightofway/booking_table.hpp"
-#include "rightofway/graph.hpp"
 #include "rightofway/search_end.hpp"
+#include "rightofway/trip.hpp"
 #include "rightofway/types.hpp"
 
 namespace rightofway {
 
-// What one robot has to do. The stage tables hold, for each stage, the least ticks from every
-// vertex to the stage's vertex, -1 where there is no way.
-struct Trip {
-    VertexId home;
-    std::span<const VertexId> stage_vertex;
-    std::span<const Tick> stage_dwell;  // work, and turning but in the last stage
-    std::span<const std::int32_t> edge_ticks;
-    std::vector<std::span<const std::int32_t>> stage_tables;
-};
-
-// How bookings are made of times; see conflict.hpp.
-struct BookingRules {
-    Tick headway;
-    bool books_ahead;  // a vertex is booked from when the robot starts to drive there
-};
-
-struct FoundTrack {
-    std::vector<VertexId> vertices;
-    std::vector<Tick> enter;
+// What a search is asked.
+struct Errand {
+    const Trip& trip;
+    const BookingTable& bookings;
+    std::span<const Tick> prices = {};  // for overlapping a booking of each robot; empty: never
+    Tick limit = infinity;              // tracks that cost more are of no use
+    // Above 0: a good track in a hurry. The way ahead counts so many eighths more, and of the ways
+    // to reach a state only that of the least time and prices together is kept.
+    Tick greed = 0;
 };
 
 class SafeIntervalSearch {
   public:
-    // Borrows all that it is given. Throws std::invalid_argument where arrays do not fit together.
-    SafeIntervalSearch(const Graph& graph, const BookingTable& bookings, const BookingRules& rules,
-                       const Trip& trip);
+    using IsOver = std::function<bool()>;
 
-    // `is_over` is asked every few thousand states whether to stop.
-    SearchEnd run(const std::function<bool()>& is_over);
-    FoundTrack track() const;
+    // Borrows the roads.
+    SafeIntervalSearch(const Roads& roads, const BookingRules& rules);
+
+    // `is_over` is asked every few hundred states whether to stop.
+    SearchEnd run(const Errand& errand, const IsOver& is_over);
+
+    // What the last search found; empty if nothing.
+    void track(std::vector<Visit>& visits) const;
+    Tick completion() const { return nodes_[static_cast<std::size_t>(goal_)].ready; }
+    Tick cost() const { return completion() + nodes_[static_cast<std::size_t>(goal_)].cost; }
+
+    // How many states all searches have expanded: a measure of effort that no clock disturbs.
+    std::int64_t n_expanded() const { return n_expanded_; }
 
   private:
     struct Node {
+        Tick ready;  // from when the robot may drive on
+        Tick cost;   // prices paid
         VertexId vertex;
-        std::int32_t gap;
+        std::int32_t gap;  // how many bookings of the vertex are behind it, or paid for
         std::int32_t stage;
         std::int32_t parent;
-        std::int32_t next_here;  // the next node of the same vertex and stage
-        bool is_closed;
-        bool by_drive;  // entered by an edge, not by serving a stage
-        Tick enter;
-        Tick ready;  // from when the robot may drive on
+        std::int32_t next;   // another node of the same state
+        std::int32_t drive;  // ticks of the edge driven in; 0: by waiting or serving a stage
+        bool is_beaten;
     };
     struct Open {
-        Tick f;
-        Tick rest;
-        std::int64_t order;  // makes the order total: first pushed, first out
+        std::uint64_t key;  // f, then what is left to go: the nearer the better
+        std::int32_t node;  // makes the order total
+    };
+    struct Slot {
+        std::uint64_t state;
+        std::uint32_t generation;
         std::int32_t node;
-        Tick ready;
     };
 
-    static bool is_later(const Open& left, const Open& right);
-    void check(const Trip& trip) const;
+    void begin(const Errand& errand);
+    void measure_stages(const Trip& trip);
     Tick rest(VertexId vertex, std::int32_t stage) const;
     void expand(std::int32_t node);
+    void finish(std::int32_t node);
     void serve(std::int32_t node);
+    void stay_on(std::int32_t node);
     void drive(std::int32_t node, EdgeId edge);
-    void reach(const Node& candidate);
-    std::int32_t find(const Node& candidate) const;
-    std::int32_t n_stages() const { return static_cast<std::int32_t>(trip_.stage_vertex.size()); }
+    void drive_between(Node candidate, Tick way, Tick latest, Tick approach);
+    void drive_across(const Node& soonest, Tick way, Tick latest, Tick approach);
+    Tick price_of_entry(const Node& candidate, Tick approach) const;
+    Tick price_of_swaps(const Node& candidate) const;
+    Tick price(RobotId robot) const;
+    void reach(const Node& candidate, Tick way);
+    static bool is_before(const Open& left, const Open& right) {
+        return left.key != right.key ? left.key < right.key : left.node < right.node;
+    }
+    void push(const Open& open);
+    Open pop();
+    void next_generation();
+    Slot& slot_of(const Node& node);
+    void enlarge_slots();
+    std::int32_t n_stages() const { return static_cast<std::int32_t>(trip_->n_stages()); }
 
-    Graph graph_;
-    const BookingTable& bookings_;
+    Roads roads_;
     BookingRules rules_;
-    const Trip& trip_;
-    std::vector<Tick> to_go_;  // from each stage's vertex to completion, its dwell included
-    std::vector<std::int32_t> first_here_;  // of each (stage, vertex): its latest node
+    const Trip* trip_ = nullptr;
+    const BookingTable* bookings_ = nullptr;
+    std::span<const Tick> prices_;
+    Tick limit_ = infinity;
+    std::vector<Tick> to_go_;      // from each stage's vertex to completion
+    std::int32_t first_last_ = 0;  // from this stage on, all are at the last vertex
     std::vector<Node> nodes_;
     std::vector<Open> open_;
-    std::int64_t n_pushed_ = 0;
+    std::vector<Slot> slots_;  // open addressing
+    std::size_t mask_ = 0;     // the first so many slots are in use; a search starts with few
+    Tick first_f_ = 0;
+    Tick greed_ = 0;
+    std::uint32_t generation_ = 0;
     std::int32_t goal_ = -1;
+    std::int64_t n_expanded_ = 0;
 };
 
 }  // namespace rightofway

@@ -7,6 +7,8 @@ and the earliest timetable that keeps them is a plan, for any speeds, work times
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +17,7 @@ from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Distances, joint_steps
 
-__all__ = ["plan_jointly"]
+__all__ = ["plan_jointly", "timetable_in_order"]
 
 
 def plan_jointly(task: Task, distances: Distances) -> list[Track]:
@@ -44,11 +46,27 @@ def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
         The vertex of every robot after each step, shape (T, R), as from `joint_steps`.
     """
     arrivals = [_arrivals(steps[:, robot]) for robot in range(steps.shape[1])]
+    visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
+    return timetable_in_order(scenario, visited, arrivals)
+
+
+def timetable_in_order(
+    scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
+) -> list[Track]:
+    """Return the earliest tracks along some routes that keep an order of arrivals.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    visited
+        Where each robot goes, visit by visit.
+    arrivals
+        When it comes there by any clock; of two visits at one vertex the earlier stays first. No
+        visit begins when another one at that vertex ends, unless bookings allow a rotation.
+    """
     graph = PrecedenceGraph(
-        [
-            _route(scenario, robot, steps[arrival, robot].tolist())
-            for robot, arrival in enumerate(arrivals)
-        ],
+        [_route(scenario, robot, vertices) for robot, vertices in enumerate(visited)],
         headway=planning_headway(scenario),
         books_ahead=scenario.rules.books_ahead,
     )

@@ -210,6 +210,32 @@ PLANNERS = (
             ROUTES,
         ),
     ),
+    PlannerSpec(
+        "prioritized",
+        "rightofway.planners.prioritized:prioritized",
+        "One robot after another, each round those before it; who is in the way gives way.",
+        (
+            Choice(
+                "order",
+                ("shortest", "longest", "slowest", "file", "random"),
+                "Who is planned first: shortest or longest trip, slowest robot, as in the file.",
+            ),
+        ),
+    ),
+    PlannerSpec(
+        "lns",
+        "rightofway.planners.lns:lns",
+        "Better and better plans until time is up: a few robots at a time are planned anew.",
+        (
+            Count(
+                "iterations",
+                0,
+                0,
+                "How often some robots are planned anew at most; 0: as time and gains allow.",
+            ),
+        ),
+        improves=True,
+    ),
 )
 
 DEFAULT = "two-level"

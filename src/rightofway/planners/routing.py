@@ -13,6 +13,7 @@ __all__ = [
     "clear_routes",
     "refuse_shared_ends",
     "refuse_the_impossible",
+    "refuse_unreachable",
     "shortest_route",
     "shortest_routes",
 ]
@@ -89,18 +90,18 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
     NoPlanExists
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
-    refuse_shared_ends(scenario)
     for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
-        _refuse_unreachable(robot.name, itinerary, distances)
+        refuse_unreachable(robot.name, itinerary, distances)
+    refuse_shared_ends(scenario)
 
 
 def refuse_shared_ends(scenario: Scenario) -> None:
-    """Raise if two robots would have to stay at one place for ever.
+    """Raise if two robots would have to stay at one vertex for ever.
 
     Raises
     ------
     NoPlanExists
-        Naming them.
+        Naming the two.
     """
     holders: dict[VertexId, str] = {}
     for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
@@ -113,7 +114,14 @@ def refuse_shared_ends(scenario: Scenario) -> None:
             )
 
 
-def _refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
+def refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
+    """Raise if a robot has no way from one place of its trip to the next.
+
+    Raises
+    ------
+    NoPlanExists
+        Naming the robot and the two places.
+    """
     place, roadmap = itinerary.home, distances.roadmap
     for stage in itinerary.stages:
         if distances.to(stage.vertex, itinerary.edge_ticks)[place] < 0:

@@ -3,6 +3,7 @@
 from rightofway.search.bookings import FOREVER, Booking, Bookings
 from rightofway.search.distances import Distances, Path
 from rightofway.search.events import plan_by_events
+from rightofway.search.fleet import FleetSearch
 from rightofway.search.joint import joint_steps
 from rightofway.search.native import compiler
 from rightofway.search.sipp import earliest_track
@@ -13,6 +14,7 @@ __all__ = [
     "Booking",
     "Bookings",
     "Distances",
+    "FleetSearch",
     "Path",
     "Traffic",
     "compiler",

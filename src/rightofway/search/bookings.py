@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -40,6 +41,7 @@ class Bookings:
         self.headway = headway
         self.books_ahead = books_ahead
         self.table = _core.BookingTable(roadmap.n_vertices)
+        self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
 
     def at(self, vertex: int) -> list[Booking]:
         """Return the bookings of a vertex in order of time."""
@@ -53,10 +55,12 @@ class Bookings:
     def book(self, vertex: int, booking: Booking) -> None:
         """Book one vertex."""
         self.table.book(vertex, *booking)
+        self._of[booking.robot].append((vertex, booking.start))
 
     def release(self, robot: int) -> None:
         """Take back all that a robot has booked."""
-        self.table.release(robot)
+        for vertex, start in self._of.pop(robot, ()):
+            self.table.erase(vertex, start, robot)
 
     def of_track(
         self, robot: int, track: Track, itinerary: Itinerary

@@ -19,6 +19,9 @@ __all__ = ["earliest_track"]
 
 STOPPED = 2
 
+NEVER = np.zeros(0, np.int64)
+"""No prices: bookings of others are never overlapped."""
+
 
 def earliest_track(
     itinerary: Itinerary,
@@ -55,18 +58,20 @@ def earliest_track(
     Complete and optimal for one robot among fixed bookings, and deterministic.
     """
     stages, ticks = itinerary.stages, itinerary.edge_ticks
-    dwell = [stage.work + stage.turn for stage in stages[:-1]] + [stages[-1].work]
-    end, vertices, enter = _core.earliest_track(
+    end, vertices, enter, _ = _core.earliest_track(
         distances.roadmap.indptr,
         distances.roadmap.heads,
-        distances.ticks_of_edges(ticks),
+        distances.roadmap.length_class,
+        np.array(ticks, np.int32),
         bookings.table,
         int(bookings.headway),
         bookings.books_ahead,
         int(itinerary.home),
         np.array([stage.vertex for stage in stages], np.int32),
-        np.array(dwell, np.int64),
+        np.array([stage.work for stage in stages], np.int64),
+        np.array([stage.turn for stage in stages], np.int64),
         [distances.to(stage.vertex, ticks) for stage in stages],
+        NEVER,
         time_limit,
     )
     if end == STOPPED:

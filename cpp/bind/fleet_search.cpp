@@ -1,0 +1,300 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "bindings.hpp"
+#include "deadline.hpp"
+#include "rightofway/improver.hpp"
+#include "rightofway/prioritized.hpp"
+#include "rightofway/reject.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, and better ones.
+
+Parameters
+----------
+indptr, heads : int32[V + 1], int32[E]
+    The directed graph in compressed rows.
+length_class : int32[E]
+    The length class of each edge.
+paces : int32[P * C]
+    Ticks for an edge of each of the C length classes, one row for each pace.
+pace_of : int32[R]
+    The pace of each robot.
+home : int32[R]
+    Where each robot is at tick 0.
+first_stage : int32[R + 1]
+    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
+    Where each stage is, and how long it takes to work and then to turn. [ticks]
+n_classes : int
+    C.
+headway : int
+    Ticks that a vertex stays booked after it was left.
+books_ahead : bool
+    Whether a vertex is booked from when a robot starts to drive there.
+seed : int
+    For all that is drawn.
+n_threads : int
+    For `improve`; what it finds does not depend on it.
+
+Raises
+------
+ValueError
+    If the arrays do not fit together; names the array, the index and the value.
+
+Notes
+-----
+Robots without a track are left where they are by `tracks`: an empty one. The GIL is released in all
+long calls; Ctrl-C is obeyed, and leaves a plan as good as before.)";
+
+constexpr auto alone_doc = R"(Return the least completion of each robot without the others.
+
+Returns
+-------
+int64[R]
+    Ticks; -1 for a robot that cannot get to a stage.)";
+
+constexpr auto start_doc = R"(Take over tracks.
+
+Parameters
+----------
+first_visit : int32[R + 1]
+    Robot ``r`` has visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+vertices, enter : int32[N], int64[N]
+    Where each visit is, and when it begins. [ticks]
+
+Raises
+------
+ValueError
+    If they are no tracks of these trips, or overlap.)";
+
+constexpr auto prioritize_doc = R"(Give the robots tracks one after another.
+
+Parameters
+----------
+order : int32[R]
+    Every robot once.
+n_searches : int
+    After so many searches it gives up.
+time_limit : float or None
+    After so many seconds as well.
+
+Returns
+-------
+bool
+    Whether every robot has a track now; if not, none has.)";
+
+constexpr auto improve_doc = R"(Replace tracks by better ones, a few robots at a time.
+
+Every robot has a track. Ends when nothing can be better.
+
+Parameters
+----------
+n_tasks : int
+    How many times some robots are planned anew.
+patience : int
+    It ends after so many times in a row without a gain.
+time_limit : float or None
+    After so many seconds it stops at once.
+pause : float or None
+    After so many seconds it stops at the next point that does not depend on clocks.
+
+Returns
+-------
+int
+    How many times that was done.)";
+
+using Tracks = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+class FleetSearch {
+  public:
+    FleetSearch(const FleetArrays& arrays, std::int32_t n_classes, const BookingRules& rules,
+                std::uint64_t seed, std::size_t n_threads)
+        : fleet_(arrays, n_classes, rules, bytes_for_distances),
+          plan_(fleet_),
+          seed_(seed),
+          n_threads_(n_threads) {}
+
+    const std::vector<Tick>& alone(const Deadline& deadline) {
+        if (alone_.empty()) {
+            std::vector<Tick> alone(static_cast<std::size_t>(fleet_.n_robots()));
+            for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+                alone[static_cast<std::size_t>(robot)] = fleet_.alone(robot);
+                if (robot % 64 == 0) {
+                    deadline();
+                }
+            }
+            alone_ = std::move(alone);
+            bound_ = 0;
+            for (const Tick one : alone_) {
+                bound_ += one;
+            }
+        }
+        return alone_;
+    }
+
+    bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
+                    const Deadline& deadline) {
+        clear();
+        Prioritized planner(fleet_, plan_);
+        const bool is_done = planner.run(order, n_searches, deadline) == SearchEnd::found;
+        if (!is_done) {
+            clear();
+        }
+        return is_done;
+    }
+
+    void start(std::span<const std::int32_t> first_visit, std::span<const VertexId> vertices,
+               std::span<const Tick> enter) {
+        clear();
+        TripReader reader(fleet_);
+        for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+            TimedTrack track;
+            for (auto k = static_cast<std::size_t>(first_visit[robot]);
+                 k < static_cast<std::size_t>(first_visit[robot + 1]); ++k) {
+                const bool is_first = track.visits.empty();
+                const std::int32_t drive =
+                    is_first ? 0 : fleet_.drive(robot, vertices[k - 1], vertices[k]);
+                if (drive < 0) {
+                    reject_entry("vertices", k, vertices[k], "is not next to the one before");
+                }
+                track.visits.push_back({enter[k], vertices[k], drive});
+            }
+            track.completion = track.visits.empty() ? -1 : reader.completion(robot, track.visits);
+            if (track.completion < 0 || !plan_.fits(robot, track)) {
+                clear();
+                reject("robot", robot, "has a track that breaks the rules");
+            }
+            plan_.exchange(robot, track);
+        }
+    }
+
+    std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const Deadline& deadline,
+                         const Deadline& pause) {
+        alone(deadline);
+        if (!improver_) {
+            improver_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
+        }
+        const std::int64_t before = improver_->n_tasks();
+        improver_->run(n_tasks, patience, deadline,
+                       [&] { return plan_.flowtime() == bound_ || pause(); });
+        return improver_->n_tasks() - before;
+    }
+
+    Tracks tracks() const {
+        std::vector<std::int32_t> first{0};
+        std::vector<VertexId> vertices;
+        std::vector<Tick> enter;
+        for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+            for (const Visit& visit : plan_.track(robot).visits) {
+                vertices.push_back(visit.vertex);
+                enter.push_back(visit.enter);
+            }
+            first.push_back(static_cast<std::int32_t>(vertices.size()));
+        }
+        return {to_numpy(std::move(first)), to_numpy(std::move(vertices)),
+                to_numpy(std::move(enter))};
+    }
+
+    RobotId n_robots() const { return fleet_.n_robots(); }
+    Tick flowtime() const { return plan_.flowtime(); }
+    std::int64_t n_idle() const { return improver_ ? improver_->n_idle() : 0; }
+    std::int64_t n_expanded() const { return improver_ ? improver_->n_expanded() : 0; }
+
+  private:
+    static constexpr std::size_t bytes_for_distances = std::size_t{256} << 20;
+
+    void clear() {
+        improver_.reset();
+        plan_ = FleetPlan(fleet_);
+    }
+
+    Fleet fleet_;
+    FleetPlan plan_;
+    std::uint64_t seed_;
+    std::size_t n_threads_;
+    std::vector<Tick> alone_;
+    Tick bound_ = 0;
+    std::optional<Improver> improver_;
+};
+
+void init(FleetSearch* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& heads,
+          const ArrayIn<std::int32_t>& length_class, const ArrayIn<std::int32_t>& paces,
+          const ArrayIn<std::int32_t>& pace_of, const ArrayIn<VertexId>& home,
+          const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
+          const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn, std::int32_t n_classes,
+          Tick headway, bool books_ahead, std::uint64_t seed, std::size_t n_threads) {
+    const FleetArrays arrays{
+        view(indptr), view(heads),       view(length_class), view(paces),      view(pace_of),
+        view(home),   view(first_stage), view(stage_vertex), view(stage_work), view(stage_turn)};
+    new (self) FleetSearch(arrays, n_classes, {headway, books_ahead}, seed, n_threads);
+}
+
+}  // namespace
+
+void bind_fleet_search(nb::module_& module) {
+    nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
+        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("heads").noconvert(),
+             nb::arg("length_class").noconvert(), nb::arg("paces").noconvert(),
+             nb::arg("pace_of").noconvert(), nb::arg("home").noconvert(),
+             nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
+             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
+             nb::arg("n_classes"), nb::arg("headway"), nb::arg("books_ahead"), nb::arg("seed"),
+             nb::arg("n_threads"))
+        .def(
+            "alone",
+            [](FleetSearch& self) {
+                const Deadline deadline(std::nullopt);
+                {
+                    const nb::gil_scoped_release released;
+                    self.alone(deadline);
+                }
+                return to_numpy(std::span<const Tick>(self.alone(deadline)));
+            },
+            alone_doc)
+        .def(
+            "start",
+            [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
+               const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter) {
+                const nb::gil_scoped_release released;
+                self.start(view(first_visit), view(vertices), view(enter));
+            },
+            nb::arg("first_visit").noconvert(), nb::arg("vertices").noconvert(),
+            nb::arg("enter").noconvert(), start_doc)
+        .def(
+            "prioritize",
+            [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
+               std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.prioritize(view(order), n_searches, deadline);
+            },
+            nb::arg("order").noconvert(), nb::arg("n_searches"), nb::arg("time_limit").none(),
+            prioritize_doc)
+        .def(
+            "improve",
+            [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,
+               std::optional<double> time_limit, std::optional<double> pause) {
+                const Deadline deadline(time_limit);
+                const Deadline due(pause);
+                const nb::gil_scoped_release released;
+                return self.improve(n_tasks, patience, deadline, due);
+            },
+            nb::arg("n_tasks"), nb::arg("patience"), nb::arg("time_limit").none(),
+            nb::arg("pause").none(), improve_doc)
+        .def("tracks", &FleetSearch::tracks,
+             "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
+        .def_prop_ro("flowtime", &FleetSearch::flowtime, "The sum of completions. [ticks]")
+        .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
+        .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");
+}
+
+}  // namespace rightofway::bind

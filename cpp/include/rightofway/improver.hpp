@@ -1,0 +1,95 @@
+// Anytime improvement of a plan by large neighbourhood search, on several threads.
+//
+// Again and again a few robots give up their tracks and get new ones, one after another in random
+// order; the better plan stays. Work goes in rounds of a fixed number of tasks. Each task draws
+// from a stream of its own, made of seed, round and place in the round, and starts from the plan at
+// the beginning of the round; each thread has a replica of the plan. After a round the results are
+// taken in their order, as far as they still fit together. So the outcome depends on the seed and
+// the number of tasks, not on threads or their speed.
+//
+// Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021;
+// Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
+// problem with time windows", Transportation Science 2006 (weights).
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rightofway/fleet_plan.hpp"
+#include "rightofway/neighbourhoods.hpp"
+#include "rightofway/safe_interval_search.hpp"
+
+namespace rightofway {
+
+class Improver {
+  public:
+    // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
+    Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> alone, std::uint64_t seed,
+             std::size_t n_threads);
+    ~Improver();
+
+    // Does that many tasks; less after `patience` of them in a row without a gain, if `is_over`
+    // says so, or after the first round that ends when `is_due` does. Both are asked by the calling
+    // thread only. What `is_over` throws is passed on when the plan is whole again.
+    void run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
+             const std::function<bool()>& is_due);
+
+    std::int64_t n_tasks() const { return n_tasks_; }
+    std::int64_t n_idle() const { return n_idle_; }  // since the last gain
+    std::int64_t n_expanded() const;
+
+  private:
+    static constexpr std::array<std::size_t, 3> sizes{4, 8, 16};
+    static constexpr std::size_t n_arms = n_neighbourhood_kinds * sizes.size();
+
+    struct Task {
+        std::vector<RobotId> robots;
+        std::vector<TimedTrack> tracks;
+        std::size_t arm = 0;
+        Tick gain = -1;  // below 0: nothing found
+        std::int64_t effort = 0;
+    };
+    // What a kind of neighbourhood has brought of late, and what that took.
+    struct Record {
+        double gain = 0;
+        double effort = 0;
+    };
+    struct Worker;
+
+    void round(std::size_t n, const std::function<bool()>& is_over);
+    void work(Worker& worker, const SafeIntervalSearch::IsOver& is_over);
+    void attempt(Worker& worker, Task& task, Random& random,
+                 const SafeIntervalSearch::IsOver& is_over);
+    bool replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over);
+    std::size_t draw_arm(Random& random) const;
+    void settle(std::size_t n);
+    bool adopt(Task& task, bool may_clash);
+    void learn(const Task& task, bool is_adopted);
+
+    const Fleet& fleet_;
+    FleetPlan& plan_;
+    std::span<const Tick> alone_;
+    std::uint64_t seed_;
+    std::vector<FleetPlan> replicas_;
+    std::vector<std::unique_ptr<Worker>> workers_;
+    std::vector<Task> tasks_;
+    std::vector<std::uint8_t> is_touched_;
+    std::array<Record, n_arms> records_{};
+    std::array<double, n_arms> weights_{};
+    std::atomic<std::size_t> next_task_ = 0;
+    std::size_t n_in_round_ = 0;
+    std::atomic<bool> is_stopped_ = false;
+    std::exception_ptr thrown_;
+    std::uint64_t n_rounds_ = 0;
+    std::int64_t n_tasks_ = 0;
+    std::int64_t n_idle_ = 0;
+};
+
+}  // namespace rightofway

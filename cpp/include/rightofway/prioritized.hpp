@@ -1,0 +1,55 @@
+// A first plan, one robot after another: each gets the best track among those that have one.
+//
+// The home of a robot without a track is kept free for a while, so that it can leave. A track may
+// run across others, at a price for each; those robots lose their tracks and queue again. The more
+// often a robot has lost its track, the more it costs to take it away and the longer its home is
+// kept free, so that in the end somebody else gives way, or lets it out first (ejection chains with
+// a memory).
+//
+// Silver, "Cooperative pathfinding", AIIDE 2005; Andreychuk & Yakovlev, "Two techniques that
+// enhance the performance of multi-robot prioritized path planning", AAMAS 2018 (start holds);
+// Nagata & Braysy, "A powerful route minimization heuristic for the vehicle routing problem with
+// time windows", Operations Research Letters 2009 (ejection).
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "rightofway/fleet_plan.hpp"
+#include "rightofway/safe_interval_search.hpp"
+#include "rightofway/search_end.hpp"
+
+namespace rightofway {
+
+class Prioritized {
+  public:
+    // Borrows both. The plan is without tracks.
+    Prioritized(const Fleet& fleet, FleetPlan& plan);
+
+    // Gives robots tracks in that order, in at most so many searches. `stopped` means that some
+    // are without a track.
+    SearchEnd run(std::span<const RobotId> order, std::int64_t n_searches,
+                  const SafeIntervalSearch::IsOver& is_over);
+
+    std::int64_t n_evictions() const { return n_evictions_; }
+
+  private:
+    bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
+    void evict(RobotId robot);
+    Tick first_hold(RobotId robot) const;
+
+    const Fleet& fleet_;
+    FleetPlan& plan_;
+    SafeIntervalSearch search_;
+    TripReader reader_;
+    std::deque<RobotId> waiting_;
+    std::vector<Tick> prices_;
+    std::vector<Tick> holds_;
+    std::vector<RobotId> met_;
+    TimedTrack track_;
+    std::int64_t n_evictions_ = 0;
+};
+
+}  // namespace rightofway

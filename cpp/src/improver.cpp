@@ -1,0 +1,240 @@
+#include "rightofway/improver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace rightofway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double memory = 0.97;    // of a record, from use to use
+constexpr double curiosity = 0.3;  // the share of draws that is even
+constexpr auto between_questions = std::chrono::milliseconds(10);
+
+}  // namespace
+
+struct Improver::Worker {
+    Worker(const Fleet& fleet, FleetPlan& own, std::span<const Tick> alone)
+        : plan(own),
+          search(fleet.roads(), fleet.rules()),
+          reader(fleet),
+          neighbourhoods(fleet, own, alone) {}
+
+    FleetPlan& plan;
+    SafeIntervalSearch search;
+    TripReader reader;
+    Neighbourhoods neighbourhoods;
+    TimedTrack found;
+};
+
+Improver::Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> alone,
+                   std::uint64_t seed, std::size_t n_threads)
+    : fleet_(fleet),
+      plan_(plan),
+      alone_(alone),
+      seed_(seed),
+      is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0) {
+    weights_.fill(1.0 / static_cast<double>(n_arms));
+    workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
+    replicas_.reserve(n_threads);
+    while (workers_.size() < n_threads) {
+        replicas_.push_back(plan);
+        workers_.push_back(std::make_unique<Worker>(fleet, replicas_.back(), alone));
+    }
+    tasks_.resize(std::clamp<std::size_t>(is_touched_.size() / 16, 4, 32));
+}
+
+Improver::~Improver() = default;
+
+std::int64_t Improver::n_expanded() const {
+    std::int64_t sum = 0;
+    for (const auto& worker : workers_) {
+        sum += worker->search.n_expanded();
+    }
+    return sum;
+}
+
+void Improver::run(std::int64_t n_tasks, std::int64_t patience,
+                   const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
+    is_stopped_ = false;
+    thrown_ = nullptr;
+    while (n_tasks > 0 && n_idle_ < patience && !is_stopped_) {
+        const auto n = std::min<std::int64_t>(n_tasks, static_cast<std::int64_t>(tasks_.size()));
+        round(static_cast<std::size_t>(n), is_over);
+        settle(static_cast<std::size_t>(n));
+        n_tasks -= n;
+        if (is_due()) {
+            break;
+        }
+    }
+    if (thrown_) {
+        std::rethrow_exception(thrown_);
+    }
+}
+
+// All threads take tasks until none is left; this one watches the time as well.
+void Improver::round(std::size_t n, const std::function<bool()>& is_over) {
+    next_task_ = 0;
+    n_in_round_ = n;
+    for (Task& task : tasks_) {
+        task.gain = -1;
+        task.effort = 0;
+    }
+    std::vector<std::thread> others;
+    for (std::size_t k = 1; k < workers_.size(); ++k) {
+        others.emplace_back(
+            [this, k] { work(*workers_[k], [this] { return is_stopped_.load(); }); });
+    }
+    auto asked = Clock::now();
+    work(*workers_.front(), [&] {
+        if (!is_stopped_ && Clock::now() - asked > between_questions) {
+            asked = Clock::now();
+            try {
+                if (is_over()) {
+                    is_stopped_ = true;
+                }
+            } catch (...) {
+                thrown_ = std::current_exception();
+                is_stopped_ = true;
+            }
+        }
+        return is_stopped_.load();
+    });
+    for (auto& thread : others) {
+        thread.join();
+    }
+    ++n_rounds_;
+}
+
+void Improver::work(Worker& worker, const SafeIntervalSearch::IsOver& is_over) {
+    for (std::size_t k = next_task_++; k < n_in_round_ && !is_over(); k = next_task_++) {
+        Random random(seed_, n_rounds_, k);
+        attempt(worker, tasks_[k], random, is_over);
+    }
+}
+
+void Improver::attempt(Worker& worker, Task& task, Random& random,
+                       const SafeIntervalSearch::IsOver& is_over) {
+    task.arm = draw_arm(random);
+    const auto kind = static_cast<NeighbourhoodKind>(task.arm / sizes.size());
+    task.robots = worker.neighbourhoods.choose(kind, sizes[task.arm % sizes.size()], random);
+    random.shuffle(task.robots);
+    const std::int64_t before = worker.search.n_expanded();
+    replan(worker, task, is_over);
+    task.effort = worker.search.n_expanded() - before + 1;
+}
+
+// Plans the robots of a task anew, notes the tracks in the task, and leaves the plan as it was.
+bool Improver::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over) {
+    const std::size_t n = task.robots.size();
+    if (task.tracks.size() < n) {
+        task.tracks.resize(n);
+    }
+    Tick slack = 0;  // what all may take together, beyond what each would take alone
+    for (std::size_t k = 0; k < n; ++k) {
+        task.tracks[k].visits.clear();
+        task.tracks[k].completion = 0;
+        worker.plan.exchange(task.robots[k], task.tracks[k]);
+        slack += task.tracks[k].completion - alone_[static_cast<std::size_t>(task.robots[k])];
+    }
+    bool is_found = slack > 0;
+    for (std::size_t k = 0; k < n && is_found; ++k) {
+        const RobotId robot = task.robots[k];
+        const Tick alone = alone_[static_cast<std::size_t>(robot)];
+        const Errand errand{worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
+        is_found = worker.search.run(errand, is_over) == SearchEnd::found;
+        if (is_found) {
+            worker.search.track(worker.found.visits);
+            worker.found.completion = worker.search.completion();
+            slack -= worker.found.completion - alone;
+            worker.plan.exchange(robot, worker.found);
+            worker.found.completion = 0;
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        worker.plan.exchange(task.robots[k], task.tracks[k]);
+    }
+    task.gain = is_found ? slack : -1;
+    return is_found;
+}
+
+std::size_t Improver::draw_arm(Random& random) const {
+    const double drawn = static_cast<double>(random.next() >> 11) * 0x1.0p-53;
+    double left = drawn;
+    std::size_t arm = 0;
+    while (arm + 1 < n_arms && (left -= weights_[arm]) >= 0) {
+        ++arm;
+    }
+    return arm;
+}
+
+// Takes over, in their order, the results that still fit.
+void Improver::settle(std::size_t n) {
+    std::fill(is_touched_.begin(), is_touched_.end(), 0);
+    bool is_changed = false;
+    for (std::size_t k = 0; k < n; ++k) {
+        Task& task = tasks_[k];
+        const bool is_adopted = task.gain >= 0 && adopt(task, is_changed);
+        is_changed |= is_adopted;
+        n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + 1;
+        learn(task, is_adopted);
+        ++n_tasks_;
+    }
+    double sum = 0;
+    double total_gain = 0;
+    double total_effort = 1;
+    for (const Record& record : records_) {
+        total_gain += record.gain;
+        total_effort += record.effort;
+    }
+    const double prior = total_effort / static_cast<double>(n_arms) * 0.1 + 1;
+    for (std::size_t arm = 0; arm < n_arms; ++arm) {
+        weights_[arm] = (records_[arm].gain + prior * (total_gain + 1e-9) / total_effort) /
+                        (records_[arm].effort + prior);
+        sum += weights_[arm];
+    }
+    for (double& weight : weights_) {
+        weight = (1 - curiosity) * weight / sum + curiosity / static_cast<double>(n_arms);
+    }
+}
+
+// Takes over a result into all replicas, if robots taken over before leave it possible.
+bool Improver::adopt(Task& task, bool may_clash) {
+    const std::size_t n = task.robots.size();
+    for (const RobotId robot : task.robots) {
+        if (is_touched_[static_cast<std::size_t>(robot)] != 0) {
+            return false;
+        }
+    }
+    std::vector<TimedTrack> old(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        plan_.exchange(task.robots[k], old[k]);
+    }
+    for (std::size_t k = 0; k < n && may_clash; ++k) {
+        if (!plan_.fits(task.robots[k], task.tracks[k])) {
+            for (std::size_t j = 0; j < n; ++j) {
+                plan_.exchange(task.robots[j], old[j]);
+            }
+            return false;
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        for (FleetPlan& replica : replicas_) {
+            old[k] = task.tracks[k];
+            replica.exchange(task.robots[k], old[k]);
+        }
+        plan_.exchange(task.robots[k], task.tracks[k]);
+        is_touched_[static_cast<std::size_t>(task.robots[k])] = 1;
+    }
+    return true;
+}
+
+void Improver::learn(const Task& task, bool is_adopted) {
+    Record& record = records_[task.arm];
+    record.gain = memory * record.gain + (is_adopted ? static_cast<double>(task.gain) : 0.0);
+    record.effort = memory * record.effort + static_cast<double>(task.effort);
+}
+
+}  // namespace rightofway

@@ -1,0 +1,84 @@
+#include "rightofway/prioritized.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+// For how many of its slowest edges a robot's home is kept free: at first, and as much longer each
+// time it has lost its track.
+constexpr Tick hold_edges = 4;
+
+// What it costs to take a robot's track away, in first holds: at first, and how much more each
+// time.
+constexpr Tick first_price = 10;
+constexpr Tick dearer = 5;
+
+// See Errand.
+constexpr Tick greed = 1;
+
+}  // namespace
+
+Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan)
+    : fleet_(fleet),
+      plan_(plan),
+      search_(fleet.roads(), fleet.rules()),
+      reader_(fleet),
+      prices_(static_cast<std::size_t>(fleet.n_robots())),
+      holds_(prices_.size()) {
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        prices_[static_cast<std::size_t>(robot)] = first_price * first_hold(robot);
+        holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
+    }
+}
+
+Tick Prioritized::first_hold(RobotId robot) const {
+    const auto pace = fleet_.pace(robot);
+    return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
+}
+
+SearchEnd Prioritized::run(std::span<const RobotId> order, std::int64_t n_searches,
+                           const SafeIntervalSearch::IsOver& is_over) {
+    waiting_.assign(order.begin(), order.end());
+    for (const RobotId robot : order) {
+        plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
+    }
+    while (!waiting_.empty()) {
+        const RobotId robot = waiting_.front();
+        if (n_searches-- == 0 || !place(robot, is_over)) {
+            return SearchEnd::stopped;
+        }
+        waiting_.pop_front();
+    }
+    return SearchEnd::found;
+}
+
+bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
+    plan_.hold_home(robot, 0);
+    const Errand errand{reader_.read(robot), plan_.bookings(), prices_, infinity, greed};
+    if (search_.run(errand, is_over) != SearchEnd::found) {
+        return false;
+    }
+    search_.track(track_.visits);
+    track_.completion = search_.completion();
+    plan_.in_the_way(robot, track_, met_);
+    for (const RobotId other : met_) {
+        if (plan_.has_track(other)) {
+            evict(other);
+        }
+    }
+    plan_.exchange(robot, track_);
+    return true;
+}
+
+void Prioritized::evict(RobotId robot) {
+    TimedTrack none;
+    plan_.exchange(robot, none);
+    plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
+    prices_[static_cast<std::size_t>(robot)] += dearer * first_hold(robot);
+    holds_[static_cast<std::size_t>(robot)] += first_hold(robot);
+    waiting_.push_back(robot);
+    ++n_evictions_;
+}
+
+}  // namespace rightofway

@@ -1,0 +1,205 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <numeric>
+#include <stdexcept>
+
+#include "corridors.hpp"
+#include "rightofway/fleet_plan.hpp"
+#include "rightofway/improver.hpp"
+#include "rightofway/prioritized.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::size_t plenty = 1 << 20;
+
+// Robots that cross a grid of `size` * `size` from side to side, each from its own row or column.
+struct Crossing {
+    std::vector<EdgeId> indptr{0};
+    std::vector<VertexId> heads;
+    std::vector<std::int32_t> classes;
+    std::vector<std::int32_t> paces{1, 3};
+    std::vector<std::int32_t> pace_of;
+    std::vector<VertexId> home;
+    std::vector<std::int32_t> first_stage{0};
+    std::vector<VertexId> stage;
+    std::vector<Tick> nothing;
+
+    explicit Crossing(VertexId size) {
+        for (VertexId v = 0; v < size * size; ++v) {
+            for (const VertexId step : {1, size, -1, -size}) {
+                const bool leaves_row =
+                    std::abs(step) == 1 && (v + step + size) / size != v / size + 1;
+                if (v + step >= 0 && v + step < size * size && !leaves_row) {
+                    heads.push_back(v + step);
+                }
+            }
+            indptr.push_back(static_cast<EdgeId>(heads.size()));
+        }
+        classes.assign(heads.size(), 0);
+        for (VertexId k = 1; k + 1 < size; ++k) {
+            add(k * size, k * size + size - 1, 0);
+            add(k * size + size - 1, k * size, 1);
+            add(k, (size - 1) * size + k, 0);
+        }
+    }
+
+    void add(VertexId from, VertexId to, std::int32_t pace) {
+        home.push_back(from);
+        stage.push_back(to);
+        pace_of.push_back(pace);
+        first_stage.push_back(static_cast<std::int32_t>(stage.size()));
+        nothing.push_back(0);
+    }
+
+    FleetArrays arrays() const {
+        return {indptr, heads, classes, paces, pace_of, home, first_stage, stage, nothing, nothing};
+    }
+};
+
+std::vector<Tick> alone(const Fleet& fleet) {
+    std::vector<Tick> ticks;
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        ticks.push_back(fleet.alone(robot));
+    }
+    return ticks;
+}
+
+std::vector<RobotId> in_turn(const Fleet& fleet) {
+    std::vector<RobotId> order(static_cast<std::size_t>(fleet.n_robots()));
+    std::iota(order.begin(), order.end(), 0);
+    return order;
+}
+
+bool is_sound(const Fleet& fleet, const FleetPlan& plan) {
+    bool sound = true;
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        sound = sound && plan.has_track(robot) && plan.fits(robot, plan.track(robot));
+    }
+    return sound;
+}
+
+TEST_CASE("a robot alone needs the way there in its own ticks") {
+    const Crossing crossing(5);
+    const Fleet fleet(crossing.arrays(), 1, {0, false}, plenty);
+    CHECK(fleet.alone(0) == 4);
+    CHECK(fleet.alone(1) == 12);
+    CHECK(fleet.drive(1, 0, 1) == 3);
+    CHECK(fleet.drive(1, 0, 7) == -1);
+}
+
+TEST_CASE("arrays of a fleet that do not fit together are refused") {
+    Crossing far(5);
+    far.home.back() = 99;
+    CHECK_THROWS_AS(Fleet(far.arrays(), 1, {0, false}, plenty), std::invalid_argument);
+    Crossing slow(5);
+    slow.paces[1] = 0;
+    CHECK_THROWS_AS(Fleet(slow.arrays(), 1, {0, false}, plenty), std::invalid_argument);
+    Crossing idle(5);
+    idle.first_stage[1] = 0;
+    CHECK_THROWS_AS(Fleet(idle.arrays(), 1, {0, false}, plenty), std::invalid_argument);
+    Crossing uneven(5);
+    uneven.nothing.pop_back();
+    CHECK_THROWS_AS(Fleet(uneven.arrays(), 1, {0, false}, plenty), std::invalid_argument);
+}
+
+TEST_CASE("a plan knows who is in the way of a track, by booking or by swap") {
+    const Crossing crossing(5);
+    const Fleet fleet(crossing.arrays(), 1, {0, false}, plenty);
+    FleetPlan plan(fleet);
+    TimedTrack there{{{0, 5, 0}, {1, 6, 1}, {2, 7, 1}}, 2};
+    plan.exchange(0, there);
+    CHECK(plan.flowtime() == 2);
+    std::vector<RobotId> met;
+    const TimedTrack into{{{0, 12, 0}, {3, 7, 3}}, 3};
+    CHECK_FALSE(plan.fits(1, into));
+    const TimedTrack swap{{{-9, 11, 0}, {-5, 6, 3}, {1, 5, 3}, {4, 10, 3}}, 4};
+    plan.in_the_way(1, swap, met);
+    CHECK(met == std::vector<RobotId>{0});
+    const TimedTrack later{{{0, 11, 0}, {3, 6, 3}, {6, 5, 3}}, 6};
+    CHECK(plan.fits(1, later));
+    plan.hold_home(2, 7);
+    CHECK(plan.bookings().at(fleet.home(2)).size() == 1);
+    plan.hold_home(2, 0);
+    CHECK(plan.bookings().at(fleet.home(2)).empty());
+}
+
+TEST_CASE("robots in turn get tracks that fit together, under every rule") {
+    for (const bool books_ahead : {false, true}) {
+        for (const Tick headway : {0, 2}) {
+            const Crossing crossing(6);
+            const Fleet fleet(crossing.arrays(), 1, {headway, books_ahead}, plenty);
+            FleetPlan plan(fleet);
+            Prioritized planner(fleet, plan);
+            REQUIRE(planner.run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+            CHECK(is_sound(fleet, plan));
+        }
+    }
+}
+
+TEST_CASE("planning in turn ends after as many searches as it may make") {
+    const Crossing crossing(6);
+    const Fleet fleet(crossing.arrays(), 1, {0, false}, plenty);
+    FleetPlan plan(fleet);
+    CHECK(Prioritized(fleet, plan).run(in_turn(fleet), 2, test::never) == SearchEnd::stopped);
+}
+
+TEST_CASE("improvement never loses, and does not depend on the number of threads") {
+    const Crossing crossing(8);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    const auto bounds = alone(fleet);
+    FleetPlan first(fleet);
+    REQUIRE(Prioritized(fleet, first).run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+    std::vector<FleetPlan> plans(3, first);
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+        Improver improver(fleet, plans[k], bounds, 5, k + 1);
+        improver.run(300, 1000, test::never, test::never);
+        CHECK(improver.n_tasks() == 300);
+        CHECK(is_sound(fleet, plans[k]));
+        CHECK(plans[k].flowtime() < first.flowtime());
+        CHECK(plans[k].flowtime() == plans[0].flowtime());
+    }
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        CHECK(plans[0].track(robot).completion == plans[2].track(robot).completion);
+    }
+}
+
+TEST_CASE("what the caller throws comes back when the plan is whole") {
+    const Crossing crossing(8);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    const auto bounds = alone(fleet);
+    FleetPlan plan(fleet);
+    REQUIRE(Prioritized(fleet, plan).run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+    Improver improver(fleet, plan, bounds, 5, 2);
+    const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
+    CHECK_THROWS_AS(improver.run(1 << 30, 1 << 30, interrupt, test::never), std::runtime_error);
+    CHECK(is_sound(fleet, plan));
+}
+
+TEST_CASE("tables are shared, narrow where edges are alike, and forgotten when memory is short") {
+    const Crossing crossing(5);
+    const std::vector<std::int32_t> slow{3};
+    SharedDistances distances({{crossing.indptr, crossing.heads}, crossing.classes}, 120);
+    const auto first = distances.to(0, slow);
+    CHECK(first->bytes() == 50);
+    CHECK(first->view(distances.scale(slow)).from(24) == 24);
+    CHECK(distances.to(0, slow) == first);
+    distances.to(1, slow);
+    distances.to(2, slow);
+    CHECK(distances.to(0, slow) != first);
+    CHECK(first->view(3).from(1) == 3);
+}
+
+TEST_CASE("where edges differ, a table is for one pace") {
+    Crossing crossing(3);
+    crossing.classes.front() = 1;  // from 0 to 1
+    const std::vector<std::int32_t> pace{1, 9};
+    const std::vector<std::int32_t> slow{2, 9};
+    SharedDistances distances({{crossing.indptr, crossing.heads}, crossing.classes}, plenty);
+    CHECK(distances.to(1, pace)->view(distances.scale(pace)).from(0) == 3);
+    CHECK(distances.to(1, slow)->view(distances.scale(slow)).from(0) == 6);
+}
+
+}  // namespace
+}  // namespace rightofway

@@ -1,0 +1,143 @@
+"""One robot after another, each round those before it; who stands in the way is planned again.
+
+References
+----------
+Erdmann & Lozano-Perez, *On multiple moving objects*, Algorithmica 1987.
+
+Silver, *Cooperative pathfinding*, AIIDE 2005.
+
+Andreychuk & Yakovlev, *Two techniques that enhance the performance of multi-robot prioritized path
+planning*, AAMAS 2018.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from rightofway.model import Scenario, Stop, Track
+from rightofway.planners.joint import plan_jointly, timetable_in_order
+from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
+from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.search import Distances, FleetSearch
+
+__all__ = ["ORDERS", "first_plan", "fleet_search", "prioritized"]
+
+SHARE_AT_OWN_SPEEDS, SHARE_AT_ONE_PACE = 0.3, 0.7
+"""The parts of the time left that planning in turn gets, first so and then so."""
+
+SEARCHES_PER_ROBOT = 20
+"""How often robots may be planned, per robot of the fleet."""
+
+HEADWAYS_PER_EDGE = 8
+"""The headway of robots at one pace, as a part of the shortest edge."""
+
+ORDERS = ("shortest", "longest", "slowest", "file", "random")
+"""Who is planned first: by the least completion alone, by speed, as in the file, or as drawn."""
+
+
+def prioritized(task: Task) -> Draft:
+    """Plan one robot after another.
+
+    Parameters
+    ----------
+    task
+        Options: ``order`` is one of `ORDERS`.
+
+    Raises
+    ------
+    NoPlanExists
+        If it is proven that there is none.
+    GaveUp
+        If time ran out.
+    """
+    tracks, status = first_plan(task, fleet_search(task), task.options["order"])
+    return Draft(tracks=tracks, status=status)
+
+
+def fleet_search(task: Task) -> FleetSearch:
+    """Return the search for a fleet whose robots can all do their trips alone.
+
+    Raises
+    ------
+    NoPlanExists
+        If a robot cannot get to a place, or two would have to stay at one for ever.
+    """
+    scenario = task.scenario
+    refuse_shared_ends(scenario)
+    search = FleetSearch(scenario, headway=planning_headway(scenario), seed=task.seed)
+    for robot in np.flatnonzero(search.alone() < 0).tolist():
+        name, itinerary = scenario.robots[robot].name, scenario.timing.itineraries[robot]
+        refuse_unreachable(name, itinerary, Distances(scenario.roadmap))
+    return search
+
+
+def first_plan(task: Task, search: FleetSearch, order: str) -> tuple[tuple[Track, ...], str]:
+    """Plan robots in turn, or all together where that does not work out; say which.
+
+    Raises
+    ------
+    NoPlanExists
+        If it is proven that there is no plan.
+    GaveUp
+        If time ran out.
+    """
+    if _plan_in_turn(task, search, order, SHARE_AT_OWN_SPEEDS):
+        return search.tracks(), "one after another"
+    task.deadline.check("planning robots one after another")
+    paced = replace(task, scenario=_at_one_pace(task.scenario))
+    search = FleetSearch(paced.scenario, headway=paced.scenario.timing.headway, seed=task.seed)
+    if _plan_in_turn(paced, search, order, SHARE_AT_ONE_PACE):
+        tracks = search.tracks()
+        visited = [track.vertices.tolist() for track in tracks]
+        arrivals = [track.enter.tolist() for track in tracks]
+        found = timetable_in_order(task.scenario, visited, arrivals)
+        return tuple(found), "one after another at one pace, each then at its own"
+    task.deadline.check("planning robots one after another")
+    return (
+        tuple(plan_jointly(task, Distances(task.scenario.roadmap))),
+        "all together, because robots one after another found no way",
+    )
+
+
+def _plan_in_turn(task: Task, search: FleetSearch, order: str, share: float) -> bool:
+    return search.prioritize(
+        _in_order(task.scenario, search, order, task.seed),
+        searches=SEARCHES_PER_ROBOT * len(task.scenario.robots),
+        time_limit=task.deadline.sooner(share).seconds_left(),
+    )
+
+
+def _at_one_pace(scenario: Scenario) -> Scenario:
+    """Return the same trips for robots that are all alike, do not work, and book one vertex.
+
+    Who goes where in which order there is possible for the robots as they are, too. A headway
+    keeps apart who leaves a vertex and who comes next, so that no circle of robots moves at once.
+    """
+    robots = tuple(
+        replace(
+            robot,
+            speed=Fraction(1),
+            turn=Fraction(0),
+            stops=tuple(Stop(at=stop.at) for stop in robot.stops),
+        )
+        for robot in scenario.robots
+    )
+    headway = min(scenario.roadmap.lengths, default=Fraction(1)) / HEADWAYS_PER_EDGE
+    rules = replace(scenario.rules, occupancy="one", headway=headway, turn=Fraction(0))
+    return replace(scenario, robots=robots, rules=rules)
+
+
+def _in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
+    robots = list(range(len(scenario.robots)))
+    if order == "random":
+        random.Random(seed).shuffle(robots)  # noqa: S311 (no secret depends on it)
+    elif order == "slowest":
+        robots.sort(key=lambda robot: scenario.robots[robot].speed)
+    elif order != "file":
+        alone = search.alone()
+        robots.sort(key=lambda robot: alone[robot], reverse=order == "longest")
+    return robots

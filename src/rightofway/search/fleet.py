@@ -1,0 +1,135 @@
+"""The tracks of a whole fleet: finding first ones, and better ones."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from itertools import accumulate, chain, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway import _core
+from rightofway.model import Scenario, Tick, Track
+
+__all__ = ["FleetSearch"]
+
+
+class FleetSearch:
+    """A fleet and its tracks, kept in the native core while they are being worked on.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    headway
+        Headway to plan with [ticks].
+    seed
+        For all that is drawn.
+    threads
+        How many threads improve the plan; the plan does not depend on it. None: all cores.
+    """
+
+    def __init__(
+        self, scenario: Scenario, *, headway: Tick, seed: int = 0, threads: int | None = None
+    ) -> None:
+        roadmap, itineraries = scenario.roadmap, scenario.timing.itineraries
+        paces = list(dict.fromkeys(itinerary.edge_ticks for itinerary in itineraries))
+        number = {pace: index for index, pace in enumerate(paces)}
+        stages = [itinerary.stages for itinerary in itineraries]
+        every_stage = list(chain.from_iterable(stages))
+        self._core = _core.FleetSearch(
+            roadmap.indptr,
+            roadmap.heads,
+            roadmap.length_class,
+            np.array(list(chain.from_iterable(paces)), np.int32),
+            np.array([number[itinerary.edge_ticks] for itinerary in itineraries], np.int32),
+            np.array([itinerary.home for itinerary in itineraries], np.int32),
+            np.array([0, *accumulate(map(len, stages))], np.int32),
+            np.array([stage.vertex for stage in every_stage], np.int32),
+            np.array([stage.work for stage in every_stage], np.int64),
+            np.array([stage.turn for stage in every_stage], np.int64),
+            n_classes=len(roadmap.lengths),
+            headway=int(headway),
+            books_ahead=scenario.rules.books_ahead,
+            seed=seed,
+            n_threads=threads or _cores(),
+        )
+
+    def alone(self) -> NDArray[np.int64]:
+        """Return each robot's least completion without the others [ticks], -1 for no way."""
+        return self._core.alone()
+
+    @property
+    def flowtime(self) -> Tick:
+        """The sum of completions of all robots with a track [ticks]."""
+        return Tick(self._core.flowtime)
+
+    @property
+    def idle(self) -> int:
+        """How many times in a row `improve` has brought no gain."""
+        return self._core.n_idle
+
+    def prioritize(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
+        """Give the robots tracks one after another; tell whether all have one.
+
+        Parameters
+        ----------
+        order
+            Every robot once.
+        searches
+            After so many searches it gives up.
+        time_limit
+            When to stop [s].
+        """
+        return self._core.prioritize(np.array(order, np.int32), searches, time_limit)
+
+    def start(self, tracks: Sequence[Track]) -> None:
+        """Take over tracks.
+
+        Raises
+        ------
+        ValueError
+            If they break the rules.
+        """
+        lengths = [len(track) for track in tracks]
+        self._core.start(
+            np.array([0, *accumulate(lengths)], np.int32),
+            np.concatenate([track.vertices for track in tracks]),
+            np.concatenate([track.enter for track in tracks]),
+        )
+
+    def improve(
+        self,
+        tasks: int,
+        *,
+        patience: int,
+        time_limit: float | None = None,
+        pause: float | None = None,
+    ) -> int:
+        """Replace tracks by better ones, a few robots at a time; return how many times.
+
+        Parameters
+        ----------
+        tasks
+            How many times some robots are planned anew.
+        patience
+            Ends after so many times in a row without a gain.
+        time_limit
+            When to stop at once [s].
+        pause
+            When to stop at the next point that depends on no clock [s].
+        """
+        return self._core.improve(tasks, patience, time_limit, pause)
+
+    def tracks(self) -> tuple[Track, ...]:
+        """Return the tracks."""
+        first, vertices, enter = self._core.tracks()
+        return tuple(
+            Track(vertices=vertices[begin:end].copy(), enter=enter[begin:end].copy())
+            for begin, end in pairwise(first.tolist())
+        )
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,0 +1,94 @@
+"""Plans of the fleet search keep the rules, get better only, and depend on nothing but the seed."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.check import check
+from rightofway.metrics import completions_of
+from rightofway.metrics.alone import alone_completions
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.search import FleetSearch
+from tests.fleets import random_fleet
+
+law = settings(max_examples=25, deadline=None, derandomize=True)
+
+RULES = st.builds(
+    Rules,
+    occupancy=st.sampled_from(["one", "both"]),
+    headway=st.sampled_from([0, 1]),
+    ends=st.sampled_from(["home", "none"]),
+)
+FLEETS = st.builds(
+    random_fleet,
+    st.integers(0, 10**6),
+    size=st.integers(6, 12),
+    robots=st.integers(1, 10),
+    walls=st.sampled_from([0.0, 0.1]),
+    rules=RULES,
+)
+
+
+def search_of(scenario: Scenario, *, seed: int = 0, threads: int = 1) -> FleetSearch:
+    return FleetSearch(scenario, headway=scenario.timing.headway, seed=seed, threads=threads)
+
+
+def judged(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:
+    return check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="any"))).ok
+
+
+@law
+@given(FLEETS, st.integers(0, 99))
+def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
+    scenario: Scenario, seed: int
+) -> None:
+    order = range(len(scenario.robots))
+    searches = [search_of(scenario, seed=seed, threads=threads) for threads in (1, 2, 3)]
+    for search in searches:
+        if not search.prioritize(order, searches=500, time_limit=None):
+            return
+    first = searches[0].tracks()
+    assert judged(scenario, first)
+    assert searches[0].flowtime == sum(completions_of(scenario, first))
+    for search in searches:
+        before = search.flowtime
+        search.improve(150, patience=10**9)
+        assert search.flowtime <= before
+    better = searches[0].tracks()
+    assert judged(scenario, better)
+    assert searches[0].flowtime == sum(completions_of(scenario, better))
+    assert all(search.tracks() == better for search in searches)
+
+
+@law
+@given(FLEETS)
+def test_the_least_completions_are_those_of_the_metrics(scenario: Scenario) -> None:
+    assert tuple(search_of(scenario).alone()) == alone_completions(scenario)
+
+
+@law
+@given(FLEETS)
+def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) -> None:
+    one, other = search_of(scenario), search_of(scenario)
+    if one.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
+        other.start(one.tracks())
+        assert other.tracks() == one.tracks()
+        assert other.flowtime == one.flowtime
+
+
+def test_tracks_that_break_the_rules_are_not_taken_over() -> None:
+    scenario = random_fleet(3, size=6, robots=2)
+    search = search_of(scenario)
+    stay = tuple(Track.of([itinerary.home], [0]) for itinerary in scenario.timing.itineraries)
+    with pytest.raises(ValueError, match="robot: 0 has a track that breaks the rules"):
+        search.start(stay)
+
+
+def test_a_fleet_that_cannot_do_better_ends_at_once() -> None:
+    scenario = random_fleet(3, robots=1)
+    search = search_of(scenario)
+    search.prioritize([0], searches=1, time_limit=None)
+    assert search.flowtime == search.alone().sum()
+    assert search.improve(10**9, patience=10**9) <= 32

@@ -1,0 +1,95 @@
+"""What the planners on the fleet search do beyond what every planner owes."""
+
+from __future__ import annotations
+
+import time
+from fractions import Fraction
+
+import pytest
+
+import rightofway
+from rightofway.errors import GaveUp
+from rightofway.metrics import measure
+from rightofway.model import Plan, PlannerRun, Rules
+from rightofway.planners import Deadline, Task
+from rightofway.planners.lns import lns
+from rightofway.planners.prioritized import ORDERS, prioritized
+from tests.fleets import grid_fleet, random_fleet
+
+CROWDED = random_fleet(5, size=10, robots=30, rules=Rules(occupancy="both"))
+
+
+def test_a_given_plan_is_where_it_starts_and_what_comes_out_is_no_worse() -> None:
+    given = rightofway.solve(CROWDED, "two-level")
+    task = Task(scenario=CROWDED, options={"iterations": 40}, start=given.tracks)
+    draft = lns(task)
+    better = Plan(scenario=CROWDED, tracks=draft.tracks, run=PlannerRun(name="lns"))
+    assert rightofway.check(better).ok
+    assert measure(better).flowtime < measure(given).flowtime
+    assert draft.status == "improved by 40 neighbourhoods (first plan: the plan given)"
+
+
+def test_more_iterations_are_never_worse() -> None:
+    flowtimes = [
+        measure(rightofway.solve(CROWDED, "lns", options={"iterations": n})).flowtime
+        for n in (1, 30, 300)
+    ]
+    assert flowtimes == sorted(flowtimes, reverse=True)
+    assert flowtimes[0] > flowtimes[-1]
+
+
+def test_it_stops_where_nothing_can_be_better_and_says_so() -> None:
+    """Two robots on rows of their own: both are as fast as alone."""
+    fleet = grid_fleet(["...", "..."], [("N0", "N2"), ("N3", "N5")], rules=Rules(ends="none"))
+    began = time.perf_counter()
+    plan = rightofway.solve(fleet, "lns", time_limit=None)
+    assert plan.run.status.startswith("optimal")
+    assert time.perf_counter() - began < 5
+
+
+def test_progress_tells_flowtime_gap_and_rate() -> None:
+    heard: list[str] = []
+    rightofway.solve(CROWDED, "lns", options={"iterations": 20}, report=heard.append)
+    assert heard
+    assert all("above the bound" in one and "tries/s" in one for one in heard)
+
+
+def test_it_stops_when_time_is_up() -> None:
+    began = time.perf_counter()
+    rightofway.solve(random_fleet(2, size=30, robots=150), "lns", time_limit=1.5)
+    assert time.perf_counter() - began < 5
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_every_order_gives_a_sound_plan(order: str) -> None:
+    plan = rightofway.solve(CROWDED, "prioritized", options={"order": order})
+    assert rightofway.check(plan).ok
+
+
+def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Planning in turn fails at first; the order of visits at one pace is as good for all."""
+    from rightofway.planners import prioritized as module
+
+    real, tried = module._plan_in_turn, []
+
+    def fails_at_first(*arguments: object) -> bool:
+        tried.append(arguments)
+        return len(tried) > 1 and real(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(module, "_plan_in_turn", fails_at_first)
+    for occupancy in ("one", "both"):
+        rules = Rules(occupancy=occupancy, headway=Fraction(1, 2))
+        fleet = random_fleet(8, size=9, robots=14, rules=rules)
+        tried.clear()
+        draft = prioritized(Task(scenario=fleet, options={"order": "shortest"}))
+        plan = Plan(scenario=fleet, tracks=draft.tracks, run=PlannerRun(name="prioritized"))
+        assert rightofway.check(plan).ok
+        assert draft.status == "one after another at one pace, each then at its own"
+
+
+def test_without_time_it_gives_up() -> None:
+    deadline = Deadline.after(0.0)
+    with pytest.raises(GaveUp):
+        lns(Task(scenario=CROWDED, options={"iterations": 0}, deadline=deadline))
