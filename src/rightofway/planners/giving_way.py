@@ -198,7 +198,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
         hurried = replace(task, deadline=task.deadline.sooner(SHARE))
         return one_by_one(hurried, distances, Fleet(hurried, routes), rule)
     except GaveUp:
-        return all_together(task, distances, "time was short, so all were planned together")
+        return all_together(task, "time was short, so all were planned together")
 
 
 def one_by_one(task: Task, distances: Distances, fleet: Fleet, rule: Rule) -> Draft:
@@ -208,7 +208,7 @@ def one_by_one(task: Task, distances: Distances, fleet: Fleet, rule: Rule) -> Dr
     rerouted = reroute(task, distances, tracks, list(fleet.aside))
     if rerouted is None:
         because = "one robot at a time finds no way, so all were planned together"
-        return all_together(task, distances, because)
+        return all_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
     if rerouted:  # whoever waited for a robot that goes another way need not wait any more
         ordered = graph_of(task.scenario, ordered).tracks()
@@ -224,10 +224,10 @@ def one_by_one(task: Task, distances: Distances, fleet: Fleet, rule: Rule) -> Dr
     )
 
 
-def all_together(task: Task, distances: Distances, because: str) -> Draft:
+def all_together(task: Task, because: str) -> Draft:
     """Plan the whole fleet anew."""
     return Draft(
-        tracks=tuple(plan_jointly(task, distances)),
+        tracks=tuple(plan_jointly(task)[0]),
         status="re-routed all robots together",
         reroutes=tuple(
             Reroute(robot=robot, because=because) for robot in range(len(task.scenario.robots))

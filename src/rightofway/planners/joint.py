@@ -12,16 +12,37 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.errors import NoPlanExists
 from rightofway.model import Route, Scenario, Track, VertexId, route_through
+from rightofway.planners.routing import refuse_shared_ends, refuse_the_impossible
 from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import PrecedenceGraph
-from rightofway.search import Distances, joint_steps
+from rightofway.search import Distances, joint_steps, plan_by_events
 
 __all__ = ["plan_jointly", "timetable_in_order"]
 
+SHARE_OF_TIME = 0.9
+"""How much of its time the search with clocks may take, if it does not give up before."""
 
-def plan_jointly(task: Task, distances: Distances) -> list[Track]:
-    """Plan all robots together.
+LEAST_EFFORT = 2_000_000
+EFFORT_PER_PLACE = 8
+"""How patient the search with clocks is: choices per robot and vertex, but at least so many."""
+
+
+def plan_jointly(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
+    """Plan all robots together: with clocks, and where that comes to no end, an order of moves.
+
+    Parameters
+    ----------
+    task
+        The problem.
+    spreads
+        Whether robots prefer paths that were spread before the search.
+
+    Returns
+    -------
+    tracks, status
+        One track for each robot, and how they were found.
 
     Raises
     ------
@@ -29,10 +50,41 @@ def plan_jointly(task: Task, distances: Distances) -> list[Track]:
         If it is proven that there is none.
     GaveUp
         If time ran out.
+
+    Notes
+    -----
+    Complete: the search without clocks finds an order of moves or proves that there is none.
+    Deterministic, as long as nine tenths of the time limit are enough for the search with clocks.
     """
+    tracks = _by_events(task, spreads=spreads)
+    if tracks is not None:
+        return tracks, "instant by instant"
+    task.report("no end by instants: planning the order of moves without clocks")
     left = task.deadline.seconds_left()
+    distances = Distances(task.scenario.roadmap)
     steps = joint_steps(task.scenario, distances, seed=task.seed, time_limit=left)
-    return timetable_of(task.scenario, steps)
+    return timetable_of(task.scenario, steps), "order of moves first"
+
+
+def _by_events(task: Task, *, spreads: bool) -> list[Track] | None:
+    refuse_shared_ends(task.scenario)
+    try:
+        return plan_by_events(
+            task.scenario,
+            headway=planning_headway(task.scenario),
+            seed=task.seed,
+            most_effort=_patience(task.scenario),
+            time_limit=task.deadline.sooner(SHARE_OF_TIME).seconds_left(),
+            spreads=spreads,
+        )
+    except NoPlanExists:
+        refuse_the_impossible(task.scenario, Distances(task.scenario.roadmap))
+        raise
+
+
+def _patience(scenario: Scenario) -> int:
+    places = len(scenario.robots) * scenario.roadmap.n_vertices
+    return max(LEAST_EFFORT, EFFORT_PER_PLACE * places)
 
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:

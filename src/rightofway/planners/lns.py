@@ -12,12 +12,20 @@ large neighborhood search*, AAAI 2022.
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from dataclasses import replace
 
-from rightofway.planners.prioritized import first_plan, fleet_search
+from rightofway.errors import GaveUp
+from rightofway.model import Track
+from rightofway.planners.joint import plan_jointly
+from rightofway.planners.prioritized import fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task
 from rightofway.search import FleetSearch
 
 __all__ = ["lns"]
+
+SHARE = 0.7
+"""The part of the time that planning all together may take."""
 
 PATIENCE = 1000
 """After so many neighbourhoods per robot without a gain it ends."""
@@ -45,13 +53,36 @@ def lns(task: Task) -> Draft:
         If time ran out before there was a plan.
     """
     search = fleet_search(task)
-    tracks, origin = (
-        (task.start, "the plan given") if task.start else first_plan(task, search, "shortest")
-    )
+    tracks, origin = (task.start, "the plan given") if task.start else _first_plan(task, search)
     search.start(tracks)
     improvement = _Improvement(task, search)
     improvement.run()
     return Draft(tracks=search.tracks(), status=improvement.status(origin))
+
+
+def _first_plan(task: Task, search: FleetSearch) -> tuple[tuple[Track, ...], str]:
+    """Plan all robots together, which is quick, and one after another; take the better plan."""
+    together = _together(task)
+    in_turn = plan_in_turn(task, search, "shortest")
+    if in_turn is None:
+        if together is None:
+            raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
+        return together, "all together"
+    if together is None or _flowtime(search, in_turn[0]) <= _flowtime(search, together):
+        return in_turn
+    return together, "all together"
+
+
+def _together(task: Task) -> tuple[Track, ...] | None:
+    try:
+        return tuple(plan_jointly(replace(task, deadline=task.deadline.sooner(SHARE)))[0])
+    except GaveUp:
+        return None
+
+
+def _flowtime(search: FleetSearch, tracks: Sequence[Track]) -> int:
+    search.start(tracks)
+    return search.flowtime
 
 
 class _Improvement:

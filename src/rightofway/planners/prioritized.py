@@ -24,7 +24,7 @@ from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.search import Distances, FleetSearch
 
-__all__ = ["ORDERS", "first_plan", "fleet_search", "prioritized"]
+__all__ = ["ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
 
 SHARE_AT_OWN_SPEEDS, SHARE_AT_ONE_PACE = 0.3, 0.7
 """The parts of the time left that planning in turn gets, first so and then so."""
@@ -54,8 +54,13 @@ def prioritized(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    tracks, status = first_plan(task, fleet_search(task), task.options["order"])
-    return Draft(tracks=tracks, status=status)
+    found = plan_in_turn(task, fleet_search(task), task.options["order"])
+    if found is not None:
+        return Draft(tracks=found[0], status=found[1])
+    task.deadline.check("planning robots one after another")
+    tracks, _ = plan_jointly(task)
+    status = "all together, because robots one after another found no way"
+    return Draft(tracks=tuple(tracks), status=status)
 
 
 def fleet_search(task: Task) -> FleetSearch:
@@ -75,19 +80,15 @@ def fleet_search(task: Task) -> FleetSearch:
     return search
 
 
-def first_plan(task: Task, search: FleetSearch, order: str) -> tuple[tuple[Track, ...], str]:
-    """Plan robots in turn, or all together where that does not work out; say which.
+def plan_in_turn(
+    task: Task, search: FleetSearch, order: str
+) -> tuple[tuple[Track, ...], str] | None:
+    """Plan robots one after another, at their own speeds or else at one pace; say which.
 
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that there is no plan.
-    GaveUp
-        If time ran out.
+    None if that did not work out.
     """
     if _plan_in_turn(task, search, order, SHARE_AT_OWN_SPEEDS):
         return search.tracks(), "one after another"
-    task.deadline.check("planning robots one after another")
     paced = replace(task, scenario=_at_one_pace(task.scenario))
     search = FleetSearch(paced.scenario, headway=paced.scenario.timing.headway, seed=task.seed)
     if _plan_in_turn(paced, search, order, SHARE_AT_ONE_PACE):
@@ -96,11 +97,7 @@ def first_plan(task: Task, search: FleetSearch, order: str) -> tuple[tuple[Track
         arrivals = [track.enter.tolist() for track in tracks]
         found = timetable_in_order(task.scenario, visited, arrivals)
         return tuple(found), "one after another at one pace, each then at its own"
-    task.deadline.check("planning robots one after another")
-    return (
-        tuple(plan_jointly(task, Distances(task.scenario.roadmap))),
-        "all together, because robots one after another found no way",
-    )
+    return None
 
 
 def _plan_in_turn(task: Task, search: FleetSearch, order: str, share: float) -> bool:
