@@ -10,14 +10,23 @@ from typing import Any
 from rightofway.check import check
 from rightofway.errors import InputError, InvalidPlan
 from rightofway.model import Plan, PlannerRun, Scenario, Track
-from rightofway.planners import IMPROVER, Deadline, Draft, PlannerSpec, Task, find, registered
+from rightofway.planners import (
+    DEFAULT,
+    IMPROVER,
+    Deadline,
+    Draft,
+    PlannerSpec,
+    Task,
+    find,
+    registered,
+)
 
 __all__ = ["improve", "solve"]
 
 
 def solve(
     scenario: Scenario,
-    planner: str = "auto",
+    planner: str = DEFAULT,
     time_limit: float | None = 10,
     seed: int = 0,
     *,
@@ -31,7 +40,7 @@ def solve(
     scenario
         The problem.
     planner
-        Name of a planner; ``auto`` chooses.
+        Name of a planner.
     time_limit
         When to stop [s]; None for no limit.
     seed

@@ -37,7 +37,7 @@ robots:
 def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
     ended = cli("plan", door)
     assert ended.code == 0
-    assert "planner   two-level: waits only" in ended.out
+    assert "planner   auto: two-level, waits only; 2000 neighb" in ended.out
     assert "flowtime  19 ticks, 5.6% above the lower bound 18" in ended.out
     assert "R1 waits 1 tick in N0 at tick 0, for R2 to leave N1." in ended.out
     assert max(map(len, ended.out.splitlines())) <= 80
@@ -82,8 +82,8 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
     assert f"flowtime  {metrics['flowtime']} ticks, {metrics['gap']:.1%} above" in text
     assert f"makespan  {metrics['makespan']} ticks" in text
     assert data["planner"] == {
-        "name": "two-level", "options": {"swaps": "resolve", "routes": "clear"},
-        "seed": 0, "status": "waits only",
+        "name": "auto", "options": {"swaps": "resolve", "iterations": 0}, "seed": 0,
+        "status": "two-level, waits only; 2000 neighbourhoods found nothing better",
     }  # fmt: skip
     assert data["metrics"]["flowtime"] == 19
     assert data["robots"][0] == {"name": "R1", "completion": 10, "alone": 9, "waiting": 1}
@@ -107,9 +107,11 @@ def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> N
     assert Path("page.html").read_text(encoding="utf-8").startswith("<!doctype html>")
 
 
-def test_the_same_input_gives_the_same_bytes(cli: Cli) -> None:
+@pytest.mark.parametrize("more", [["--planner", "two-level"], ["--option", "iterations=500"]])
+def test_the_same_input_gives_the_same_bytes(cli: Cli, more: list[str]) -> None:
     for name in ("a", "b"):
-        cli("plan", EXAMPLES / "warehouse.yaml", "-o", f"{name}.json", "--show", f"{name}.html")
+        written = ["-o", f"{name}.json", "--show", f"{name}.html"]
+        cli("plan", EXAMPLES / "warehouse.yaml", *written, *more)
     for suffix in (".json", ".html"):
         assert Path(f"a{suffix}").read_bytes() == Path(f"b{suffix}").read_bytes()
 
@@ -194,7 +196,7 @@ def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Pa
     cli("plan", door, "-o", "plan.json")
     assert cli("show", "plan.json", "-o", "a.png", "--tick", "3", "--diagram").code == 0
     ended = cli("show", door, "-o", "a.gif")
-    assert "planned with two-level" in ended.err
+    assert "planned with auto: two-level, waits only" in ended.err
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
     assert Path("a.gif").read_bytes().startswith(b"GIF89a")
 

@@ -90,6 +90,7 @@ def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
 
 
 def test_without_time_it_gives_up() -> None:
+    many = random_fleet(1, size=64, robots=300)
     deadline = Deadline.after(0.0)
     with pytest.raises(GaveUp):
-        lns(Task(scenario=CROWDED, options={"iterations": 0}, deadline=deadline))
+        lns(Task(scenario=many, options={"iterations": 0}, deadline=deadline))

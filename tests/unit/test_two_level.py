@@ -8,11 +8,15 @@ import pytest
 
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Plan, Rules
+from rightofway.model import Plan, Rules, Scenario
 from tests.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
 DOOR = ["...", "@.@", "..."]
+
+
+def solve(scenario: Scenario, **options: str) -> Plan:
+    return rightofway.solve(scenario, "two-level", options=options)
 
 
 def rows(plan: Plan) -> dict[str, list[int]]:
@@ -31,7 +35,7 @@ def rows(plan: Plan) -> dict[str, list[int]]:
 
 
 def published(name: str) -> Plan:
-    return rightofway.solve(paper_scenario(CASES[name]), "two-level", options={"swaps": "leave"})
+    return solve(paper_scenario(CASES[name]), swaps="leave")
 
 
 @pytest.mark.parametrize("case", PAPER, ids=list(CASES))
@@ -64,7 +68,7 @@ def test_the_published_method_leaves_the_swap_of_door_5_and_the_judge_sees_it() 
 
 def test_door_5_without_a_swap_has_flowtime_32() -> None:
     """R1 waits two ticks in N6 until R2 has passed the door: 11 + 21."""
-    plan = rightofway.solve(paper_scenario(CASES["door-5"]))
+    plan = solve(paper_scenario(CASES["door-5"]))
     assert rows(plan)["R1"] == [0, 1, 4, 7, 6, 6, 6, 6, 7, 4, 1, 0]
     assert [int(track.enter[-1]) for track in plan.tracks] == [11, 21]
     decision = plan.run.decisions[0]
@@ -79,15 +83,13 @@ def test_door_5_without_a_swap_has_flowtime_32() -> None:
 def test_by_default_no_plan_has_a_fault(case: dict[str, Any], occupancy: Any) -> None:
     scenario = paper_scenario(case)
     rules = Rules(occupancy=occupancy)
-    plan = rightofway.solve(
-        rightofway.Scenario(roadmap=scenario.roadmap, robots=scenario.robots, rules=rules)
-    )
+    plan = solve(rightofway.Scenario(roadmap=scenario.roadmap, robots=scenario.robots, rules=rules))
     assert rightofway.check(plan).ok
 
 
 def test_robots_with_one_target_go_through_the_dead_end_one_after_the_other() -> None:
     """N0 and N2 both work at N7, behind the door: the second waits until the first is out."""
-    plan = rightofway.solve(grid_fleet(["...", "@.@", "@.@"], [("N0", "N7"), ("N2", "N7")]))
+    plan = solve(grid_fleet(["...", "@.@", "@.@"], [("N0", "N7"), ("N2", "N7")]))
     # Alone: 0 1 4 7 7 4 1 0, seven ticks. R2 leaves N1 at tick 7, then R1 may enter it.
     assert sorted(int(track.enter[-1]) for track in plan.tracks) == [7, 13]
     assert plan.run.status == "waits only"
@@ -96,7 +98,7 @@ def test_robots_with_one_target_go_through_the_dead_end_one_after_the_other() ->
 def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     """R1 works where R2 lives, in a corridor; R2 lets it pass twice from the bay next to it."""
     corridor = [".....", "@@@.@"]
-    plan = rightofway.solve(grid_fleet(corridor, [("N0", "N4"), ("N4", "N2")]))
+    plan = solve(grid_fleet(corridor, [("N0", "N4"), ("N4", "N2")]))
     assert rightofway.check(plan).ok
     assert plan.run.status == "re-routed R2"
     assert plan.scenario.roadmap.vertex("N8") in plan.tracks[1].vertices
@@ -105,7 +107,7 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
 
 def test_where_one_robot_at_a_time_finds_no_way_all_are_planned_together() -> None:
     """Each works where the other lives, in a corridor with one bay: both have to use the bay."""
-    plan = rightofway.solve(grid_fleet([".....", "@@.@@"], [("N0", "N4"), ("N4", "N0")]))
+    plan = solve(grid_fleet([".....", "@@.@@"], [("N0", "N4"), ("N4", "N0")]))
     assert rightofway.check(plan).ok
     assert plan.run.status == "re-routed all robots together"
 
@@ -115,7 +117,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
         raise GaveUp("time ran out")
 
     monkeypatch.setattr("rightofway.planners.giving_way.reroute", too_slow)
-    plan = rightofway.solve(paper_scenario(CASES["door-5"]))
+    plan = solve(paper_scenario(CASES["door-5"]))
     assert plan.run.status == "re-routed all robots together"
     assert plan.run.reroutes[0].because == "time was short, so all were planned together"
 
@@ -125,34 +127,34 @@ def test_where_there_is_no_plan_that_is_proven(occupancy: Any) -> None:
     """A corridor without a bay: nobody can pass."""
     rules = Rules(occupancy=occupancy)
     with pytest.raises(NoPlanExists, match="no order of moves"):
-        rightofway.solve(grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")], rules=rules))
+        solve(grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")], rules=rules))
 
 
 def test_a_full_ring_turns_only_where_rotations_are_allowed() -> None:
     ring, trips = ["..", ".."], [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
     allowed = Rules(ends="none", turn=Fraction(0))
-    plan = rightofway.solve(grid_fleet(ring, trips, rules=allowed))
+    plan = solve(grid_fleet(ring, trips, rules=allowed))
     assert [track.enter.tolist() for track in plan.tracks] == [[0, 1]] * 4
     with pytest.raises(NoPlanExists):
-        rightofway.solve(grid_fleet(ring, trips, rules=replace(allowed, rotations=False)))
+        solve(grid_fleet(ring, trips, rules=replace(allowed, rotations=False)))
 
 
 def test_the_published_method_says_where_it_is_stuck() -> None:
     """R2 stays at N2 for ever, where R1 has to pass on its way; the paper knows no other way."""
     scenario = grid_fleet(["...."], [("N0", "N3"), ("N1", "N2")], rules=Rules(ends="none"))
     with pytest.raises(GaveUp, match="waiting cannot keep R1 and R2 apart at N2"):
-        rightofway.solve(scenario, options={"swaps": "leave"})
+        solve(scenario, swaps="leave")
 
 
 def test_a_place_without_a_way_is_proven_impossible() -> None:
     with pytest.raises(NoPlanExists, match="R1 has no way from N0 to N2"):
-        rightofway.solve(grid_fleet([".@."], [("N0", "N2")]))
+        solve(grid_fleet([".@."], [("N0", "N2")]))
 
 
 def test_two_robots_cannot_end_at_one_place() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1"), ("N2", "N1")], rules=Rules(ends="none"))
     with pytest.raises(NoPlanExists, match="R1 and R2 would both have to stay at N1 for ever"):
-        rightofway.solve(scenario)
+        solve(scenario)
 
 
 def test_without_rotations_three_robots_in_a_ring_still_get_through() -> None:
@@ -160,4 +162,4 @@ def test_without_rotations_three_robots_in_a_ring_still_get_through() -> None:
     scenario = grid_fleet(
         ring, [("N0", "N1"), ("N1", "N3"), ("N3", "N2")], rules=Rules(ends="none", rotations=False)
     )
-    assert rightofway.check(rightofway.solve(scenario)).ok
+    assert rightofway.check(solve(scenario)).ok

@@ -10,7 +10,7 @@ from rightofway.cli.planning import (
     options_of_planning,
     refuse_bad_outputs,
 )
-from rightofway.cli.terminal import read_plan, say
+from rightofway.cli.terminal import progress, read_plan
 from rightofway.planners import IMPROVER, PlannerSpec
 
 __all__ = ["improve"]
@@ -50,8 +50,9 @@ def improve(
     from rightofway.solve import improve as make_better
 
     refuse_bad_outputs(plan, output, log=log, table=table, as_json=as_json)
-    found = make_better(
-        read_plan(plan), planner,
-        options=options, time_limit=time_limit, seed=seed, report=say,
-    )  # fmt: skip
+    first = read_plan(plan)
+    with progress() as report:
+        found = make_better(
+            first, planner, options=options, time_limit=time_limit, seed=seed, report=report
+        )
     return hand_over(found, output, page, log=log, table=table, as_json=as_json)

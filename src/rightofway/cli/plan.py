@@ -10,7 +10,8 @@ from rightofway.cli.planning import (
     options_of_planning,
     refuse_bad_outputs,
 )
-from rightofway.cli.terminal import read_scenario, say
+from rightofway.cli.terminal import progress, read_scenario
+from rightofway.planners import DEFAULT
 
 __all__ = ["plan"]
 
@@ -24,7 +25,7 @@ Examples:
 
 @click.command(cls=PlanningCommand, epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
-@options_of_planning("auto")
+@options_of_planning(DEFAULT)
 def plan(
     *,
     scenario: str,
@@ -45,8 +46,9 @@ def plan(
     from rightofway.solve import solve
 
     refuse_bad_outputs(scenario, output, log=log, table=table, as_json=as_json)
-    found = solve(
-        read_scenario(scenario), planner,
-        options=options, time_limit=time_limit, seed=seed, report=say,
-    )  # fmt: skip
+    problem = read_scenario(scenario)
+    with progress() as report:
+        found = solve(
+            problem, planner, options=options, time_limit=time_limit, seed=seed, report=report
+        )
     return hand_over(found, output, page, log=log, table=table, as_json=as_json)

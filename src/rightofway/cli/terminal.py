@@ -6,7 +6,8 @@ import io
 import json
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from rightofway.model import Plan, Scenario
 
 __all__ = [
+    "progress",
     "put",
     "put_json",
     "read_either",
@@ -27,6 +29,10 @@ __all__ = [
     "width",
     "writable",
 ]
+
+
+CLEAR = "\r\x1b[2K"
+"""Empties the line that the cursor is in."""
 
 
 def speak_utf8() -> None:
@@ -40,6 +46,18 @@ def speak_utf8() -> None:
 def say(message: str) -> None:
     """Tell the user something that is not the result."""
     click.echo(message, err=True)
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[str], None]]:
+    """Yield what shows a passing sentence in the last line of a terminal; elsewhere, nothing."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    try:
+        yield lambda message: click.echo(f"{CLEAR}{message[: width() - 1]}", err=True, nl=False)
+    finally:
+        click.echo(CLEAR, err=True, nl=False)
 
 
 def put(text: str) -> None:

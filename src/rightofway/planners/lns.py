@@ -16,13 +16,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
+from rightofway.metrics import completions_of
 from rightofway.model import Track
 from rightofway.planners.joint import plan_jointly
 from rightofway.planners.prioritized import fleet_search, plan_in_turn
-from rightofway.planners.task import Draft, Task
+from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
-__all__ = ["lns"]
+__all__ = ["FirstPlan", "improved", "lns"]
+
+FirstPlan = tuple[tuple[Track, ...], str]
+"""Tracks to improve on, and where they come from."""
 
 SHARE = 0.7
 """The part of the time that planning all together may take."""
@@ -53,36 +58,53 @@ def lns(task: Task) -> Draft:
         If time ran out before there was a plan.
     """
     search = fleet_search(task)
-    tracks, origin = (task.start, "the plan given") if task.start else _first_plan(task, search)
-    search.start(tracks)
-    improvement = _Improvement(task, search)
-    improvement.run()
-    return Draft(tracks=search.tracks(), status=improvement.status(origin))
+    if task.start is not None:
+        return _improve(task, search, (task.start, "the plan given"))
+    return improved(task, search)
 
 
-def _first_plan(task: Task, search: FleetSearch) -> tuple[tuple[Track, ...], str]:
-    """Plan all robots together, which is quick, and one after another; take the better plan."""
-    together = _together(task)
-    in_turn = plan_in_turn(task, search, "shortest")
-    if in_turn is None:
-        if together is None:
-            raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
-        return together, "all together"
-    if together is None or _flowtime(search, in_turn[0]) <= _flowtime(search, together):
-        return in_turn
-    return together, "all together"
+def improved(task: Task, search: FleetSearch, *, first: FirstPlan | None = None) -> Draft:
+    """Improve the best of several first plans, of one that is there already and of our own.
+
+    Raises
+    ------
+    NoPlanExists, GaveUp
+        As `lns`.
+    """
+    found = (first, _together(task), plan_in_turn(task, search, "shortest"))
+    plans = [plan for plan in found if plan is not None]
+    if not plans:
+        raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
+    best = min(plans, key=lambda plan: sum(completions_of(task.scenario, plan[0])))
+    return _improve(task, search, best)
 
 
-def _together(task: Task) -> tuple[Track, ...] | None:
+def _together(task: Task) -> FirstPlan | None:
+    """Plan all robots together; that is quick, and no worse than nothing."""
     try:
-        return tuple(plan_jointly(replace(task, deadline=task.deadline.sooner(SHARE)))[0])
+        tracks, _ = plan_jointly(replace(task, deadline=task.deadline.sooner(SHARE)))
     except GaveUp:
         return None
+    return tuple(tracks), "all together"
 
 
-def _flowtime(search: FleetSearch, tracks: Sequence[Track]) -> int:
-    search.start(tracks)
-    return search.flowtime
+def _improve(task: Task, search: FleetSearch, first: FirstPlan) -> Draft:
+    tracks, origin = first
+    search.start(_spaced(task, tracks))
+    improvement = _Improvement(task, search)
+    improvement.run()
+    found = search.tracks()
+    if sum(completions_of(task.scenario, found)) > sum(completions_of(task.scenario, tracks)):
+        found = tracks  # the headway of planning may cost more than was won
+    return Draft(tracks=found, status=improvement.status(origin))
+
+
+def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
+    """Return the tracks with the headway of planning, where that is more than the scenario's."""
+    headway = planning_headway(task.scenario)
+    if headway == task.scenario.timing.headway:
+        return tracks
+    return graph_of(task.scenario, tracks, headway=headway).tracks()
 
 
 class _Improvement:
@@ -92,14 +114,24 @@ class _Improvement:
         self.task, self.search = task, search
         self.bound = int(search.alone().sum())
         self.patience = PATIENCE * len(task.scenario.robots)
-        self.done = 0
+        self.first, self.done = search.flowtime, 0
+        self.was_interrupted = False
 
     @property
     def is_optimal(self) -> bool:
         return self.search.flowtime == self.bound
 
     def run(self) -> None:
-        """Improve until time, iterations or gains are used up, or nothing can be better."""
+        """Improve until time, iterations or gains are used up, or nothing can be better.
+
+        An interrupt ends it too: there is a plan to hand out.
+        """
+        try:
+            self._run()
+        except KeyboardInterrupt:
+            self.was_interrupted = True
+
+    def _run(self) -> None:
         iterations = self.task.options["iterations"] or UNLIMITED
         while not self.is_optimal and self.done < iterations:
             began, before = time.perf_counter(), self.done
@@ -119,7 +151,10 @@ class _Improvement:
         """Say what was done."""
         if self.is_optimal:
             return f"optimal: every robot as fast as alone (first plan: {origin})"
-        return f"improved by {self.done} neighbourhoods (first plan: {origin})"
+        ended = "interrupted: " if self.was_interrupted else ""
+        if self.search.flowtime == self.first:
+            return f"{ended}{origin}; {self.done} neighbourhoods found nothing better"
+        return f"{ended}improved by {self.done} neighbourhoods (first plan: {origin})"
 
     def _gap(self) -> str:
         return f"{self.search.flowtime / self.bound - 1:.2%} above the bound"

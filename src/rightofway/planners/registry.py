@@ -155,19 +155,31 @@ ROUTES = Choice(
     "Keep clear of others where that is no long way round, or take shortest routes.",
 )
 
+SWAPS = Choice(
+    "swaps",
+    ("resolve", "leave"),
+    "Keep robots that meet head-on apart, or do as published (on shortest routes).",
+)
+
+ITERATIONS = Count(
+    "iterations",
+    0,
+    0,
+    "How often some robots are planned anew at most; 0: as time and gains allow.",
+)
+
 PLANNERS = (
+    PlannerSpec(
+        "auto",
+        "rightofway.planners.auto:auto",
+        "The default: an answer at once, then a better one until time is up.",
+        (SWAPS, ITERATIONS),
+    ),
     PlannerSpec(
         "two-level",
         "rightofway.planners.two_level:two_level",
         "The paper's method: right of way by collisions left, then by work achieved sooner.",
-        (
-            Choice(
-                "swaps",
-                ("resolve", "leave"),
-                "Keep robots that meet head-on apart, or do as published (on shortest routes).",
-            ),
-            ROUTES,
-        ),
+        (SWAPS, ROUTES),
     ),
     PlannerSpec(
         "lacam",
@@ -226,23 +238,15 @@ PLANNERS = (
         "lns",
         "rightofway.planners.lns:lns",
         "Better and better plans until time is up: a few robots at a time are planned anew.",
-        (
-            Count(
-                "iterations",
-                0,
-                0,
-                "How often some robots are planned anew at most; 0: as time and gains allow.",
-            ),
-        ),
+        (ITERATIONS,),
         improves=True,
     ),
 )
 
-DEFAULT = "two-level"
-"""What ``auto`` stands for."""
+DEFAULT = "auto"
+"""What plans where no planner is named."""
 
-
-IMPROVER = "local-search"
+IMPROVER = "lns"
 """What makes a plan better where no planner is named."""
 
 
@@ -255,7 +259,7 @@ def registered() -> dict[str, PlannerSpec]:
 
 
 def find(name: str) -> PlannerSpec:
-    """Return the planner of that name; ``auto`` is the default.
+    """Return the planner of that name.
 
     Raises
     ------
@@ -263,10 +267,9 @@ def find(name: str) -> PlannerSpec:
         If there is none; names the nearest.
     """
     specs = registered()
-    wanted = DEFAULT if name == "auto" else name
-    if wanted not in specs:
-        raise InputError.at("planner", _unknown(name, "rightofway", ["auto", *specs]))
-    return specs[wanted]
+    if name not in specs:
+        raise InputError.at("planner", _unknown(name, "rightofway", list(specs)))
+    return specs[name]
 
 
 def _unknown(name: str, owner: str, known: list[str]) -> str:
