@@ -12,7 +12,11 @@ from pathlib import Path
 
 import pytest
 
+import rightofway
+from rightofway.io import save_scenario
+from rightofway.model import Rules
 from tests.cli.conftest import Cli
+from tests.fleets import random_fleet
 
 
 def test_standard_input_is_read_for_a_dash(door: Path) -> None:
@@ -71,6 +75,22 @@ def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
         f"format: rightofway-scenario/1\nmap:\n  grid: |\n{rows}\nrobots:\n{robots}\n",
         encoding="utf-8",
     )
+    ended, out, err = interrupted(tmp_path, "many.yaml", "--planner", "two-level", after=2)
+    assert (ended, out, err) == (130, "", "interrupted\n")
+    assert not (tmp_path / "plan.json").exists()
+
+
+def test_an_interrupt_while_a_plan_gets_better_hands_out_the_best_so_far(tmp_path: Path) -> None:
+    problem = random_fleet(1, size=20, robots=40, rules=Rules(occupancy="both"))
+    save_scenario(problem, tmp_path / "fleet.yaml")
+    ended, out, err = interrupted(tmp_path, "fleet.yaml", "--time-limit", "inf", after=5)
+    assert (ended, err) == (0, "wrote plan.json\n")
+    assert "interrupted: improved by" in " ".join(out.split())
+    assert rightofway.check(rightofway.load_plan(tmp_path / "plan.json")).ok
+
+
+def interrupted(where: Path, scenario: str, *more: str, after: float) -> tuple[int, str, str]:
+    """Plan to a file, interrupt that after some seconds, and return how it ended."""
     # Python itself would answer an interrupt while it still imports the package; and whoever runs
     # the tests in the background has interrupts ignored, which children inherit.
     code = (
@@ -79,16 +99,15 @@ def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
         "print(); sys.exit(run(sys.argv[1:]))"
     )
     process = subprocess.Popen(
-        [sys.executable, "-uc", code, "plan", "many.yaml", "-o", "plan.json"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path, text=True,
+        [sys.executable, "-uc", code, "plan", scenario, "-o", "plan.json", *more],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=where, text=True,
     )  # fmt: skip
     assert process.stdout is not None
     assert process.stdout.readline() == "\n"
-    time.sleep(2)
+    time.sleep(after)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
-    assert (process.returncode, out, err.strip()) == (130, "", "interrupted")
-    assert not (tmp_path / "plan.json").exists()
+    return process.returncode, out, err
 
 
 def test_help_imports_nothing_heavy() -> None:

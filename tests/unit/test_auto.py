@@ -1,0 +1,56 @@
+"""The default planner: several methods, the best of them, and better."""
+
+from __future__ import annotations
+
+import pytest
+
+import rightofway
+from rightofway.metrics import measure
+from rightofway.model import Rules
+from tests.fleets import grid_fleet, random_fleet
+
+CROWDED = random_fleet(3, size=9, robots=12, rules=Rules(occupancy="both"))
+
+
+def test_it_is_the_default() -> None:
+    assert rightofway.solve(grid_fleet(["..."], [("N0", "N2")])).run.name == "auto"
+
+
+@pytest.mark.parametrize("other", ["two-level", "lacam", "prioritized"])
+def test_it_is_no_worse_than_what_it_starts_from(other: str) -> None:
+    plan = rightofway.solve(CROWDED, options={"iterations": 100})
+    assert measure(plan).flowtime <= measure(rightofway.solve(CROWDED, other)).flowtime
+
+
+def test_where_nothing_better_is_found_the_decisions_of_two_level_are_kept() -> None:
+    door = rightofway.load("examples/door.yaml")
+    plan, two_level = rightofway.solve(door), rightofway.solve(door, "two-level")
+    assert plan.run.decisions == two_level.run.decisions
+    assert plan.run.status == "two-level, waits only; 2000 neighbourhoods found nothing better"
+
+
+def test_a_proven_optimum_ends_it() -> None:
+    plan = rightofway.solve(rightofway.load("examples/floor.yaml"), time_limit=None)
+    assert plan.run.status.startswith("optimal: every robot as fast as alone")
+
+
+def test_a_large_fleet_is_not_held_up_by_two_level() -> None:
+    plan = rightofway.solve(random_fleet(1, size=32, robots=90), options={"iterations": 10})
+    assert "two-level" not in plan.run.status
+    assert rightofway.check(plan).ok
+
+
+def test_the_published_method_is_at_hand() -> None:
+    door_5 = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
+    plan = rightofway.solve(door_5, options={"swaps": "leave"})
+    assert plan.run.status == "waits only"
+
+
+def test_without_rotations_its_plans_have_none() -> None:
+    rules = Rules(rotations=False)
+    for seed in (24, 29, 112):
+        fleet = random_fleet(seed, size=6, robots=9, walls=0.05, rules=rules)
+        plan = rightofway.solve(fleet, options={"iterations": 200})
+        assert rightofway.check(plan).ok
+        first = rightofway.solve(fleet, "two-level")
+        assert measure(plan).flowtime <= measure(first).flowtime
