@@ -1,0 +1,41 @@
+"""What one robot repeats: its visits from home past its stops and home again, without an end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rightofway.model.units import Tick, VertexId
+
+__all__ = ["Lap"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lap:
+    """The visits of one lap; after the last one the first comes again.
+
+    Attributes
+    ----------
+    vertices
+        Where each visit is; the first is at home.
+    dwell
+        How long each visit lasts at least, without the drive that follows: at a stop the work and
+        the turn, at home the turn between two laps [ticks].
+    drive
+        Ticks of the edge driven into each visit; into the first: from the last one.
+    """
+
+    vertices: tuple[VertexId, ...]
+    dwell: tuple[Tick, ...]
+    drive: tuple[Tick, ...]
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    @property
+    def duration(self) -> Tick:
+        """How long a lap lasts that nobody holds up [ticks]."""
+        return Tick(sum(self.dwell) + sum(self.drive))
+
+    def least(self, visit: int) -> Tick:
+        """Return the least ticks from a visit's enter to the next one's."""
+        return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
