@@ -10,6 +10,12 @@ from rightofway.precedence.event_graph import (
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
 from rightofway.precedence.periodic import PeriodicTimetable, unrolled
 from rightofway.precedence.segments import Segment, crossing, shared_segment
+from rightofway.precedence.sensitivity import (
+    Sensitivity,
+    cycle_time_without,
+    sensitivity,
+    tight_arcs,
+)
 
 __all__ = [
     "Arcs",
@@ -19,10 +25,14 @@ __all__ = [
     "PeriodicTimetable",
     "PrecedenceGraph",
     "Segment",
+    "Sensitivity",
     "critical_circuit",
     "crossing",
+    "cycle_time_without",
     "event_graph",
     "graph_of",
+    "sensitivity",
     "shared_segment",
+    "tight_arcs",
     "unrolled",
 ]
