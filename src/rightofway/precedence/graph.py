@@ -148,6 +148,18 @@ class PrecedenceGraph:
         robots = [self._robot[visit] for visit in self._kernel.cycle().tolist()]
         return [robot for robot, _ in groupby(reversed(robots))]
 
+    def deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
+        """Return the rights of way that made the last one impossible, by closing a circle with it.
+
+        None if there was another reason.
+        """
+        circle = self._kernel.cycle().tolist()
+        return [
+            (one - 1, other)
+            for one, other in pairwise(circle)
+            if self._robot[one] != self._robot[other]
+        ]
+
     def keep_order(self, when: Sequence[Sequence[int]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.
 
