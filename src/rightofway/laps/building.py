@@ -1,4 +1,4 @@
-"""A first timetable: one robot after another finds its place on the circle, then as many laps as fit.
+"""A first timetable: one robot after another finds its place, then as many laps as fit.
 
 Whoever stands in the way of a robot that finds no place is taken off and has to look again. Where
 that comes to no end, the period is too short.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from fractions import Fraction
+from heapq import heapify, heappop, heappush
 
 from rightofway.errors import GaveUp
 from rightofway.laps.shift import Choice, Shift, Work
@@ -31,7 +31,7 @@ def build(shift: Shift, period: int) -> Choice:
     GaveUp
         If none was found, or time ran out.
     """
-    longest = max(map(shift.alone, range(len(shift.robots))))
+    longest = max(shift.alone)
     period = max(period, longest)
     while period <= LONGEST * max(longest, len(shift.robots)):
         placed = _placed(shift, period)
@@ -44,7 +44,7 @@ def build(shift: Shift, period: int) -> Choice:
 def _placed(shift: Shift, period: int) -> tuple[Circle, list[Work]] | None:
     """Give every robot one lap in the period; None if that comes to no end."""
     circle, works = shift.circle(period), dict[int, Work]()
-    order = sorted(range(len(shift.robots)), key=lambda place: -shift.alone(place))
+    order = sorted(range(len(shift.robots)), key=lambda place: -shift.alone[place])
     queue = deque(order)
     for _ in range(MOST_ROUNDS * len(order)):
         if not queue:
@@ -64,9 +64,7 @@ def _placed(shift: Shift, period: int) -> tuple[Circle, list[Work]] | None:
     return None if queue else (circle, [works[place] for place in range(len(order))])
 
 
-def _in_the_way(
-    shift: Shift, circle: Circle, place: int, works: dict[int, Work]
-) -> int | None:
+def _in_the_way(shift: Shift, circle: Circle, place: int, works: dict[int, Work]) -> int | None:
     """Return a robot to take off, so that another finds its place; None if nobody is left."""
     lap = shift.draw.choice(shift.ways[place])
     circle.search(lap, 1, shift.draw.randrange(int(circle.period)))
@@ -80,29 +78,38 @@ def _add(circle: Circle, works: dict[int, Work], place: int, work: Work) -> None
 
 
 def filled(shift: Shift, circle: Circle, works: list[Work]) -> Choice:
-    """Let robots make more laps as long as there is room; who makes least of its own comes first."""
+    """Let robots make more laps as long as there is room, first who makes least of its own."""
     for place in _behind(shift, circle, works):
         work = works[place]
         circle.remove(place)
-        more = shift.place(circle, place, work.count + 1, lap=work.lap)
-        if more is None and len(shift.ways[place]) > 1:
-            more = shift.place(circle, place, work.count + 1, tries=1)
+        more = _more(shift, circle, place, work)
         works[place] = more or work
         circle.add(place, works[place].lap, works[place].count, works[place].enter)
     return shift.tightened(shift.timetable(works, int(circle.period)))
 
 
+def _more(shift: Shift, circle: Circle, place: int, work: Work) -> Work | None:
+    """Find room for half as many laps again, or for one more; on the same way, or on any."""
+    most = int(circle.period) // shift.alone[place]
+    many = min(work.count + max(work.count // 2, 1), most)
+    for count in dict.fromkeys((many, work.count + 1)):
+        more = shift.place(circle, place, count, lap=work.lap)
+        if more is not None:
+            return more
+    return shift.place(circle, place, work.count + 1, tries=1) if shift.has_ways(place) else None
+
+
 def _behind(shift: Shift, circle: Circle, works: list[Work]) -> Iterator[int]:
     """Yield whose turn it is to get one more lap, until nobody did since its last turn."""
-    waiting = set(range(len(works)))
-    while waiting and shift.deadline.seconds_left() != 0:
-        place = min(waiting, key=lambda one: (_part(shift, circle, works, one), one))
-        before = works[place].count
-        if (before + 1) * shift.alone(place) <= circle.period:
+    turns = [
+        (work.count * alone, place)
+        for place, (work, alone) in enumerate(zip(works, shift.alone, strict=True))
+    ]
+    heapify(turns)
+    while turns and shift.deadline.seconds_left() != 0:
+        _, place = heappop(turns)
+        before, alone = works[place].count, shift.alone[place]
+        if (before + 1) * alone <= circle.period:
             yield place
-        if works[place].count == before:
-            waiting.discard(place)
-
-
-def _part(shift: Shift, circle: Circle, works: list[Work], place: int) -> Fraction:
-    return Fraction(works[place].count * shift.alone(place), int(circle.period))
+        if works[place].count > before:
+            heappush(turns, (works[place].count * alone, place))

@@ -1,4 +1,4 @@
-"""A group of robots whose timetable is to be chosen: their ways, what a lap is worth, what is fair."""
+"""A group whose timetable is to be chosen: ways, what a lap is worth, what is fair."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,9 +85,14 @@ class Shift:
     deadline: Deadline
     draw: random.Random
 
-    def alone(self, place: int) -> Tick:
-        """Return how long the shortest lap of a robot takes that nobody holds up [ticks]."""
-        return Tick(min(lap.duration for lap in self.ways[place]))
+    @cached_property
+    def alone(self) -> tuple[Tick, ...]:
+        """How long the shortest lap of each robot takes that nobody holds up [ticks]."""
+        return tuple(min(lap.duration for lap in ways) for ways in self.ways)
+
+    def has_ways(self, place: int) -> bool:
+        """Tell whether a robot has more than one way to choose from."""
+        return len(self.ways[place]) > 1
 
     def worth(self, counts: Sequence[int]) -> Fraction:
         """Return what the laps of a period are worth."""
@@ -102,7 +108,8 @@ class Shift:
     def fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
         """Return the least part of its laps alone that any robot makes."""
         return min(
-            Fraction(count * self.alone(place)) / period for place, count in enumerate(counts)
+            Fraction(count * alone) / period
+            for count, alone in zip(counts, self.alone, strict=True)
         )
 
     def is_fair(self, counts: Sequence[int], period: Fraction | int) -> bool:
@@ -136,7 +143,7 @@ class Shift:
     def place(
         self, circle: Circle, place: int, count: int, *, lap: Lap | None = None, tries: int = 3
     ) -> Work | None:
-        """Return a way round the circle for one robot, on one of its laps; None if none is found."""
+        """Return a way round the circle for a robot, on one of its laps; None if none is found."""
         ways = [lap] if lap else self.draw.sample(self.ways[place], len(self.ways[place]))
         for way in ways:
             for _ in range(tries):

@@ -31,9 +31,7 @@ class Circle:
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     """
 
-    def __init__(
-        self, n_vertices: int, period: Tick, *, headway: Tick, books_ahead: bool
-    ) -> None:
+    def __init__(self, n_vertices: int, period: Tick, *, headway: Tick, books_ahead: bool) -> None:
         self.period = period
         self._kernel = _core.Circle(n_vertices, int(period), int(headway), books_ahead)
         self._users: defaultdict[int, set[int]] = defaultdict(set)
@@ -68,8 +66,6 @@ class Circle:
         Complete for this lap, but from a home that nobody else visits: then it stays there until
         the phase, and None says nothing about others.
         """
-        if count * lap.duration > self.period:
-            return None
         enter = self._kernel.search(*_round(lap, count), phase, time_limit)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
 
