@@ -23,8 +23,17 @@ LONGEST = 64
 """How many times as long as the longest lap the period may become."""
 
 
-def build(shift: Shift, period: int) -> Choice:
-    """Return a timetable with a period of at least so many ticks.
+def build(shift: Shift, period: int, *, filling: Shift | None = None) -> Choice:
+    """Return a timetable.
+
+    Parameters
+    ----------
+    shift
+        Who is to find a place, and until when.
+    period
+        Its period is at least so many ticks.
+    filling
+        The same, with another deadline for more than one lap each.
 
     Raises
     ------
@@ -36,7 +45,7 @@ def build(shift: Shift, period: int) -> Choice:
     while period <= LONGEST * max(longest, len(shift.robots)):
         placed = _placed(shift, period)
         if placed is not None:
-            return filled(shift, *placed)
+            return filled(filling or shift, *placed)
         period = period * 5 // 4 + 1
     raise GaveUp("no timetable was found in which all robots have a place")
 

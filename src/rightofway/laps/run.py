@@ -17,7 +17,7 @@ from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 
-__all__ = ["ROUTES", "run_laps"]
+__all__ = ["ROUTES", "run_group", "run_laps"]
 
 ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
@@ -81,7 +81,7 @@ def run_laps(
             deadline=deadline.sooner(len(group) / left),
         )
         left -= len(group)
-        found[index] = _run_group(task, group, rule)
+        found[index] = run_group(task, group, rule)
     return LapsRun(
         scenario=scenario,
         rule=rule,
@@ -95,7 +95,8 @@ def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
         raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")
 
 
-def _run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
+def run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
+    """Let one group repeat its round trips until its pattern repeats; see `run_laps`."""
     ground = Ground(
         task=task,
         group=group,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +90,10 @@ class Shift:
     def alone(self) -> tuple[Tick, ...]:
         """How long the shortest lap of each robot takes that nobody holds up [ticks]."""
         return tuple(min(lap.duration for lap in ways) for ways in self.ways)
+
+    def until(self, deadline: Deadline) -> Self:
+        """Return the same with another deadline."""
+        return replace(self, deadline=deadline)
 
     def has_ways(self, place: int) -> bool:
         """Tell whether a robot has more than one way to choose from."""

@@ -4,68 +4,17 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Literal
 
-import numpy as np
-
-from rightofway.errors import GaveUp, InputError
-from rightofway.laps.building import build
-from rightofway.laps.endless import Endless, endless_routes
+from rightofway.errors import InputError
+from rightofway.laps.choosing import GroupTimetable, choose
+from rightofway.laps.endless import endless_routes
 from rightofway.laps.groups import independent_groups
-from rightofway.laps.improving import improve
-from rightofway.laps.outcome import GroupRun
-from rightofway.laps.run import run_group
-from rightofway.laps.shift import Choice, Shift, Work
-from rightofway.model import Lap, Scenario, Tick
+from rightofway.laps.shift import Shift
+from rightofway.model import Lap, Scenario, VertexId
 from rightofway.planners import Deadline, planning_headway
-from rightofway.precedence import EventGraph, PeriodicTimetable, unrolled
 
-__all__ = ["GroupTimetable", "best_timetable"]
-
-FIRST_COME_SHARE, BUILDING_SHARE = 0.25, 0.4
-"""Parts of the time left that may go into the rival, and then into first timetables."""
-
-LONGEST_PERIOD = 5
-"""First timetables have periods of at most so many of the longest laps."""
-
-KEPT = 3
-"""How many first timetables are improved a little, before one of them is chosen."""
-
-MOST_VISITS = 100_000
-"""A cycle time that is a fraction becomes whole in more periods, up to so many visits."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class GroupTimetable:
-    """The timetable chosen for a group of robots that have to do with each other.
-
-    Attributes
-    ----------
-    timetable
-        Laps, how many each robot makes in a period, and when.
-    worth
-        What the laps of a period are worth in all; without weights: how many there are.
-    fairness
-        The least part of its laps alone that any robot makes, 0 to 1.
-    first_come_ends
-        How first come first served ends on the usual ways: as in `GroupRun`.
-    first_come
-        What its laps are worth per tick: of its pattern, or of the laps that were seen; 0 in a
-        deadlock.
-    """
-
-    timetable: PeriodicTimetable
-    worth: Fraction
-    fairness: Fraction
-    first_come_ends: Literal["repeats", "deadlock", "open"]
-    first_come: Fraction
-
-    @property
-    def throughput(self) -> Fraction:
-        """What its laps are worth per tick."""
-        return self.worth / int(self.timetable.period)
+__all__ = ["best_timetable"]
 
 
 def best_timetable(
@@ -121,7 +70,7 @@ def best_timetable(
     _refuse(scenario, weights, least_fairness, time_limit, rounds)
     deadline = Deadline.after(time_limit)
     groups = independent_groups(endless_routes(scenario))
-    others = _other_ways(scenario)
+    others = [one.lap for one in endless_routes(scenario, "shortest")]
     taken = {vertex for group in groups for one in group for vertex in one.lap.vertices}
     found: dict[int, GroupTimetable] = {}
     left = len(scenario.robots)
@@ -142,7 +91,7 @@ def best_timetable(
             draw=random.Random(f"{seed} {index}"),  # noqa: S311 (no secret depends on it)
         )
         left -= len(group)
-        found[index] = _choose(scenario, group, shift, rounds)
+        found[index] = choose(scenario, group, shift, rounds=rounds)
         taken |= {v for lap in found[index].timetable.laps for v in lap.vertices}
     return [found[index] for index in range(len(groups))]
 
@@ -166,30 +115,8 @@ def _refuse(
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
 
 
-def _other_ways(scenario: Scenario) -> list[Lap]:
-    return [one.lap for one in endless_routes(scenario, "shortest")]
-
-
-def _ways(usual: Lap, other: Lap, taken: set[int]) -> tuple[Lap, ...]:
+def _ways(usual: Lap, other: Lap, taken: set[VertexId]) -> tuple[Lap, ...]:
     """Return the laps a robot may take: not through places of other groups."""
     if other == usual or taken.intersection(other.vertices):
         return (usual,)
     return usual, other
-
-
-def _choose(
-    scenario: Scenario, group: Sequence[Endless], shift: Shift, rounds: int | None
-) -> GroupTimetable:
-    if len(group) == 1:
-        alone = _alone(shift)
-        return _told(shift, alone, "repeats", shift.worth((1,)) / alone.period)
-    share = shift.deadline.sooner(FIRST_COME_SHARE)
-    rival = run_group(scenario, group, "first-come", share)
-    worth = _worth(shift, rival)
-    starts = _starts(shift, rival, rounds)
-    best = max((improve(shift, start, steps=rounds) for start in starts), key=shift.value)
-    whole = _whole(shift, best)
-    if rival.timetable is not None and worth > shift.worth(whole.counts) / int(whole.period):
-        if shift.is_fair(rival.timetable.counts, int(rival.timetable.period)):
-            whole = rival.timetable
-    return _told(shift, whole, rival.ends, worth)
