@@ -64,9 +64,7 @@ def _placed(shift: Shift, period: int) -> tuple[Circle, list[Work]] | None:
     return None if queue else (circle, [works[place] for place in range(len(order))])
 
 
-def _in_the_way(
-    shift: Shift, circle: Circle, place: int, works: dict[int, Work]
-) -> int | None:
+def _in_the_way(shift: Shift, circle: Circle, place: int, works: dict[int, Work]) -> int | None:
     """Return a robot to take off, so that another finds its place; None if nobody is left."""
     lap = shift.draw.choice(shift.ways[place])
     circle.search(lap, 1, shift.draw.randrange(int(circle.period)))

@@ -31,9 +31,7 @@ class Circle:
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     """
 
-    def __init__(
-        self, n_vertices: int, period: Tick, *, headway: Tick, books_ahead: bool
-    ) -> None:
+    def __init__(self, n_vertices: int, period: Tick, *, headway: Tick, books_ahead: bool) -> None:
         self.period = period
         self._kernel = _core.Circle(n_vertices, int(period), int(headway), books_ahead)
         self._users: defaultdict[int, set[int]] = defaultdict(set)
