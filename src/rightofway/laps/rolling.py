@@ -66,7 +66,7 @@ class Rolling:
         least = self._longest if rule in FAR_SIGHTED else -(-self._longest // 4)
         pace = min(duration for duration in durations if duration >= least)
         self._pacemaker = durations.index(pace)
-        self._lag = pace
+        self._lag: int = pace
         self._usual = 3 * pace
         self._seen: dict[Hashable, int] = {}
         self._past: deque[_Moment] = deque(maxlen=MEMORY)
