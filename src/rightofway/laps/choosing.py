@@ -14,6 +14,7 @@ from rightofway.errors import GaveUp
 from rightofway.laps.building import build
 from rightofway.laps.endless import Endless
 from rightofway.laps.improving import improve
+from rightofway.laps.jointly import jointly
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.run import run_group
 from rightofway.laps.shift import Choice, Shift, Work
@@ -42,6 +43,9 @@ MOST_VISITS = 20_000
 """A cycle time that is a fraction becomes whole in more periods, up to so many visits."""
 
 
+FirstComeEnds = Literal["repeats", "starves", "deadlock", "open"]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GroupTimetable:
     """The timetable chosen for a group of robots that have to do with each other.
@@ -55,7 +59,8 @@ class GroupTimetable:
     fairness
         The least part of its laps alone that any robot makes, 0 to 1.
     first_come_ends
-        How first come first served ends on the usual ways: as in `GroupRun`.
+        How first come first served ends on the usual ways: as in `GroupRun`, or ``starves`` if it
+        repeats for ever while a robot stands still.
     first_come
         What its laps are worth per tick: of its pattern, or of the laps that were seen; 0 in a
         deadlock.
@@ -64,7 +69,7 @@ class GroupTimetable:
     timetable: PeriodicTimetable
     worth: Fraction
     fairness: Fraction
-    first_come_ends: Literal["repeats", "deadlock", "open"]
+    first_come_ends: FirstComeEnds
     first_come: Fraction
 
     @property
@@ -98,12 +103,17 @@ def choose(
         alone = _alone(shift)
         return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
     rival = _rival(scenario, group, shift)
-    ends, worth, pattern = rival.ends, _worth(shift, rival), rival.timetable
+    worth, pattern = _worth(shift, rival), rival.timetable
+    starves = rival.ends == "repeats" and pattern is None
+    ends: FirstComeEnds = "starves" if starves else rival.ends
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
     starts = list(_first_timetables(shift, rounds))
     if pattern is not None and is_fair:
         starts.append(shift.tightened(pattern))
-    if not starts:
+    if not starts and (together := jointly(scenario, shift)):
+        shift = shift.also(together.timetable.laps)
+        starts = [together]
+    if not starts or not shift.is_fair(starts[0].timetable.counts, starts[0].cycle_time):
         raise GaveUp(_nothing(shift))
     whole = _whole(shift, _improved(shift, starts, rounds))
     if pattern is not None and is_fair and worth > _value(shift, whole):
@@ -185,7 +195,7 @@ def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:
 def _told(
     shift: Shift,
     timetable: PeriodicTimetable,
-    ends: Literal["repeats", "deadlock", "open"],
+    ends: FirstComeEnds,
     first_come: Fraction,
 ) -> GroupTimetable:
     return GroupTimetable(

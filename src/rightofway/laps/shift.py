@@ -66,6 +66,8 @@ class Shift:
         The numbers of the robots.
     ways
         For each of them the laps to choose from; the first is the usual one.
+    forbidden
+        Vertices of other groups.
     weights
         What a lap of each is worth, above 0.
     least_fairness
@@ -81,6 +83,7 @@ class Shift:
     books_ahead: bool
     robots: tuple[int, ...]
     ways: tuple[tuple[Lap, ...], ...]
+    forbidden: frozenset[int]
     weights: tuple[Fraction, ...]
     least_fairness: Fraction
     deadline: Deadline
@@ -94,6 +97,11 @@ class Shift:
     def until(self, deadline: Deadline) -> Self:
         """Return the same with another deadline."""
         return replace(self, deadline=deadline)
+
+    def also(self, laps: Sequence[Lap]) -> Self:
+        """Return the same with one more way for each robot."""
+        ways = zip(self.ways, laps, strict=True)
+        return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
 
     def has_ways(self, place: int) -> bool:
         """Tell whether a robot has more than one way to choose from."""

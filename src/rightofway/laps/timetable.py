@@ -85,6 +85,7 @@ def best_timetable(
             books_ahead=scenario.rules.books_ahead,
             robots=tuple(one.robot for one in group),
             ways=tuple(_ways(one.lap, others[one.robot], taken) for one in group),
+            forbidden=frozenset(taken),
             weights=tuple(weights[one.robot] if weights else Fraction(1) for one in group),
             least_fairness=least_fairness,
             deadline=deadline.sooner(len(group) / left),
