@@ -4,22 +4,31 @@ Each fleet's laps per tick under a timetable chosen in a few seconds, by those u
 rule that comes to a standstill, or leaves a robot standing for ever, has no laps to compare with
 and is counted apart; one that does not repeat in its time is compared by the laps that were seen.
 
-Run ``python -m benchmarks.timetables``, or with the numbers of robots to look at.
+``just timetables`` measures anew and writes the table of README.md beside this file, in some
+minutes; ``python -m benchmarks.timetables 8`` prints the rows of fleets of eight robots.
 """
 
 from __future__ import annotations
 
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from statistics import median
 
-from rightofway.errors import InputError
 from rightofway.laps import LapsRun, best_timetable, run_laps, run_of
 from rightofway.model import Scenario
 from tests.fleets import random_fleet
+
+PAGE = Path(__file__).with_name("README.md")
+MARKED = re.compile(r"^(<!-- timetables -->\n\n)(?:\|.*\n)*", re.MULTILINE)
+HEADING = (
+    "| robots | rule | how it ends | least ratio | median | greatest | its fairness | ours |",
+    "| ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |",
+)
 
 RULES = ("first-come", "two-level", "fixed-order")
 SIDE = {4: 6, 8: 8, 16: 12, 32: 20}
@@ -100,22 +109,21 @@ def table(robots: int) -> Iterator[str]:
             f"{median(row.fairness for row in against):.2f} | "
             f"{median(row.own_fairness for row in against):.2f}"
             if ratios
-            else "– | – | – | – | –"
+            else "- | - | - | - | -"
         )
         yield f"| {robots} | `{rule}` | {ends} | {figures} |"
 
 
 def main() -> None:
-    """Print the table."""
-    print("| robots | rule | how it ends | least ratio | median | greatest | its fairness | ours |")
-    print("| ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")
-    for robots in map(int, sys.argv[1:] or map(str, SIDE)):
-        for line in table(robots):
-            print(line, flush=True)
+    """Write the table between its marks, or print rows for some numbers of robots."""
+    if sys.argv[1:]:
+        sys.stdout.writelines(f"{line}\n" for n in map(int, sys.argv[1:]) for line in table(n))
+        return
+    lines = [line for robots in SIDE for line in table(robots)]
+    text = PAGE.read_text(encoding="utf-8")
+    rows = "".join(f"{line}\n" for line in (*HEADING, *lines))
+    PAGE.write_text(MARKED.sub(lambda found: found[1] + rows, text), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except InputError as error:
-        sys.exit(str(error))
+    main()
