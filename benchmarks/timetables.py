@@ -31,9 +31,9 @@ HEADING = (
 )
 
 RULES = ("first-come", "two-level", "fixed-order")
-SIDE = {4: 6, 8: 8, 16: 12, 32: 20}
-FLEETS = 20
-CHOOSING, RUNNING = 3.0, 2.0
+SIDE = {4: 6, 8: 8, 16: 12}
+FLEETS = 12
+CHOOSING, RUNNING = 2.0, 1.0
 """Seconds for a timetable, and for each rule."""
 
 
