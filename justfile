@@ -75,6 +75,10 @@ gaps:
 laps *args:
     python -m benchmarks.laps_study {{ args }}
 
+# How much a chosen timetable wins over rules: the table of benchmarks/README.md (minutes)
+timetables:
+    python -m benchmarks.timetables
+
 # Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
 priorities *args:
     python -m benchmarks.compare_priorities {{ args }}

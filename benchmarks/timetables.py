@@ -19,6 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 from statistics import median
 
+from rightofway.errors import GaveUp
 from rightofway.laps import LapsRun, best_timetable, run_laps, run_of
 from rightofway.model import Scenario
 from tests.fleets import random_fleet
@@ -69,8 +70,11 @@ def fairness(run: LapsRun) -> float:
 
 
 def rows(scenario: Scenario) -> dict[str, Row]:
-    """Compare one fleet's timetable with all rules."""
-    chosen = run_of(scenario, best_timetable(scenario, time_limit=CHOOSING))
+    """Compare one fleet's timetable with all rules; nothing if it has none."""
+    try:
+        chosen = run_of(scenario, best_timetable(scenario, time_limit=CHOOSING))
+    except GaveUp:
+        return {}
     return {rule: _row(scenario, rule, chosen) for rule in RULES}
 
 
@@ -97,7 +101,7 @@ def _ends(run: LapsRun) -> str:
 
 def table(robots: int) -> Iterator[str]:
     """Yield a line of the table for each rule."""
-    compared = [rows(scenario) for scenario in fleets(robots)]
+    compared = [found for scenario in fleets(robots) if (found := rows(scenario))]
     for rule in RULES:
         own = [row[rule] for row in compared]
         ratios = sorted(row.ratio for row in own if row.ratio is not None)
