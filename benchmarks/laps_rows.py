@@ -57,7 +57,9 @@ def fleet(size: int, robots: int, speeds: str, seed: int) -> Scenario:
             Robot(
                 name=f"R{robot + 1}",
                 home=VertexId(places[2 * robot]),
-                stops=(Stop(at=VertexId(places[2 * robot + 1]), work=Fraction(draw.randint(0, 5))),),
+                stops=(
+                    Stop(at=VertexId(places[2 * robot + 1]), work=Fraction(draw.randint(0, 5))),
+                ),
                 speed=Fraction(SPEEDS[speeds][draw.randrange(3) % len(SPEEDS[speeds])]),
             )
             for robot in range(robots)
