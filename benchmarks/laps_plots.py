@@ -23,6 +23,9 @@ COLOURS = dict(zip(RULES, ("#0072b2", "#d55e00", "#009e73"), strict=True))
 
 CASES = ("door-2", "cross-2")
 
+LEAST = 0.1
+"""Where shorter times are drawn, nothing too."""
+
 
 def draw_all(rows: Sequence[Row], folder: Path = IMAGES) -> None:
     """Write all plots."""
@@ -59,7 +62,7 @@ def _first_laps(name: str) -> Figure:
         axes.axvline(tick, color="#888888", linestyle=":")
     axes.set_xlabel("time [ticks]; thick: waits; dotted: a period begins")
     axes.set_ylabel("visits since home")
-    axes.legend(frameon=False, loc="upper right")
+    figure.legend(frameon=False, loc="outside upper center", ncols=2)
     axes.spines[["top", "right"]].set_visible(False)
     return figure
 

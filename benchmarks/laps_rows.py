@@ -21,7 +21,7 @@ FLEETS = ((8, 3), (8, 6), (16, 12))
 """Sides of the grid, and how many robots."""
 
 SPEEDS = {"equal": ("1",), "own": ("1", "1/2", "1/3")}
-SEEDS = 60
+SEEDS = 40
 SECONDS = 1
 
 
