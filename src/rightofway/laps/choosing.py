@@ -18,6 +18,7 @@ from rightofway.laps.jointly import jointly
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.run import run_group
 from rightofway.laps.shift import Choice, Shift, Work
+from rightofway.laps.windows import windows
 from rightofway.model import Scenario, Tick
 from rightofway.planners import Task
 from rightofway.precedence import PeriodicTimetable, unrolled
@@ -26,6 +27,9 @@ __all__ = ["GroupTimetable", "choose"]
 
 RIVAL_SHARE = 0.2
 """The part of its time that a group may take to see what first come first served does."""
+
+CUTTING_SHARE, CUT = 0.1, 3
+"""The part of what is left that goes into timetables cut out of that run; how many are kept."""
 
 BUILDING_SHARE = 0.4
 """The part of what is left then that goes into first timetables."""
@@ -113,7 +117,7 @@ def choose(
     starves = rival.ends == "repeats" and pattern is None
     ends: FirstComeEnds = "starves" if starves else rival.ends
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
-    starts = list(_first_timetables(shift, rounds))
+    starts = [*_cut(shift, rival), *_first_timetables(shift, rounds)]
     if pattern is not None and is_fair:
         starts.append(shift.tightened(pattern))
     if not starts and (together := jointly(scenario, shift)):
@@ -149,6 +153,15 @@ def _rival(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> GroupR
         deadline=shift.deadline.sooner(RIVAL_SHARE),
     )
     return run_group(task, group, "first-come")
+
+
+def _cut(shift: Shift, run: GroupRun) -> list[Choice]:
+    """Return the best timetables cut out of a run."""
+    if not all(run.mean_laps()):
+        return []
+    part = shift.until(shift.deadline.sooner(CUTTING_SHARE))
+    fair = [w for w in windows(part, run) if shift.is_fair(w.timetable.counts, w.cycle_time)]
+    return sorted(fair, key=shift.value, reverse=True)[:CUT]
 
 
 def _worth(shift: Shift, run: GroupRun) -> Fraction:
