@@ -1,9 +1,9 @@
 """Timetables cut out of a run: some laps of each robot, closed to a circle.
 
 A run that does not repeat itself in any reasonable time still makes good use of the floor. Cut out
-of it are all laps between two ticks; behind the last of them the first come again. At first nobody
-sets out before all are home. The orders do not ask for that, so the cycle time is close to how
-long the window is, and a lap's worth of loss at the seam weighs the less, the longer it is.
+of it are all laps between two ticks, and the time between becomes a circle. Most robots keep their
+times. Those that meet others at the seam look for another place, with a lap or two less if need
+be; and then whoever finds room makes more.
 """
 
 from __future__ import annotations
@@ -11,9 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
+from rightofway.laps.building import filled
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.shift import Choice, Shift, Work
+from rightofway.search import Circle
 
 __all__ = ["windows"]
 
@@ -29,7 +32,10 @@ MOST_VISITS = 60_000
 
 def windows(shift: Shift, run: GroupRun) -> Iterator[Choice]:
     """Yield timetables cut out of a run, all that are possible; ends when time is over."""
-    homes = [np.array(past)[:: len(lap)] for past, lap in _laps(run)]
+    homes = [
+        np.array(past, np.int64)[:: len(endless.lap)]
+        for past, endless in zip(run.history, run.group, strict=True)
+    ]
     known, longest = min(int(home[-1]) for home in homes), max(shift.alone)
     for length in LENGTHS:
         latest = known - length * longest
@@ -42,36 +48,42 @@ def windows(shift: Shift, run: GroupRun) -> Iterator[Choice]:
                 yield found
 
 
-def _laps(run: GroupRun) -> Iterator[tuple[tuple[int, ...], range]]:
-    for past, endless in zip(run.history, run.group, strict=True):
-        yield past, range(len(endless.lap))
-
-
 def _window(
-    shift: Shift, run: GroupRun, homes: list[np.ndarray], begins: int, ends: int
+    shift: Shift, run: GroupRun, homes: list[NDArray[np.int64]], begins: int, ends: int
 ) -> Choice | None:
-    """Return the timetable of the laps between two ticks; None if that is none."""
-    first = [max(int(np.searchsorted(home, begins)), 1) for home in homes]
-    last = [int(np.searchsorted(home, ends, side="right")) - 1 for home in homes]
-    if any(b <= a for a, b in zip(first, last, strict=True)):
-        return None
-    if sum((b - a) * len(e.lap) for a, b, e in zip(first, last, run.group, strict=True)) > (
-        MOST_VISITS
-    ):
-        return None
-    begin = min(int(home[a]) for home, a in zip(homes, first, strict=True))
-    end = max(int(home[b]) for home, b in zip(homes, last, strict=True))
-    drives = max(max(endless.lap.drive) for endless in run.group)
-    period = end - begin + int(shift.headway) + int(drives)
+    """Return a timetable of the laps between two ticks; None if some robot finds no place."""
     works = []
-    for past, endless, a, b in zip(run.history, run.group, first, last, strict=True):
-        n = len(endless.lap)
-        enter = np.array(past[a * n : b * n], np.int64) - begin
-        works.append(Work(endless.lap, b - a, enter))
-    circle = shift.circle(period)
-    try:
-        for place, work in enumerate(works):
-            circle.add(place, work.lap, work.count, work.enter)
-    except ValueError:  # somebody passes a home while its robot now waits there for the others
+    for past, endless, home in zip(run.history, run.group, homes, strict=True):
+        n, first = len(endless.lap), max(int(np.searchsorted(home, begins)), 1)
+        last = max(int(np.searchsorted(home, ends, side="right")) - 1, first + 1)
+        enter = np.array(past[first * n : last * n], np.int64) - begins
+        works.append(Work(endless.lap, last - first, enter))
+    if sum(len(work.enter) for work in works) > MOST_VISITS:
         return None
-    return shift.tightened(shift.timetable(works, period))
+    circle = shift.circle(ends - begins)
+    return filled(shift, circle, works) if _joined(shift, circle, works) else None
+
+
+def _joined(shift: Shift, circle: Circle, works: list[Work]) -> bool:
+    """Put all on the circle, others than these where they overlap; false if that is impossible."""
+    late = []
+    for place in shift.draw.sample(range(len(works)), len(works)):
+        try:
+            circle.add(place, works[place].lap, works[place].count, works[place].enter)
+        except ValueError:
+            late.append(place)
+    for place in late:
+        found = _elsewhere(shift, circle, place, works[place])
+        if found is None:
+            return False
+        works[place] = found
+        circle.add(place, found.lap, found.count, found.enter)
+    return True
+
+
+def _elsewhere(shift: Shift, circle: Circle, place: int, work: Work) -> Work | None:
+    for count in range(work.count, 0, -1):
+        found = shift.place(circle, place, count, tries=1)
+        if found is not None:
+            return found
+    return None
