@@ -28,10 +28,10 @@ __all__ = ["GroupTimetable", "choose"]
 RIVAL_SHARE = 0.2
 """The part of its time that a group may take to see what first come first served does."""
 
-CUTTING_SHARE, CUT = 0.1, 3
+CUTTING_SHARE, CUT = 0.25, 2
 """The part of what is left that goes into timetables cut out of that run; how many are kept."""
 
-BUILDING_SHARE = 0.4
+BUILDING_SHARE = 0.3
 """The part of what is left then that goes into first timetables."""
 
 MANY, FILLING_SHARE = 300, 0.6
@@ -46,7 +46,7 @@ TRYING_SHARE = 0.5
 LONGEST_PERIOD = 5
 """First timetables have periods of at most so many of the longest laps."""
 
-KEPT = 4
+KEPT = 3
 """How many first timetables are improved a little, before one of them is gone on with."""
 
 MOST_VISITS = 20_000
