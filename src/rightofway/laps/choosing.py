@@ -28,6 +28,9 @@ __all__ = ["GroupTimetable", "choose"]
 RIVAL_SHARE = 0.2
 """The part of its time that a group may take to see what first come first served does."""
 
+OTHERS_SHARE = 0.05
+"""The part of what is left that each other rule may take."""
+
 CUTTING_SHARE, CUT = 0.25, 2
 """The part of what is left that goes into timetables cut out of that run; how many are kept."""
 
@@ -112,12 +115,13 @@ def choose(
     if len(group) == 1:
         alone = _alone(shift)
         return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
-    rival = _rival(scenario, group, shift)
+    rival = _run(scenario, group, shift, "first-come", RIVAL_SHARE)
     worth, pattern = _worth(shift, rival), rival.timetable
     starves = rival.ends == "repeats" and pattern is None
     ends: FirstComeEnds = "starves" if starves else rival.ends
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
-    starts = [*_cut(shift, rival), *_first_timetables(shift, rounds)]
+    others = _by_other_rules(scenario, group, shift)
+    starts = [*others, *_cut(shift, rival), *_first_timetables(shift, rounds)]
     if pattern is not None and is_fair:
         starts.append(shift.tightened(pattern))
     if not starts and (together := jointly(scenario, shift)):
@@ -145,14 +149,29 @@ def _alone(shift: Shift) -> PeriodicTimetable:
     return shift.timetable([Work(lap, 1, enter)], int(lap.duration))
 
 
-def _rival(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> GroupRun:
-    """Let the group go on by first come first served."""
+def _run(
+    scenario: Scenario, group: Sequence[Endless], shift: Shift, rule: str, share: float
+) -> GroupRun:
+    """Let the group go on by a rule."""
     task = Task(
         scenario=scenario,
         options={"swaps": "resolve"},
-        deadline=shift.deadline.sooner(RIVAL_SHARE),
+        deadline=shift.deadline.sooner(share),
     )
-    return run_group(task, group, "first-come")
+    return run_group(task, group, rule)
+
+
+def _by_other_rules(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> Iterator[Choice]:
+    """Yield the patterns of the other rules that are soon found; where time is not limited, none.
+
+    Nothing says that a pattern is found at all, and these are no rivals but one more chance.
+    """
+    if shift.deadline.at is None or len(group) > MANY:
+        return
+    for rule in ("two-level", "fixed-order"):
+        found = _run(scenario, group, shift, rule, OTHERS_SHARE).timetable
+        if found is not None and shift.is_fair(found.counts, int(found.period)):
+            yield shift.tightened(found)
 
 
 def _cut(shift: Shift, run: GroupRun) -> list[Choice]:
