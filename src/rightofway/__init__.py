@@ -23,6 +23,7 @@ from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
 from rightofway.solve import improve, solve
 
 if TYPE_CHECKING:
+    from rightofway.floor import Outcome, simulate
     from rightofway.io import load, load_plan, save_plan
     from rightofway.metrics import Metrics, measure, waits
     from rightofway.viz import write_gif, write_page, write_png
@@ -31,10 +32,12 @@ __version__ = "0.1.0"
 
 _LATER = {
     "Metrics": "metrics",
+    "Outcome": "floor",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
     "save_plan": "io",
+    "simulate": "floor",
     "waits": "metrics",
     "write_gif": "viz",
     "write_page": "viz",
@@ -48,6 +51,7 @@ __all__ = [
     "InvalidPlan",
     "Metrics",
     "NoPlanExists",
+    "Outcome",
     "Plan",
     "Report",
     "RightOfWayError",
@@ -62,6 +66,7 @@ __all__ = [
     "load_plan",
     "measure",
     "save_plan",
+    "simulate",
     "solve",
     "waits",
     "write_gif",
