@@ -14,6 +14,9 @@ __all__ = ["report"]
 MOST_SOURCES = 8
 """Places where lateness began that are shown; --json has them all."""
 
+LEAST_SHOWN = 0.05
+"""Ticks of lateness that are not shown as 0.0."""
+
 
 def report(outcome: Outcome) -> str:
     """Return what collided, how late everybody was, and where that came from."""
@@ -23,17 +26,20 @@ def report(outcome: Outcome) -> str:
 def _head(outcome: Outcome) -> Iterator[str]:
     late = outcome.lateness
     yield _row("runs", f"{outcome.runs} with {', '.join(outcome.delays)}; seed {outcome.seed}")
-    yield _row("in order", _in_order(outcome))
-    yield _row("by clock", _by_clock(outcome))
+    yield _row("right of way", _in_order(outcome))
+    yield _row("by the clock", _by_clock(outcome))
     yield _row("late", _spread(late.all))
-    yield _row("flowtime", f"later by {_spread(late.flowtime)}")
-    yield _row("makespan", f"later by {_spread(late.makespan)}")
-    if outcome.broken or outcome.stranded:
+    if late.flowtime.mean is not None:
+        yield _row("flowtime", f"later by {_spread(late.flowtime)}")
+        yield _row("makespan", f"later by {_spread(late.makespan)}")
+    if outcome.switches:
+        yield _row("switching", f"{outcome.switches / outcome.runs:.1f} times a run")
+    if outcome.broken:
         yield _row("broken", _broken(outcome))
 
 
 def _row(key: str, text: str) -> str:
-    return textwrap.fill(text, COLUMNS, initial_indent=f"{key:10}", subsequent_indent=" " * 10)
+    return textwrap.fill(text, COLUMNS, initial_indent=f"{key:14}", subsequent_indent=" " * 14)
 
 
 def _in_order(outcome: Outcome) -> str:
@@ -56,7 +62,7 @@ def _by_clock(outcome: Outcome) -> str:
 
 def _spread(spread: Spread) -> str:
     if spread.mean is None:
-        return "an unknown time: never did everybody complete"
+        return "nobody ever completes"
     return (
         f"{spread.mean:.1f} ticks on average; median {spread.median:g},"
         f" 90 % {spread.p90:g}, 95 % {spread.p95:g}, most {spread.max}"
@@ -64,8 +70,14 @@ def _spread(spread: Spread) -> str:
 
 
 def _broken(outcome: Outcome) -> str:
-    per_run = f"{outcome.broken / outcome.runs:.2f} robots a run break down"
-    return f"{per_run}, {outcome.stranded / outcome.runs:.2f} wait for them for ever"
+    parts = [
+        (outcome.broken, "robots a run break down"),
+        (outcome.stranded, "wait for them for ever"),
+        (outcome.cut_off, "are cut off from a place"),
+        (outcome.replans, "new plans"),
+    ]
+    shown = parts if outcome.replans else parts[:2]
+    return ", ".join(f"{number / outcome.runs:.2f} {what}" for number, what in shown)
 
 
 def _robots(outcome: Outcome) -> Iterator[str]:
@@ -80,9 +92,13 @@ def _robots(outcome: Outcome) -> Iterator[str]:
             yield f"{short(names[number]):{width}}  never completes"
             continue
         times = f"{spread.mean:<7.1f}  {spread.p95:<5g}  {spread.max:<4}  {robot.own:<5.1f}"
-        waiting = [f"{short(names[other])} {late:.1f}" for other, late in robot.waiting.items()]
+        waiting = [
+            f"{short(names[other])} {late:.1f}"
+            for other, late in robot.waiting.items()
+            if late >= LEAST_SHOWN
+        ]
         line = f"{short(names[number]):{width}}  {times}  {', '.join(waiting[:3])}"
-        yield textwrap.shorten(line, COLUMNS, placeholder=" …") if len(line) > COLUMNS else line
+        yield line.rstrip() if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
     if len(robots) > len(shown):
         yield f"… and {len(robots) - len(shown)} more, who are less late"
 

@@ -58,8 +58,25 @@ Examples:
     metavar="N",
     help="What delays are drawn from.",
 )
+@click.option(
+    "--switch",
+    is_flag=True,
+    help="Switch rights of way on the way, where that is expected to help.",
+)
+@click.option(
+    "--replan", is_flag=True, help="Plan what is left anew when a robot breaks down for ever."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON.")  # fmt: skip
-def simulate(plan: str, delays: tuple[str, ...], runs: int, seed: int, as_json: bool) -> int:
+def simulate(
+    *,
+    plan: str,
+    delays: tuple[str, ...],
+    runs: int,
+    seed: int,
+    switch: bool,
+    replan: bool,
+    as_json: bool,
+) -> int:
     """Run a PLAN on a floor where robots are late.
 
     By right of way robots keep the order of the plan at every place, and forget its clock: they
@@ -69,7 +86,9 @@ def simulate(plan: str, delays: tuple[str, ...], runs: int, seed: int, as_json: 
     from rightofway.floor import DEFAULT
     from rightofway.floor import simulate as run_on_the_floor
 
-    outcome = run_on_the_floor(read_plan(plan), delays or DEFAULT, runs, seed)
+    outcome = run_on_the_floor(
+        read_plan(plan), delays or DEFAULT, runs, seed, switch=switch, replan=replan
+    )
     if as_json:
         put_json(outcome.as_dict())
     else:

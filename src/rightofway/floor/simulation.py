@@ -10,16 +10,17 @@ import numpy as np
 
 from rightofway.check import check
 from rightofway.errors import InputError
+from rightofway.floor.care import Care
 from rightofway.floor.delays import DEFAULT, hazards_of, read_delays
 from rightofway.floor.outcome import Collisions, Outcome
 from rightofway.floor.tally import Tally
-from rightofway.model import Plan, Track
+from rightofway.model import Plan
 from rightofway.precedence import NEVER, DelayedPlan
 
 __all__ = ["simulate"]
 
-CHUNK = 1 << 22
-"""Visits that are run at a time."""
+CHUNK = 1 << 20
+"""Visits that are run at a time; after each time limit and Ctrl-C are looked at."""
 
 
 def simulate(
@@ -28,6 +29,8 @@ def simulate(
     runs: int = 1000,
     seed: int = 0,
     *,
+    switch: bool = False,
+    replan: bool = False,
     time_limit: float | None = None,
 ) -> Outcome:
     """Run a plan many times with delays: by right of way, and by the clock to compare.
@@ -43,8 +46,12 @@ def simulate(
         How many runs.
     seed
         Run k of a seed meets the same delays, however many runs there are.
+    switch
+        Whether rights of way are switched while the plan runs, where that is expected to help.
+    replan
+        Whether what is left is planned anew when a robot breaks down for ever.
     time_limit
-        When no more runs are begun [s].
+        When no more runs are begun [s]; one is run in any case.
 
     Returns
     -------
@@ -67,16 +74,17 @@ def simulate(
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
     causes = read_delays(delays, plan.scenario)
     floor = DelayedPlan(plan.scenario, plan.tracks, hazards_of(causes, plan.scenario))
+    care = Care(switch=switch, replan=replan)
     tally = Tally(floor)
+    chunk = 1 if care else max(CHUNK // len(floor.vertex), 1)
     end = None if time_limit is None else time.monotonic() + time_limit
-    chunk = max(CHUNK // len(floor.vertex), 1)
     for first in range(0, runs, chunk):
-        left = None if end is None else max(end - time.monotonic(), 0.0)
-        tally.add(floor.runs(seed, first, min(chunk, runs - first), left))
-
-    def actual(run: int) -> tuple[Track, ...]:
-        return floor.split(floor.execute(floor.setbacks(seed, run)).enter)
-
+        if care:
+            care.run(floor, seed, first, tally)
+        else:
+            tally.add(floor.runs(seed, first, min(chunk, runs - first)))
+        if end is not None and time.monotonic() > end:
+            break
     stuck = np.zeros(len(plan.tracks), bool)
     stuck[floor.deadlocked()] = True
     unfinished = tally.completion == NEVER
@@ -89,10 +97,13 @@ def simulate(
         by_clock=Collisions.of(tally.by_clock),
         deadlocks=tally.runs if stuck.any() else 0,
         broken=int(tally.is_broken.sum()),
-        stranded=int((unfinished & ~tally.is_broken & ~stuck).sum()),
+        stranded=int((unfinished & ~tally.is_broken & ~stuck).sum()) - tally.cut_off,
+        cut_off=tally.cut_off,
+        switches=tally.switches,
+        replans=tally.replans,
         lateness=tally.lateness(),
         completion=np.where(unfinished, -1, tally.completion),
-        _actual=actual,
+        _actual=lambda run: care.tracks(floor, seed, run),
     )
 
 

@@ -26,12 +26,16 @@ class Tally:
     def __init__(self, floor: DelayedPlan) -> None:
         self._floor = floor
         self._parts: list[Runs] = []
+        self.cut_off = self.switches = self.replans = 0
         ends = floor.first_visit[1:] - 1
         self._planned = floor.planned[ends] + floor.dwell[ends]
 
-    def add(self, runs: Runs) -> None:
-        """Count more runs."""
+    def add(self, runs: Runs, *, cut_off: int = 0, switches: int = 0, replans: int = 0) -> None:
+        """Count more runs, and in all of them robots cut off, switches and new plans."""
         self._parts.append(runs)
+        self.cut_off += cut_off
+        self.switches += switches
+        self.replans += replans
 
     @property
     def runs(self) -> int:

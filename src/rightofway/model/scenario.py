@@ -48,7 +48,9 @@ class Scenario:
         problems = [*_rule_problems(self), *_fleet_problems(self)]
         if problems:
             raise InputError(problems)
-        object.__setattr__(self, "timing", timing_of(self.roadmap, self.robots, self.rules, self.clock))
+        object.__setattr__(
+            self, "timing", timing_of(self.roadmap, self.robots, self.rules, self.clock)
+        )
 
 
 def _rule_problems(scenario: Scenario) -> Iterator[Problem]:
