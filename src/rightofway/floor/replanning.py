@@ -17,6 +17,7 @@ from math import prod
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.floor.standing import Rest
 from rightofway.model import Plan, Roadmap, Robot, Scenario, Stage, Stop, VertexId
+from rightofway.search import Distances, joint_steps
 from rightofway.solve import solve
 
 __all__ = ["Anew", "plan_the_rest"]
@@ -79,6 +80,8 @@ def plan_the_rest(rest: Rest, seed: int) -> Anew | None:
     for tried in islice(_attempts(roadmap, rest, seed), MOST_TRIES):
         with suppress(NoPlanExists, GaveUp):
             scenario = _scenario(rest, roadmap, tried.stages, tried.parking)
+            if tried.parking:  # most of many ways are impossible, and this tells soonest
+                joint_steps(scenario, Distances(roadmap), seed=seed, time_limit=SECONDS)
             return Anew(plan=solve(scenario, PLANNER, SECONDS, seed), cut_off=tried.cut_off)
     return None
 

@@ -171,11 +171,11 @@ class _Stand:
 
 def _served(route: Route, stages: Sequence[Stage]) -> list[int]:
     """Return the visit that serves each stage; the dwell of a route is made of their times."""
-    visit, spare, serves = 0, list(route.dwell), []
+    visit, last, spare, serves = 0, len(route) - 1, list(route.dwell), []
     for stage in stages[:-1]:
         need = stage.work + stage.turn
-        while route.vertices[visit] != stage.vertex or spare[visit] < need:
+        while visit < last and (route.vertices[visit] != stage.vertex or spare[visit] < need):
             visit += 1
         spare[visit] = Tick(spare[visit] - need)
         serves.append(visit)
-    return [*serves, len(route) - 1]
+    return [*serves, last]
