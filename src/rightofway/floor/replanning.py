@@ -104,10 +104,30 @@ def _attempts(roadmap: Roadmap, rest: Rest, seed: int) -> Iterator[_Attempt]:
     for count in range(len(others) + 1):
         for more in combinations(others, count):
             parked = frozenset(cut_off.union(more))
+            if parked and not _could_finish_alone(roadmap, rest, stages, parked, seed):
+                continue  # nor could they with the others in their way
             idle = [[] if robot in parked else kept for robot, kept in enumerate(stages)]
-            for todo in [stages, idle] if parked else [stages]:
+            for todo in [stages, idle] if idle != stages else [stages]:
                 for parking in _parkings(roadmap, rest, todo, parked, seed):
                     yield _Attempt(cut_off=parked, stages=todo, parking=parking)
+
+
+def _could_finish_alone(
+    roadmap: Roadmap, rest: Rest, stages: Stages, parked: frozenset[int], seed: int
+) -> bool:
+    """Tell whether the other robots could finish if those that are to be parked were gone."""
+    whole = _scenario(rest, roadmap, stages, {})
+    staying = tuple(robot for r, robot in enumerate(whole.robots) if r not in parked)
+    if not staying:
+        return True
+    try:
+        fewer = replace(whole, robots=staying)
+        joint_steps(fewer, Distances(roadmap), seed=seed, time_limit=SECONDS)
+    except NoPlanExists:
+        return False
+    except GaveUp:
+        pass
+    return True
 
 
 def _within_reach(roadmap: Roadmap, at: int, left: Sequence[Stage]) -> list[Stage]:
