@@ -68,9 +68,11 @@ def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
         if now > HORIZON * max(int(floor.planned.max()), _last(happens.enter)):
             break
         outlook = _Outlook(floor, happens, now, expected)
-        expected = outlook.best()
-        before = order_of(floor.vertex, expected)
+        expected = outlook.times()
+        outlook.flip()
+        before = order_of(floor.vertex, outlook.times())
         if not np.array_equal(before, floor.before) and outlook.allows(before):
+            expected = outlook.times()
             floor = floor.reordered(before)
             happens = floor.execute(setbacks)
             switches += 1
@@ -122,13 +124,14 @@ class _Outlook:
         overdue = self.now - began - least
         return least if overdue < 0 else least + 2 * overdue + 1
 
-    def best(self) -> Times:
-        """Return when visits are expected to begin after flips that lower the flowtime."""
-        search = Search(
-            Task(scenario=self.floor.scenario), self.graph, lambda visit: not self.begun[visit]
-        )
-        search.descend()
+    def times(self) -> Times:
+        """Return when visits are expected to begin."""
         return np.concatenate([track.enter for track in self.graph.tracks()])
+
+    def flip(self) -> None:
+        """Flip rights of way that have not been used, as long as that lowers the flowtime."""
+        task = Task(scenario=self.floor.scenario)
+        Search(task, self.graph, lambda visit: not self.begun[visit]).descend()
 
     def allows(self, before: NDArray[np.int32]) -> bool:
         """Tell whether nobody who has begun would have to wait for somebody who has not."""
