@@ -59,7 +59,8 @@ def main() -> None:
     for axes in (left, right):
         axes.grid(alpha=0.25)
         axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(frameon=False, fontsize=8)
+    left.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1, 0.04))
+    right.legend(frameon=False, fontsize=8)
     figure.tight_layout()
     figure.savefig(PLOT, metadata={"Software": None})
 

@@ -42,6 +42,9 @@ __all__ = ["switched"]
 HORIZON = 2
 """Who breaks down is given up at this multiple of the plan's makespan, or of what came last."""
 
+LOOKS = 400
+"""A robot is news when it is late by this part of the makespan, and by a usual visit at least."""
+
 Times = NDArray[np.int64]
 
 
@@ -60,7 +63,7 @@ def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
     floor, switches
         The plan with the order in which visits really took place, and how often it was changed.
     """
-    patience = max(int(np.median(floor.dwell + floor.drive)), 1)
+    patience = max(int(np.median(floor.dwell + floor.drive)), _last(floor.planned) // LOOKS, 1)
     expected, now, switches = floor.planned, -1, 0
     happens = floor.execute(setbacks)
     while (news := _next_news(happens.enter, expected + patience, now)) is not None:
