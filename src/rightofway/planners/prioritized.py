@@ -88,6 +88,7 @@ def plan_in_turn(
     None if that did not work out.
     """
     if _plan_in_turn(task, search, order, SHARE_AT_OWN_SPEEDS):
+        task.has_plan()
         return search.tracks(), "one after another"
     paced = replace(task, scenario=_at_one_pace(task.scenario))
     search = FleetSearch(paced.scenario, headway=paced.scenario.timing.headway, seed=task.seed)
@@ -96,6 +97,7 @@ def plan_in_turn(
         visited = [track.vertices.tolist() for track in tracks]
         arrivals = [track.enter.tolist() for track in tracks]
         found = timetable_in_order(task.scenario, visited, arrivals)
+        task.has_plan()
         return tuple(found), "one after another at one pace, each then at its own"
     return None
 
