@@ -7,27 +7,9 @@ namespace rightofway {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr std::int32_t stages_between_questions = 64;
 constexpr std::int64_t effort_between_questions = 4096;
 
 }  // namespace
-
-SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over) {
-    for (RobotId r = 0; r < trips.n_robots(); ++r) {
-        VertexId place = trips.home[r];
-        for (std::int32_t s = trips.first_stage[r]; s < trips.first_stage[r + 1]; ++s) {
-            const StepTables::TableId table = tables.table_of(trips.stage_vertex[s]);
-            if (tables.steps(table, place) == StepTables::unreachable) {
-                return SearchEnd::proven_none;
-            }
-            if ((s + 1) % stages_between_questions == 0 && is_over()) {
-                return SearchEnd::stopped;
-            }
-            place = trips.stage_vertex[s];
-        }
-    }
-    return SearchEnd::found;
-}
 
 EventLacam::EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
                        std::uint64_t seed)

@@ -29,9 +29,6 @@ struct Tracks {
     std::vector<Tick> enter;
 };
 
-// Whether every robot, if it were alone, could go through all of its stages: `found` if so.
-SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over);
-
 class EventLacam {
   public:
     // Borrows everything.

@@ -62,8 +62,7 @@ def plan_jointly(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]
         return tracks, "instant by instant"
     task.report("no end by instants: planning the order of moves without clocks")
     left = task.deadline.seconds_left()
-    distances = Distances(task.scenario.roadmap)
-    steps = joint_steps(task.scenario, distances, seed=task.seed, time_limit=left)
+    steps = joint_steps(task.scenario, seed=task.seed, time_limit=left)
     tracks = timetable_of(task.scenario, steps)
     task.has_plan()
     return tracks, "order of moves first"
