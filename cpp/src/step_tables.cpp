@@ -18,15 +18,24 @@ namespace rightofway {
 namespace {
 
 constexpr StepTables::TableId none = -1;
-constexpr std::size_t cells_per_line = 32;
-constexpr std::size_t first_block_cells = std::size_t{1} << 19;
-constexpr std::size_t most_block_cells = std::size_t{1} << 25;
+constexpr std::size_t first_block_size = std::size_t{1} << 20;
+constexpr std::size_t most_block_size = std::size_t{1} << 26;
+// Vertices of one line are at most so far from its first one.
+constexpr std::int32_t line_radius = 15;
 constexpr std::int32_t most_steps = std::numeric_limits<std::uint16_t>::max() - 1;
 constexpr std::size_t legs_between_questions = 64;
 constexpr std::size_t least_for_a_thread = 16;
 
-constexpr std::size_t whole_lines(std::size_t cells) {
-    return (cells + cells_per_line - 1) / cells_per_line * cells_per_line;
+// Whether some edge does not lead back.
+bool has_one_way(const Graph& graph) {
+    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
+        for (const VertexId head : graph.heads(v)) {
+            if (graph.edge(head, v) < 0) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 // Robots read from all over their tables: with small pages, most of the time goes to finding these.
@@ -45,11 +54,12 @@ void ask_for_large_pages([[maybe_unused]] void* block, [[maybe_unused]] std::siz
 }  // namespace
 
 StepTables::StepTables(const Graph& graph)
-    : place_(static_cast<std::size_t>(graph.n_vertices()), none),
-      arriving_(graph.indptr.size(), 0),
+    : is_wide_(has_one_way(graph)),
+      place_(static_cast<std::size_t>(graph.n_vertices()), none),
       source_(graph.indices.size()),
       by_target_(place_.size(), none) {
     find_places(graph);
+    arriving_.assign(static_cast<std::size_t>(size_) + 1, 0);
     for (const VertexId head : graph.indices) {
         ++arriving_[place_[head] + 1];
     }
@@ -62,21 +72,36 @@ StepTables::StepTables(const Graph& graph)
     }
 }
 
-// Patches of as many vertices as a line holds, each grown from the first vertex left over.
+// Each line takes the first vertex that has no place yet, and those nearest to it.
 void StepTables::find_places(const Graph& graph) {
-    Place n_placed = 0;
-    std::vector<VertexId> patch;
+    const Place cell_size = is_wide_ ? 2 : 1;
+    std::vector<VertexId> reached;
+    std::vector<VertexId> reached_from(place_.size(), none);  // by which search
     for (VertexId first = 0; first < graph.n_vertices(); ++first) {
         if (place_[first] != none) {
             continue;
         }
-        patch.assign(1, first);
-        place_[first] = n_placed++;
-        for (std::size_t k = 0; k < patch.size(); ++k) {
-            for (const VertexId head : graph.heads(patch[k])) {
-                if (place_[head] == none && n_placed % cells_per_line != 0) {
-                    place_[head] = n_placed++;
-                    patch.push_back(head);
+        Place next = size_ + (is_wide_ ? 0 : 2);
+        size_ += line_size;
+        reached.assign(1, first);
+        reached_from[first] = first;
+        std::size_t end_of_level = 1;
+        std::int32_t distance = 0;
+        for (std::size_t k = 0; k < reached.size() && next < size_; ++k) {
+            if (k == end_of_level) {
+                end_of_level = reached.size();
+                if (++distance > line_radius) {
+                    break;
+                }
+            }
+            if (place_[reached[k]] == none) {
+                place_[reached[k]] = next;
+                next += cell_size;
+            }
+            for (const VertexId head : graph.heads(reached[k])) {
+                if (reached_from[head] != first) {
+                    reached_from[head] = first;
+                    reached.push_back(head);
                 }
             }
         }
@@ -89,28 +114,39 @@ StepTables::TableId StepTables::table_of(VertexId target) {
         by_target_[target] = static_cast<TableId>(cells_.size());
         cells_.push_back(new_cells());
         searches_.push_back({{place_[target]}, 0});
-        cells_.back()[place_[target]] = 1;
+        write(cells_.back(), place_[target], 0);
     }
     return by_target_[target];
 }
 
+void StepTables::write(Byte* table, Place place, std::int32_t steps) const {
+    if (is_wide_) {
+        *reinterpret_cast<std::uint16_t*>(table + place) = static_cast<std::uint16_t>(steps + 1);
+        return;
+    }
+    if (base(table, place) == 0) {  // searches go outwards, so this is the least
+        *reinterpret_cast<std::uint16_t*>(table + place / line_size * line_size) =
+            static_cast<std::uint16_t>(steps + 1);
+    }
+    table[place] = static_cast<Byte>(steps + 2 - base(table, place));
+}
+
 // Tables come from blocks that the system hands out zeroed, and mostly page by page as they are
 // used. Each is twice as large as the one before.
-StepTables::Cell* StepTables::new_cells() {
-    const std::size_t size = whole_lines(place_.size());
+StepTables::Byte* StepTables::new_cells() {
+    const auto size = static_cast<std::size_t>(size_);
     if (n_free_ < size) {
-        const std::size_t wanted = std::min(
-            first_block_cells << std::min<std::size_t>(blocks_.size(), 6), most_block_cells);
-        const std::size_t n_cells = std::max(wanted / size, std::size_t{1}) * size;
-        void* block = std::calloc(n_cells + cells_per_line, sizeof(Cell));
+        const std::size_t wanted =
+            std::min(first_block_size << std::min<std::size_t>(blocks_.size(), 6), most_block_size);
+        n_free_ = std::max(wanted / size, std::size_t{1}) * size;
+        void* block = std::calloc(n_free_ + line_size, 1);
         if (block == nullptr) {
             throw std::bad_alloc();
         }
-        blocks_.emplace_back(static_cast<Cell*>(block));
-        ask_for_large_pages(block, n_cells * sizeof(Cell));
-        const std::size_t offset = reinterpret_cast<std::uintptr_t>(block) / sizeof(Cell);
-        next_cells_ = blocks_.back().get() + whole_lines(offset) - offset;
-        n_free_ = n_cells;
+        blocks_.emplace_back(static_cast<Byte*>(block));
+        ask_for_large_pages(block, n_free_);
+        const auto past_line = reinterpret_cast<std::uintptr_t>(block) % line_size;
+        next_cells_ = blocks_.back().get() + (line_size - past_line) % line_size;
     }
     n_free_ -= size;
     next_cells_ += size;
@@ -120,8 +156,8 @@ StepTables::Cell* StepTables::new_cells() {
 std::int32_t StepTables::search_on(TableId table, VertexId from) {
     while (!searches_[table].frontier.empty()) {
         next_level(table, scratch_);
-        if (const Cell cell = cells_[table][place_[from]]; cell != 0) {
-            return cell - 1;
+        if (const std::int32_t steps = read(cells_[table], place_[from]); steps >= 0) {
+            return steps;
         }
     }
     return unreachable;
@@ -136,7 +172,7 @@ void StepTables::search_all(std::span<const Request> requests) {
                 continue;
             }
             const Search& search = searches_[table];
-            while (cells_[table][place_[from]] == 0 && !search.frontier.empty() &&
+            while (read(cells_[table], place_[from]) < 0 && !search.frontier.empty() &&
                    search.depth < most_steps) {
                 next_level(table, scratch);
             }
@@ -157,13 +193,12 @@ void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
         throw std::overflow_error("steps: more than " + std::to_string(most_steps) +
                                   " to a target");
     }
-    Cell* const cells = cells_[table];
-    const auto cell = static_cast<Cell>(search.depth + 1);
+    Byte* const cells = cells_[table];
     scratch.clear();
     for (const Place place : search.frontier) {
         for (EdgeId k = arriving_[place]; k < arriving_[place + 1]; ++k) {
-            if (cells[source_[k]] == 0) {
-                cells[source_[k]] = cell;
+            if (read(cells, source_[k]) < 0) {
+                write(cells, source_[k], search.depth);
                 scratch.push_back(source_[k]);
             }
         }

@@ -3,10 +3,11 @@
 //
 // One breadth-first search per target over the reversed edges, which goes on only until it has
 // reached the vertex that was asked for, and is taken up again when one further away is asked for.
-// Robots with one target share its table, whatever their speeds. Two bytes a vertex, and pages of
-// memory that no search has reached stay untouched, so ten thousand targets on a large map fit.
-// What a robot asks for lies next to what it asked for before: vertices near each other share a
-// line of the processor's cache, whatever their numbers.
+// Robots with one target share its table, whatever their speeds. Tables are made of lines, as the
+// processor's cache is: each holds vertices near each other, whatever their numbers, so what a
+// robot asks for lies next to what it asked for before. Where every edge leads back, these differ
+// by a few steps, and one byte a vertex above a base for each line does: ten thousand targets on a
+// large map fit. On other graphs it takes two bytes.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +40,8 @@ class StepTables {
     // The least number of edges from a vertex to the target of a table, or `unreachable`. Throws
     // std::overflow_error if that does not fit the type.
     std::int32_t steps(TableId table, VertexId from) {
-        const std::uint16_t cell = cells_[table][place_[from]];
-        return cell != 0 ? cell - 1 : search_on(table, from);
+        const std::int32_t known = read(cells_[table], place_[from]);
+        return known >= 0 ? known : search_on(table, from);
     }
 
     // Searches tables as far as a vertex each, on all cores; what comes out is the same.
@@ -54,27 +55,45 @@ class StepTables {
     struct Free {
         void operator()(void* block) const { std::free(block); }
     };
-    using Place = std::int32_t;  // of a vertex in each table
-    using Cell = std::uint16_t;  // steps + 1, or 0 where the search has not been yet
+    using Place = std::int32_t;  // of a vertex in each table [bytes]
+    using Byte = std::uint8_t;
+    static constexpr Place line_size = 64;
     struct Search {
         std::vector<Place> frontier;
         std::int32_t depth;  // of the frontier
     };
 
+    // A line of bytes begins with its base, the least steps in it, plus 1; a cell is the steps
+    // above the least, plus 1. A wide cell is the steps plus 1. Where it is 0, the search has not
+    // been yet.
+    std::int32_t read(const Byte* table, Place place) const {
+        if (is_wide_) {
+            return std::int32_t{*reinterpret_cast<const std::uint16_t*>(table + place)} - 1;
+        }
+        const Byte cell = table[place];
+        return cell == 0 ? -1 : base(table, place) + cell - 2;
+    }
+    static std::uint16_t base(const Byte* table, Place place) {
+        return *reinterpret_cast<const std::uint16_t*>(table + place / line_size * line_size);
+    }
+    void write(Byte* table, Place place, std::int32_t steps) const;
+
     void find_places(const Graph& graph);
-    Cell* new_cells();
+    Byte* new_cells();
     std::int32_t search_on(TableId table, VertexId from);
     void next_level(TableId table, std::vector<Place>& scratch);
 
+    bool is_wide_;
     std::vector<Place> place_;      // of each vertex
+    Place size_ = 0;                // of a table
     std::vector<EdgeId> arriving_;  // the edges that arrive at a place come from source_[k], for k
     std::vector<Place> source_;     // in arriving_[place] .. arriving_[place + 1] - 1
     std::vector<TableId> by_target_;
-    std::vector<Cell*> cells_;      // of each table
+    std::vector<Byte*> cells_;      // of each table
     std::vector<Search> searches_;  // of each table
-    std::vector<std::unique_ptr<Cell, Free>> blocks_;
-    Cell* next_cells_ = nullptr;  // in the last block
-    std::size_t n_free_ = 0;      // cells there
+    std::vector<std::unique_ptr<Byte, Free>> blocks_;
+    Byte* next_cells_ = nullptr;  // in the last block
+    std::size_t n_free_ = 0;      // bytes there
     std::vector<Place> scratch_;
 };
 
