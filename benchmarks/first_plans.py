@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from statistics import median
 
@@ -131,7 +132,7 @@ def pace_rows(folder: Path) -> Iterator[str]:
 def main() -> None:
     """Print both tables."""
     folder = Path(sys.argv[1])
-    for line in [*rows(folder), "", *pace_rows(folder)]:
+    for line in chain(rows(folder), [""], pace_rows(folder)):
         print(line, flush=True)  # noqa: T201
 
 

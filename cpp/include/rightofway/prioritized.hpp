@@ -38,6 +38,7 @@ class Prioritized {
   private:
     bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
     void evict(RobotId robot);
+    void raise_prices();
     Tick first_hold(RobotId robot) const;
 
     const Fleet& fleet_;
@@ -50,6 +51,7 @@ class Prioritized {
     std::vector<RobotId> met_;
     TimedTrack track_;
     std::int64_t n_evictions_ = 0;
+    std::int64_t next_raise_;  // at so many states
 };
 
 }  // namespace rightofway
