@@ -27,6 +27,7 @@ NB_MODULE(_core, module) {
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
     rightofway::bind::bind_distance_tables(module);
     rightofway::bind::bind_event_lacam(module);
+    rightofway::bind::bind_event_pibt(module);
     rightofway::bind::bind_fleet_search(module);
     rightofway::bind::bind_floor(module);
     rightofway::bind::bind_lacam(module);

@@ -129,6 +129,51 @@ def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
     """
 
+class Instants:
+    """
+    A fleet with clocks whose free robots choose where to go, one instant after another.
+
+    `plan_by_events` does this by itself; here a test can look at each instant.
+
+    Parameters
+    ----------
+    indptr, indices, edge_class, home, first_stage, stage_vertex, stage_dwell, class_ticks, headway, \\
+    books_ahead, may_rotate, seed
+        As for `plan_by_events`.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, seed: int) -> None: ...
+
+    @property
+    def now(self) -> int:
+        """The time on the clock. [ticks]"""
+
+    def undecided(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Return the robots that may choose."""
+
+    def choose(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], fixed: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))] | None:
+        """
+        Let robots choose in an order.
+
+        Parameters
+        ----------
+        order : int32[N]
+            Robots that are neither busy nor at the end of their trips.
+        fixed : int32[F, 2]
+            Robots that are told where to go, each with the vertex.
+
+        Returns
+        -------
+        int64[M, 3] or None
+            The moves: robot, vertex, arrival [ticks]; None where that does not work out.
+        """
+
+    def go_on(self) -> bool:
+        """
+        Take the moves chosen last, and go on to the next instant at which a robot finishes
+        something; False if nobody is busy.
+        """
+
 class FleetSearch:
     """
     The tracks of a whole fleet: finding first ones, and better ones.
@@ -366,6 +411,7 @@ class Floor:
         """
 
 def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
 
@@ -382,8 +428,6 @@ def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), orde
         Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
     stage_vertex : int32[S]
         The vertices to go to, one after the other; a robot stays at its last one.
-    stage_tables : list of int32[V]
-        For each stage, how far it is to its vertex from everywhere, -1 where there is no way.
     may_rotate : bool
         Whether three or more robots may move round a circle in one step.
     seed : int

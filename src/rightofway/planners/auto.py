@@ -57,6 +57,8 @@ def auto(task: Task) -> Draft:
 def _explained(task: Task) -> Draft | None:
     options = {"swaps": "resolve", "routes": "clear"}
     try:
-        return two_level(replace(task, options=options, deadline=task.deadline.sooner(SHARE)))
+        draft = two_level(replace(task, options=options, deadline=task.deadline.sooner(SHARE)))
     except GaveUp:
         return None
+    task.has_plan()
+    return draft

@@ -29,7 +29,7 @@ __all__ = ["FirstPlan", "improved", "lns"]
 FirstPlan = tuple[tuple[Track, ...], str]
 """Tracks to improve on, and where they come from."""
 
-SHARE = 0.7
+SHARE = 0.9
 """The part of the time that planning all together may take."""
 
 PATIENCE = 1000
