@@ -26,7 +26,7 @@ RUNS = 10_000
 CARED = 50
 """Runs of each plan where rights of way are switched."""
 
-LIMIT = 5
+LIMIT = 2
 """Time for each plan [s]."""
 
 DELAYS = {

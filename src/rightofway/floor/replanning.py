@@ -18,7 +18,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.floor.standing import Rest
 from rightofway.model import Plan, Roadmap, Robot, Scenario, Stage, Stop, VertexId
 from rightofway.planners import Deadline
-from rightofway.search import Distances, joint_steps
+from rightofway.search import joint_steps
 from rightofway.solve import solve
 
 __all__ = ["Anew", "plan_the_rest"]
@@ -121,9 +121,8 @@ def _attempts(roadmap: Roadmap, rest: Rest, seed: int, deadline: Deadline) -> It
 
 def _is_impossible(scenario: Scenario, seed: int, deadline: Deadline) -> bool:
     """Tell whether it is proven that a fleet cannot get through its trips."""
-    distances = Distances(scenario.roadmap)
     try:
-        joint_steps(scenario, distances, seed=seed, time_limit=deadline.seconds_left())
+        joint_steps(scenario, seed=seed, time_limit=deadline.seconds_left())
     except NoPlanExists:
         return True
     except GaveUp:
