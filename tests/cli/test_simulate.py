@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import rightofway
 from tests.cli.conftest import Cli
 from tests.cli.test_commands import SWAP
 
@@ -55,6 +57,17 @@ def test_switching_and_new_plans_are_told(cli: Cli, plan: Path) -> None:
     ended = cli("simulate", plan, "--delays", "stop:R2@1", "--runs", 5, "--replan", "--switch")
     words = " ".join(ended.out.split())
     assert "1.00 are cut off from a place, 1.00 new plans" in words
+
+
+def test_a_deadlock_would_be_told_by_the_exit_code(
+    cli: Cli, plan: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There is none, so one is made up."""
+    outcome = replace(rightofway.simulate(rightofway.load_plan(plan), runs=1), deadlocks=1)
+    monkeypatch.setattr("rightofway.floor.simulate", lambda *_, **__: outcome)
+    ended = cli("simulate", plan)
+    assert ended.code == 1
+    assert "right of way  no collisions, 1 deadlock\n" in ended.out
 
 
 @pytest.mark.parametrize(

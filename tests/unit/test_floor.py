@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rightofway
-from rightofway.model import Plan, Rules
+from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
 from tests.fleets import grid_fleet, random_fleet
 
@@ -118,3 +118,20 @@ def test_no_run_at_all_is_refused(plan: Plan) -> None:
 def test_what_is_left_of_a_scenario_keeps_its_clock(plan: Plan) -> None:
     kept = replace(plan.scenario, clock=Clock(tick=plan.scenario.timing.clock.tick / 4))
     assert kept.timing.itineraries[0].edge_ticks == (4,)
+
+
+def test_the_robots_of_a_rotation_wait_for_each_other_and_go_together() -> None:
+    """Four robots move round a square at tick 1; the one that is late by 5 takes the others along.
+
+    By the clock the other three drive on, and the first of them drives into the late one.
+    """
+    ring = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
+    scenario = grid_fleet(["..", ".."], ring, rules=Rules(ends="none"))
+    vertex = scenario.roadmap.vertex
+    tracks = tuple(Track.of([vertex(home), vertex(target)], [0, 1]) for home, target in ring)
+    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
+    outcome = rightofway.simulate(plan, "stop:R2@0+5", runs=1)
+    assert outcome.completion.tolist() == [[6, 6, 6, 6]]
+    assert outcome.collisions == outcome.deadlocks == 0
+    assert outcome.by_clock.vertex == 1
+    assert outcome.lateness.robots[3].waiting == {1: 5.0}
