@@ -48,7 +48,9 @@ LOOKS = 400
 Times = NDArray[np.int64]
 
 
-def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
+def switched(
+    floor: DelayedPlan, setbacks: Setbacks, *, until: Tick = NEVER
+) -> tuple[DelayedPlan, int]:
     """Run a plan once, and switch rights of way on the way.
 
     Parameters
@@ -57,6 +59,8 @@ def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
         The plan, with its order of visits.
     setbacks
         What befalls the run; used to let things happen, never to look ahead.
+    until
+        When the last right of way may be switched [ticks].
 
     Returns
     -------
@@ -68,7 +72,7 @@ def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
     happens = floor.execute(setbacks)
     while (news := _next_news(happens.enter, expected + patience, now)) is not None:
         now = news
-        if now > HORIZON * max(int(floor.planned.max()), _last(happens.enter)):
+        if now > min(until, HORIZON * max(_last(floor.planned), _last(happens.enter))):
             break
         outlook = _Outlook(floor, happens, now, expected)
         expected = outlook.times()
