@@ -261,7 +261,24 @@ class FleetSearch:
         Returns
         -------
         bool
-            Whether every robot has a track now; if not, none has.
+            Whether every robot has a track now; if not, `go_on` may change that.
+        """
+
+    def go_on(self, n_searches: int, time_limit: float | None) -> bool:
+        """
+        Go on with giving the robots tracks one after another.
+
+        Parameters
+        ----------
+        n_searches : int
+            After so many searches since the beginning it gives up.
+        time_limit : float or None
+            After so many seconds as well.
+
+        Returns
+        -------
+        bool
+            Whether every robot has a track now; false as well where nothing was begun.
         """
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
