@@ -10,7 +10,7 @@
 #include "bindings.hpp"
 #include "deadline.hpp"
 #include "rightofway/improver.hpp"
-#include "rightofway/prioritized.hpp"
+#include "rightofway/in_turn.hpp"
 #include "rightofway/reject.hpp"
 
 namespace rightofway::bind {
@@ -144,8 +144,8 @@ class FleetSearch {
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
                     const Deadline& deadline) {
         clear();
-        Prioritized planner(fleet_, plan_);
-        const bool is_done = planner.run(order, n_searches, deadline) == SearchEnd::found;
+        const bool is_done =
+            plan_in_turn(fleet_, plan_, order, n_searches, n_threads_ > 1, deadline);
         if (!is_done) {
             clear();
         }

@@ -9,11 +9,6 @@ namespace {
 // time it has lost its track.
 constexpr Tick hold_edges = 16;
 
-// What it costs to take a robot's track away, in first holds: at first, and how much more each
-// time.
-constexpr Tick first_price = 3;
-constexpr Tick dearer = 2;
-
 // Searches look for a way around as long as that is cheaper than to take tracks away. So that this
 // comes to an end where the floor is full, all prices rise by a quarter each time so many states
 // have been expanded.
@@ -25,16 +20,17 @@ constexpr Tick greed = 1;
 
 }  // namespace
 
-Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan)
+Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices)
     : fleet_(fleet),
       plan_(plan),
+      track_prices_(prices),
       search_(fleet.roads(), fleet.rules()),
       reader_(fleet),
       prices_(static_cast<std::size_t>(fleet.n_robots())),
       holds_(prices_.size()),
       next_raise_(states_between_raises) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
-        prices_[static_cast<std::size_t>(robot)] = first_price * first_hold(robot);
+        prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
         holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
     }
 }
@@ -91,7 +87,7 @@ void Prioritized::evict(RobotId robot) {
     TimedTrack none;
     plan_.exchange(robot, none);
     plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
-    prices_[static_cast<std::size_t>(robot)] += dearer * first_hold(robot);
+    prices_[static_cast<std::size_t>(robot)] += track_prices_.dearer * first_hold(robot);
     holds_[static_cast<std::size_t>(robot)] += first_hold(robot);
     waiting_.push_back(robot);
     ++n_evictions_;

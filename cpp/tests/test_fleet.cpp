@@ -7,6 +7,7 @@
 #include "corridors.hpp"
 #include "rightofway/fleet_plan.hpp"
 #include "rightofway/improver.hpp"
+#include "rightofway/in_turn.hpp"
 #include "rightofway/prioritized.hpp"
 
 namespace rightofway {
@@ -143,6 +144,31 @@ TEST_CASE("planning in turn ends after as many searches as it may make") {
     const Fleet fleet(crossing.arrays(), 1, {0, false}, plenty);
     FleetPlan plan(fleet);
     CHECK(Prioritized(fleet, plan).run(in_turn(fleet), 2, test::never) == SearchEnd::stopped);
+}
+
+TEST_CASE("planning in turn gives the same plan on one thread and on two, patient or in haste") {
+    const Crossing crossing(6);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    for (const std::int64_t n_searches : {6, 7, 1000}) {
+        FleetPlan one(fleet);
+        FleetPlan two(fleet);
+        const bool is_found =
+            plan_in_turn(fleet, one, in_turn(fleet), n_searches, false, test::never);
+        CHECK(plan_in_turn(fleet, two, in_turn(fleet), n_searches, true, test::never) == is_found);
+        if (is_found) {
+            CHECK(is_sound(fleet, two));
+            CHECK(one.flowtime() == two.flowtime());
+        }
+    }
+}
+
+TEST_CASE("what the caller throws while robots are planned in turn comes back") {
+    const Crossing crossing(6);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    FleetPlan plan(fleet);
+    const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
+    CHECK_THROWS_AS(plan_in_turn(fleet, plan, in_turn(fleet), 1, true, interrupt),
+                    std::runtime_error);
 }
 
 TEST_CASE("improvement never loses, and does not depend on the number of threads") {

@@ -23,10 +23,20 @@
 
 namespace rightofway {
 
+// What it costs to take a robot's track away, in first holds of its home: at first, and how much
+// more each time. The dearer, the sooner a search is content with a way around, and the longer
+// that.
+struct TrackPrices {
+    Tick first;
+    Tick dearer;
+};
+constexpr TrackPrices patient{3, 2};
+constexpr TrackPrices hasty{20, 10};
+
 class Prioritized {
   public:
     // Borrows both. The plan is without tracks.
-    Prioritized(const Fleet& fleet, FleetPlan& plan);
+    Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices = patient);
 
     // Gives robots tracks in that order, in at most so many searches. `stopped` means that some
     // are without a track.
@@ -43,6 +53,7 @@ class Prioritized {
 
     const Fleet& fleet_;
     FleetPlan& plan_;
+    TrackPrices track_prices_;
     SafeIntervalSearch search_;
     TripReader reader_;
     std::deque<RobotId> waiting_;
