@@ -22,6 +22,8 @@ GRIDS = (
     ["...", ".@.", "..."],
     ["...."],
     ["@.@@.", "....."],
+    ["@@@.@@@", "......."],
+    ["..@@@..", "......."],
 )
 SPEEDS = [Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(2, 5)]
 INSTANTS = 12
@@ -32,7 +34,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
     """Draw a fleet on a grid that may be full."""
     grid = draw(st.sampled_from(GRIDS))
     free = [f"N{k}" for k, cell in enumerate("".join(grid)) if cell == "."]
-    homes = draw(st.lists(st.sampled_from(free), min_size=1, max_size=6, unique=True))
+    homes = draw(st.lists(st.sampled_from(free), min_size=1, max_size=9, unique=True))
     targets = draw(st.permutations(free))[: len(homes)]
     rules = Rules(
         ends=draw(st.sampled_from(["home", "none"])),
@@ -85,7 +87,7 @@ def test_the_kernel_decides_what_the_oracle_decides(
         order = data.draw(st.permutations(sorted(undecided)))
         free = [robot for robot in range(len(oracle.robots)) if not oracle.busy(robot)]
         told = data.draw(
-            st.lists(st.sampled_from(free), unique=True, max_size=2) if free else st.just([])
+            st.lists(st.sampled_from(free), unique=True, max_size=3) if free else st.just([])
         )
         fixed = [
             (
@@ -107,3 +109,21 @@ def test_the_kernel_decides_what_the_oracle_decides(
             assert not oracle.go_on(expected)
             return
         assert oracle.go_on(expected)
+
+
+def test_a_ring_turns_at_the_pace_of_its_slowest() -> None:
+    """Four robots of their own speeds on four places, each told to go where the next one is."""
+    ring = grid_fleet(
+        ["..", ".."],
+        [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")],
+        rules=Rules(ends="none"),
+        speeds=SPEEDS,
+    )
+    kernel, oracle = both(ring, seed=0)
+    trips = ring.timing.itineraries
+    fixed = [(robot, int(trip.last)) for robot, trip in enumerate(trips)]
+    moves = kernel.choose(np.arange(4, dtype=np.int32), np.array(fixed, np.int32))
+    assert moves is not None
+    slowest = max(trip.edge_ticks[0] for trip in trips)
+    assert sorted(moves.tolist()) == [[robot, vertex, slowest] for robot, vertex in fixed]
+    assert sorted(oracle.choose([0, 1, 2, 3], fixed) or []) == sorted(map(tuple, moves.tolist()))

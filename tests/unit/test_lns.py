@@ -69,7 +69,7 @@ def test_every_order_gives_a_sound_plan(order: str) -> None:
 def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Planning at own speeds gives up at once; the order of visits at one pace is as good for all."""
+    """At own speeds it gives up at once; the order of visits at one pace is as good for all."""
     monkeypatch.setattr("rightofway.planners.prioritized.SEARCHES", 0)
     for occupancy in ("one", "both"):
         rules = Rules(occupancy=occupancy, headway=Fraction(1, 2))
