@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from rightofway.cli.words import COLUMNS, wrapped
+from rightofway.cli.words import wrapped
 from rightofway.laps import Bottleneck, Conflict, GroupRun, LapsRun, in_words
 
 __all__ = ["laps_data", "laps_report"]
@@ -108,12 +108,12 @@ def _lines(run: LapsRun) -> Iterator[str]:
 
 def _groups(run: LapsRun, together: Sequence[GroupRun]) -> str:
     ends = Counter(group.ends for group in together)
-    words = {
-        "repeats": "repeats itself",
-        "deadlock": "comes to a standstill",
-        "open": "is open: time ran out",
-    }
-    told = [f"{ends[end]} of {len(together)} {words[end]}" for end in words if ends[end]]
+    counts = [
+        (ends["repeats"], "repeats itself"),
+        (ends["deadlock"], "comes to a standstill"),
+        (ends["open"], "is open: time ran out"),
+    ]
+    told = [f"{number} of {len(together)} {words}" for number, words in counts if number]
     alone = len(run.groups) - len(together)
     lonely = [f"{alone} robots never meet anybody"] if alone else []
     return "; ".join([*told, *lonely])
@@ -144,7 +144,10 @@ def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), group.group, strict=True)
     for name, laps, mean, share, endless in list(rows)[:MOST_LINES]:
         lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
-        alone, waits = _short(endless.lap.duration * tick), "" if share is None else f"{share:7.1%}"
+        alone, waits = (
+            _short(endless.lap.duration * tick),
+            "" if share is None else f"{float(share):7.1%}",
+        )
         yield f"{name:{width}}  {laps:11}  {lap:>8}  {alone:>8}  {waits}".rstrip()
     if len(names) > MOST_LINES:
         yield f"… and {len(names) - MOST_LINES} more robots"
@@ -159,11 +162,8 @@ def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     first, steady = (
         _sights(run, found) for found in (run.first_conflicts(group), run.conflicts(group))
     )
-    again = len(first.keys() & steady.keys())
-    yield (
-        f"waits at {len(first)} places in the first lap, at {len(steady)} in each period;"
-        f" {again} are the same"
-    )
+    both = len(first.keys() & steady.keys())
+    yield f"waits: {len(first)} in the first lap, {len(steady)} in each period, {both} in both"
     robots, place = run.scenario.robots, run.scenario.roadmap.name
     for sight in [*steady, *(one for one in first if one not in steady)][:MOST_LINES]:
         vertex, waits, whom = sight
