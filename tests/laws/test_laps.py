@@ -27,7 +27,7 @@ some_rules = st.sampled_from(
 )
 
 
-SLOW = 1000
+SLOW = 400
 """Visits in a period that the slow oracle is not asked for."""
 
 
@@ -75,3 +75,33 @@ def test_the_judge_finds_no_fault_until_a_robot_stays_at_home(
     plan = whole_laps(run)
     stays = min(int(track.enter[-1]) for track in plan.tracks)
     assert all(fault.tick >= stays for fault in check(plan).faults)
+
+
+@every_rule
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32), rules=some_rules)
+def test_who_waits_for_whom_adds_up_to_the_time_lost(rule: str, seed: int, rules: Rules) -> None:
+    run = small_run(seed, rule, rules)
+    assume(run is not None)
+    assert run is not None
+    for group in run.groups:
+        for robot, laps, endless in zip(
+            group.robots, group.pattern.counts if group.pattern else (), group.group, strict=False
+        ):
+            assert group.pattern is not None
+            waits = sum(one.ticks for one in run.conflicts(group) if one.waits == robot)
+            assert not laps or waits == group.pattern.period - laps * endless.lap.duration
+
+
+@every_rule
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32), rules=some_rules)
+def test_the_period_by_theory_is_that_of_the_simulation(rule: str, seed: int, rules: Rules) -> None:
+    run = small_run(seed, rule, rules)
+    assume(run is not None)
+    assert run is not None
+    for group in run.groups:
+        bottleneck = run.bottleneck(group)
+        assert bottleneck is None or (
+            group.pattern is not None and bottleneck.cycle_time == group.pattern.period
+        )

@@ -22,6 +22,9 @@ __all__ = ["ROUTES", "run_group", "run_laps"]
 ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
 
+LEAST_SHARE = 0.05
+"""The part of the time left that a group may take, however small it is."""
+
 
 def run_laps(
     scenario: Scenario,
@@ -78,7 +81,7 @@ def run_laps(
         task = Task(
             scenario=scenario,
             options={"swaps": "resolve"},
-            deadline=deadline.sooner(len(group) / left),
+            deadline=deadline.sooner(max(len(group) / left, LEAST_SHARE)),
         )
         left -= len(group)
         found[index] = run_group(task, group, rule)
