@@ -59,6 +59,7 @@ void bind_event_graph(nb::module_& module);
 void bind_event_lacam(nb::module_& module);
 void bind_event_pibt(nb::module_& module);
 void bind_fleet_search(nb::module_& module);
+void bind_floor(nb::module_& module);
 void bind_lacam(nb::module_& module);
 void bind_precedence_graph(nb::module_& module);
 void bind_safe_interval_search(nb::module_& module);
