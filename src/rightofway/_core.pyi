@@ -19,6 +19,93 @@ INFINITY: int = 4611686018427387904
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
 
+class Circle:
+    """
+    Who has booked which vertex when, on a circle as long as the period.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices, V.
+    period : int
+        All bookings come again after so long. [ticks]
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    def __init__(self, n_vertices: int, period: int, headway: int, books_ahead: bool) -> None: ...
+
+    @property
+    def period(self) -> int:
+        """How long the circle is. [ticks]"""
+
+    @property
+    def reached(self) -> int:
+        """Which visit the last search has reached; at the next one it got stuck."""
+
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Book the visits of a robot.
+
+        Parameters
+        ----------
+        robot : int
+            Whose they are.
+        vertex : int32[N]
+            Where its visits of one period are; after the last one the first comes again.
+        dwell : int64[N]
+            How long each lasts at least, without the drive that follows. [ticks]
+        drive : int64[N]
+            The drive into each. [ticks]
+        enter : int64[N]
+            When each begins, rising, within one period. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together, the robot is there already, or a booking overlaps another
+            robot's. Then nothing is booked.
+        """
+
+    def remove(self, robot: int) -> None:
+        """Take back all bookings of a robot; nothing happens if it has none."""
+
+    def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+        """
+        Find when a robot can make its visits among the bookings of others.
+
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            As for ``add``.
+        phase : int
+            Where on the circle to begin to look. [ticks]
+        time_limit : float or None
+            After so many seconds the search stops.
+
+        Returns
+        -------
+        int64[N] or None
+            When each visit begins; None if no way was found. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+
+        Notes
+        -----
+        Complete for these visits, but where nobody else visits the first vertex: then only this phase is
+        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        """
+
 class DistanceTables:
     """
     Least ticks from every vertex to one target.
@@ -78,6 +165,65 @@ class DistanceTables:
     @property
     def n_edges(self) -> int:
         """The number of edges, E."""
+
+def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
+    """
+    Find the circuit with the largest mean: the cycle time of events that repeat.
+
+    Parameters
+    ----------
+    n_nodes : int
+        The number of events in a period, N.
+    tail, head : int32[M], int32[M]
+        The arcs.
+    length : int64[M]
+        How long after its tail the head of each comes at least, not negative. [ticks]
+    height : int32[M]
+        How many periods later; may be negative, as long as the height of no circuit is.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int, int32[n]) or None
+        Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
+        in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
+        lengths times all heights is beyond 2^58.
+
+    Notes
+    -----
+    Exact: integers only. Deterministic. The GIL is released; Ctrl-C is obeyed.
+    """
+
+def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], period: int, parts: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+    """
+    Return the least times that keep all arcs, period after period.
+
+    Parameters
+    ----------
+    n_nodes, tail, head, length, height
+        As for ``critical_circuit``.
+    period, parts : int
+        All comes again every ``period / parts`` ticks.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    int64[N] or None
+        When each event comes, at least 0. [1 / parts ticks] None if the period is less than the cycle
+        time, or time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, or times may become too large.
+    """
 
 def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
@@ -266,7 +412,24 @@ class FleetSearch:
         Returns
         -------
         bool
-            Whether every robot has a track now; if not, none has.
+            Whether every robot has a track now; if not, `go_on` may change that.
+        """
+
+    def go_on(self, n_searches: int, time_limit: float | None) -> bool:
+        """
+        Go on with giving the robots tracks one after another.
+
+        Parameters
+        ----------
+        n_searches : int
+            After so many searches since the beginning it gives up.
+        time_limit : float or None
+            After so many seconds as well.
+
+        Returns
+        -------
+        bool
+            Whether every robot has a track now; false as well where nothing was begun.
         """
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
@@ -308,6 +471,112 @@ class FleetSearch:
     @property
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
+
+class Floor:
+    """
+    A plan on a floor where robots are late.
+
+    Parameters
+    ----------
+    first_visit : int32[R + 1]
+        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
+    vertex, planned : int32[N], int64[N]
+        Where each visit is, and when it begins by the plan. [ticks]
+    dwell, drive : int64[N]
+        How long each visit lasts at least without the drive after it, and the drive into it. [ticks]
+    before : int32[N]
+        The visit that goes directly before at the same vertex, -1 for none.
+    headway : int
+        Ticks from one robot's leave to the next one's enter, or start to drive there.
+    books_ahead : bool
+        Whether a robot books a vertex from when it starts to drive there.
+    pace : float64[R]
+        How much longer than planned everything takes each robot, 1 for as planned.
+    delay_kind : int32[D]
+        0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
+    delay_a, delay_b : float64[D]
+        Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
+        ticks; chance and nothing.
+    first_standstill : int32[R + 1]
+        Which standstills of every run are whose.
+    standstill_tick, standstill_ticks : int64[S]
+        From when each robot stands still, rising, and how long, ``INFINITY`` for ever. [ticks]
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; names the array, the index and the value.
+    """
+
+    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def runs(self, seed: int, first: int, count: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))]]:
+        """
+        Run the plan many times by right of way, and by the clock.
+
+        Parameters
+        ----------
+        seed, first, count : int
+            Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+        time_limit : float or None
+            After so many seconds no run is begun.
+
+        Returns
+        -------
+        completion : int64[K, R]
+            When each robot completes by right of way, ``INFINITY`` for never. [ticks]
+        is_broken : uint8[K, R]
+            Not 0 where a robot stands still for ever.
+        by_right_of_way, by_clock : int64[K, 4]
+            Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
+            these begins, ``INFINITY`` for never.
+        own, of_others : int64[N]
+            Ticks of lateness that began at each visit: of its own robot, of others.
+        between : int64[P, 3]
+            Robot, another, and the ticks that the first is late because of the other.
+
+        Notes
+        -----
+        The GIL is released; Ctrl-C is obeyed.
+        """
+
+    def setbacks(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return what befalls one run.
+
+        Returns
+        -------
+        tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
+            What dwells and drives really take, and the standstills, as the class takes them.
+        """
+
+    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Run the plan once, with these setbacks.
+
+        Parameters
+        ----------
+        dwell, drive, first_standstill, standstill_tick, standstill_ticks
+            As `setbacks` returns them.
+        clock : bool
+            Whether by the clock; else by right of way.
+
+        Returns
+        -------
+        tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
+            When each visit begins, from when it books its vertex, when robots complete, which stand still
+            for ever, and the collisions as `runs` counts them.
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+        """
+
+    def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the robots that can never complete, since they wait for each other.
+        """
 
 def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
