@@ -11,9 +11,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from functools import partial
-from itertools import chain
 from pathlib import Path
 from statistics import median
 
@@ -34,7 +31,6 @@ ROWS = [
     *((SMALL, robots) for robots in (100, 400, 800, 1000)),
     (LARGE, 1000),
 ]
-PACES = [(RANDOM_64, 800), (SMALL, 400), (LARGE, 1000)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,44 +91,9 @@ def rows(folder: Path) -> Iterator[str]:
         yield f"| {name} | {robots} | {' | '.join(times)} | {ratio:.3f} |"
 
 
-def at_paces(scenario: Scenario, paces: tuple[Fraction, Fraction]) -> Scenario:
-    """Deal two speeds round robin."""
-    robots = tuple(
-        replace(robot, speed=paces[index % 2]) for index, robot in enumerate(scenario.robots)
-    )
-    dealt = replace(scenario, robots=robots)
-    assert dealt.timing
-    return dealt
-
-
-def pace_rows(folder: Path) -> Iterator[str]:
-    """Yield how much dearer speeds 1 and 1.01 are than 1 and 1, medians of the seeds."""
-    equal, mixed = (Fraction(1), Fraction(1)), (Fraction(1), Fraction("1.01"))
-    work: dict[str, Callable[[Scenario], object]] = {
-        "`lacam`": kernel,
-        "`prioritized`": lambda scenario: rightofway.solve(scenario, "prioritized", 60),
-        "`lns`, 2000 tries": lambda scenario: rightofway.solve(
-            scenario, "lns", 60, options={"iterations": 2000}
-        ),
-    }
-    yield "| map | robots | planner | 1 and 1 [s] | 1 and 1.01 [s] | factor |"
-    yield "| --- | --- | --- | --- | --- | --- |"
-    for name, robots in PACES:
-        fleets = [fleet(folder, name, robots, seed) for seed in SEEDS]
-        for planner, plan in work.items():
-            same, other = (
-                median(seconds(partial(plan, at_paces(one, paces))) for one in fleets)
-                for paces in (equal, mixed)
-            )
-            yield (
-                f"| {name} | {robots} | {planner} | {same:.3f} | {other:.3f} | {other / same:.2f} |"
-            )
-
-
 def main() -> None:
-    """Print both tables."""
-    folder = Path(sys.argv[1])
-    for line in chain(rows(folder), [""], pace_rows(folder)):
+    """Print the table."""
+    for line in rows(Path(sys.argv[1])):
         print(line, flush=True)  # noqa: T201
 
 

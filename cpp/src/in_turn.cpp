@@ -5,45 +5,35 @@
 #include <optional>
 #include <thread>
 
-#include "rightofway/prioritized.hpp"
-
 namespace rightofway {
 namespace {
 
 constexpr auto between_questions = std::chrono::milliseconds(5);
 
-// A plan that is being made in haste by another thread, as long as this lives.
-class SecondPlan {
+// Goes on with a planner in another thread, as long as this lives.
+class Beside {
   public:
-    SecondPlan(const Fleet& fleet, std::span<const RobotId> order, std::int64_t n_searches)
-        : plan_(fleet), thread_([this, &fleet, order, n_searches] {
-              const auto is_over = [this] { return is_stopped_.load(); };
-              Prioritized planner(fleet, plan_, hasty);
-              is_found_ = planner.run(order, n_searches, is_over) == SearchEnd::found;
+    Beside(Prioritized& planner, std::int64_t n_searches)
+        : thread_([this, &planner, n_searches] {
+              end_ = planner.run(n_searches, [this] { return is_stopped_.load(); });
               has_ended_ = true;
           }) {}
-    SecondPlan(const SecondPlan&) = delete;
-    SecondPlan& operator=(const SecondPlan&) = delete;
-    ~SecondPlan() {
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
+    ~Beside() {
         is_stopped_ = true;
         thread_.join();
     }
 
-    // Waits for it; false if there is none.
-    bool take(FleetPlan& plan, const SafeIntervalSearch::IsOver& is_over) {
+    SearchEnd wait(const SafeIntervalSearch::IsOver& is_over) const {
         while (!has_ended_ && !is_over()) {
             std::this_thread::sleep_for(between_questions);
         }
-        if (!has_ended_ || !is_found_) {
-            return false;
-        }
-        plan = plan_;
-        return true;
+        return has_ended_ ? end_ : SearchEnd::stopped;
     }
 
   private:
-    FleetPlan plan_;
-    bool is_found_ = false;
+    SearchEnd end_ = SearchEnd::stopped;
     std::atomic<bool> has_ended_ = false;
     std::atomic<bool> is_stopped_ = false;
     std::thread thread_;  // last, as it uses the others
@@ -51,21 +41,33 @@ class SecondPlan {
 
 }  // namespace
 
-bool plan_in_turn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> order,
-                  std::int64_t n_searches, bool has_second_thread,
-                  const SafeIntervalSearch::IsOver& is_over) {
-    std::optional<SecondPlan> second;
+InTurn::InTurn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> order)
+    : plan_(plan),
+      plan_in_haste_(fleet),
+      patient_(fleet, plan, patient),
+      hasty_(fleet, plan_in_haste_, hasty) {
+    patient_.start(order);
+    hasty_.start(order);
+}
+
+bool InTurn::run(std::int64_t n_searches, bool has_second_thread,
+                 const SafeIntervalSearch::IsOver& is_over) {
+    std::optional<Beside> beside;
     if (has_second_thread) {
-        second.emplace(fleet, order, n_searches);
+        beside.emplace(hasty_, n_searches);
     }
-    if (Prioritized(fleet, plan).run(order, n_searches, is_over) == SearchEnd::found) {
+    if (patient_.run(n_searches, is_over) == SearchEnd::found) {
         return true;
     }
-    if (second) {
-        return second->take(plan, is_over);
+    return take(beside ? beside->wait(is_over) : hasty_.run(n_searches, is_over));
+}
+
+bool InTurn::take(SearchEnd second) {
+    if (second != SearchEnd::found) {
+        return false;
     }
-    plan = FleetPlan(fleet);
-    return Prioritized(fleet, plan, hasty).run(order, n_searches, is_over) == SearchEnd::found;
+    plan_ = plan_in_haste_;
+    return true;
 }
 
 }  // namespace rightofway

@@ -40,18 +40,19 @@ Tick Prioritized::first_hold(RobotId robot) const {
     return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
 }
 
-SearchEnd Prioritized::run(std::span<const RobotId> order, std::int64_t n_searches,
-                           const SafeIntervalSearch::IsOver& is_over) {
+void Prioritized::start(std::span<const RobotId> order) {
     waiting_.assign(order.begin(), order.end());
     for (const RobotId robot : order) {
         plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
     }
-    while (!waiting_.empty()) {
-        const RobotId robot = waiting_.front();
-        if (n_searches-- == 0 || !place(robot, is_over)) {
+}
+
+SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
+    for (; !waiting_.empty(); waiting_.pop_front()) {
+        if (n_searches_ >= n_searches || !place(waiting_.front(), is_over)) {
             return SearchEnd::stopped;
         }
-        waiting_.pop_front();
+        ++n_searches_;
         raise_prices();
     }
     return SearchEnd::found;

@@ -19,6 +19,93 @@ INFINITY: int = 4611686018427387904
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
 
+class Circle:
+    """
+    Who has booked which vertex when, on a circle as long as the period.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices, V.
+    period : int
+        All bookings come again after so long. [ticks]
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    def __init__(self, n_vertices: int, period: int, headway: int, books_ahead: bool) -> None: ...
+
+    @property
+    def period(self) -> int:
+        """How long the circle is. [ticks]"""
+
+    @property
+    def reached(self) -> int:
+        """Which visit the last search has reached; at the next one it got stuck."""
+
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Book the visits of a robot.
+
+        Parameters
+        ----------
+        robot : int
+            Whose they are.
+        vertex : int32[N]
+            Where its visits of one period are; after the last one the first comes again.
+        dwell : int64[N]
+            How long each lasts at least, without the drive that follows. [ticks]
+        drive : int64[N]
+            The drive into each. [ticks]
+        enter : int64[N]
+            When each begins, rising, within one period. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together, the robot is there already, or a booking overlaps another
+            robot's. Then nothing is booked.
+        """
+
+    def remove(self, robot: int) -> None:
+        """Take back all bookings of a robot; nothing happens if it has none."""
+
+    def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+        """
+        Find when a robot can make its visits among the bookings of others.
+
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            As for ``add``.
+        phase : int
+            Where on the circle to begin to look. [ticks]
+        time_limit : float or None
+            After so many seconds the search stops.
+
+        Returns
+        -------
+        int64[N] or None
+            When each visit begins; None if no way was found. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+
+        Notes
+        -----
+        Complete for these visits, but where nobody else visits the first vertex: then only this phase is
+        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        """
+
 class DistanceTables:
     """
     Least ticks from every vertex to one target.
@@ -78,6 +165,65 @@ class DistanceTables:
     @property
     def n_edges(self) -> int:
         """The number of edges, E."""
+
+def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
+    """
+    Find the circuit with the largest mean: the cycle time of events that repeat.
+
+    Parameters
+    ----------
+    n_nodes : int
+        The number of events in a period, N.
+    tail, head : int32[M], int32[M]
+        The arcs.
+    length : int64[M]
+        How long after its tail the head of each comes at least, not negative. [ticks]
+    height : int32[M]
+        How many periods later; may be negative, as long as the height of no circuit is.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int, int32[n]) or None
+        Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
+        in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
+        lengths times all heights is beyond 2^58.
+
+    Notes
+    -----
+    Exact: integers only. Deterministic. The GIL is released; Ctrl-C is obeyed.
+    """
+
+def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], period: int, parts: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+    """
+    Return the least times that keep all arcs, period after period.
+
+    Parameters
+    ----------
+    n_nodes, tail, head, length, height
+        As for ``critical_circuit``.
+    period, parts : int
+        All comes again every ``period / parts`` ticks.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    int64[N] or None
+        When each event comes, at least 0. [1 / parts ticks] None if the period is less than the cycle
+        time, or time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, or times may become too large.
+    """
 
 def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
@@ -166,6 +312,11 @@ class Instants:
         -------
         int64[M, 3] or None
             The moves: robot, vertex, arrival [ticks]; None where that does not work out.
+
+        Raises
+        ------
+        ValueError
+            If a robot is busy, or told to go where no edge leads.
         """
 
     def go_on(self) -> bool:
@@ -261,7 +412,24 @@ class FleetSearch:
         Returns
         -------
         bool
-            Whether every robot has a track now; if not, none has.
+            Whether every robot has a track now; if not, `go_on` may change that.
+        """
+
+    def go_on(self, n_searches: int, time_limit: float | None) -> bool:
+        """
+        Go on with giving the robots tracks one after another.
+
+        Parameters
+        ----------
+        n_searches : int
+            After so many searches since the beginning it gives up.
+        time_limit : float or None
+            After so many seconds as well.
+
+        Returns
+        -------
+        bool
+            Whether every robot has a track now; false as well where nothing was begun.
         """
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:

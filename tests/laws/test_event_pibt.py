@@ -6,6 +6,7 @@ from fractions import Fraction
 from itertools import accumulate, chain
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,6 +23,8 @@ GRIDS = (
     ["...", ".@.", "..."],
     ["...."],
     ["@.@@.", "....."],
+    ["@@@.@@@", "......."],
+    ["..@@@..", "......."],
 )
 SPEEDS = [Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(2, 5)]
 INSTANTS = 12
@@ -32,7 +35,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
     """Draw a fleet on a grid that may be full."""
     grid = draw(st.sampled_from(GRIDS))
     free = [f"N{k}" for k, cell in enumerate("".join(grid)) if cell == "."]
-    homes = draw(st.lists(st.sampled_from(free), min_size=1, max_size=6, unique=True))
+    homes = draw(st.lists(st.sampled_from(free), min_size=1, max_size=9, unique=True))
     targets = draw(st.permutations(free))[: len(homes)]
     rules = Rules(
         ends=draw(st.sampled_from(["home", "none"])),
@@ -85,7 +88,7 @@ def test_the_kernel_decides_what_the_oracle_decides(
         order = data.draw(st.permutations(sorted(undecided)))
         free = [robot for robot in range(len(oracle.robots)) if not oracle.busy(robot)]
         told = data.draw(
-            st.lists(st.sampled_from(free), unique=True, max_size=2) if free else st.just([])
+            st.lists(st.sampled_from(free), unique=True, max_size=3) if free else st.just([])
         )
         fixed = [
             (
@@ -107,3 +110,36 @@ def test_the_kernel_decides_what_the_oracle_decides(
             assert not oracle.go_on(expected)
             return
         assert oracle.go_on(expected)
+
+
+def test_a_ring_turns_at_the_pace_of_its_slowest() -> None:
+    """Four robots of their own speeds on four places, each told to go where the next one is."""
+    ring = grid_fleet(
+        ["..", ".."],
+        [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")],
+        rules=Rules(ends="none"),
+        speeds=SPEEDS,
+    )
+    kernel, oracle = both(ring, seed=0)
+    trips = ring.timing.itineraries
+    fixed = [(robot, int(trip.last)) for robot, trip in enumerate(trips)]
+    moves = kernel.choose(np.arange(4, dtype=np.int32), np.array(fixed, np.int32))
+    assert moves is not None
+    slowest = max(trip.edge_ticks[0] for trip in trips)
+    assert sorted(moves.tolist()) == [[robot, vertex, slowest] for robot, vertex in fixed]
+    assert sorted(oracle.choose([0, 1, 2, 3], fixed) or []) == sorted(map(tuple, moves.tolist()))
+
+
+def test_who_is_busy_or_told_to_jump_is_refused() -> None:
+    """The first robot drives from N0 to N1, which takes it two ticks; then the second chooses."""
+    speeds = [Fraction(1, 2), Fraction(1)]
+    rules = Rules(ends="none")
+    pair = grid_fleet(["......"], [("N0", "N5"), ("N3", "N4")], rules=rules, speeds=speeds)
+    kernel, _ = both(pair, seed=0)
+    nobody = np.zeros((0, 2), np.int32)
+    with pytest.raises(ValueError, match=r"fixed\[1\]: 5 is not next to the robot"):
+        kernel.choose(np.array([0], np.int32), np.array([[0, 1], [1, 5]], np.int32))
+    assert kernel.choose(np.array([0, 1], np.int32), nobody) is not None
+    assert kernel.go_on()
+    with pytest.raises(ValueError, match=r"order\[0\]: 0 is busy"):
+        kernel.choose(np.array([0], np.int32), nobody)

@@ -9,14 +9,28 @@
 #include <span>
 
 #include "rightofway/fleet_plan.hpp"
-#include "rightofway/safe_interval_search.hpp"
+#include "rightofway/prioritized.hpp"
 
 namespace rightofway {
 
-// Gives all robots of a plan without tracks one each, in at most so many searches; false, with the
-// plan in an unknown state, if that does not work out. `is_over` is asked by the calling thread.
-bool plan_in_turn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> order,
-                  std::int64_t n_searches, bool has_second_thread,
-                  const SafeIntervalSearch::IsOver& is_over);
+class InTurn {
+  public:
+    // Borrows both. The plan is without tracks.
+    InTurn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> order);
+
+    // Gives all robots a track each, in at most so many searches since the beginning. False if that
+    // does not work out, with the plan in an unknown state; it can go on from there. `is_over` is
+    // asked by the calling thread.
+    bool run(std::int64_t n_searches, bool has_second_thread,
+             const SafeIntervalSearch::IsOver& is_over);
+
+  private:
+    bool take(SearchEnd second);
+
+    FleetPlan& plan_;
+    FleetPlan plan_in_haste_;
+    Prioritized patient_;
+    Prioritized hasty_;
+};
 
 }  // namespace rightofway

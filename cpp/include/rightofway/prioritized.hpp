@@ -31,17 +31,19 @@ struct TrackPrices {
     Tick dearer;
 };
 constexpr TrackPrices patient{3, 2};
-constexpr TrackPrices hasty{20, 10};
+constexpr TrackPrices hasty{100, 50};
 
 class Prioritized {
   public:
     // Borrows both. The plan is without tracks.
     Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices = patient);
 
-    // Gives robots tracks in that order, in at most so many searches. `stopped` means that some
-    // are without a track.
-    SearchEnd run(std::span<const RobotId> order, std::int64_t n_searches,
-                  const SafeIntervalSearch::IsOver& is_over);
+    // Robots are to get tracks in that order.
+    void start(std::span<const RobotId> order);
+
+    // Gives them tracks, until so many searches were made since the start. `stopped` means that
+    // some are without a track; it can go on from there.
+    SearchEnd run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
 
     std::int64_t n_evictions() const { return n_evictions_; }
 
@@ -61,6 +63,7 @@ class Prioritized {
     std::vector<Tick> holds_;
     std::vector<RobotId> met_;
     TimedTrack track_;
+    std::int64_t n_searches_ = 0;
     std::int64_t n_evictions_ = 0;
     std::int64_t next_raise_;  // at so many states
 };

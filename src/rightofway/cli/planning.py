@@ -15,7 +15,14 @@ from rightofway.planners import PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = ["PlanningCommand", "hand_over", "options_of_planning", "refuse_bad_outputs"]
+__all__ = [
+    "PlanningCommand",
+    "hand_over",
+    "options_of_planning",
+    "refuse_bad_outputs",
+    "seconds",
+    "write",
+]
 
 
 class PlanningCommand(click.Command):
@@ -49,7 +56,8 @@ def _options(
     return {name: value for name, _, value in pairs}
 
 
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+def seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+    """Take a time limit; None for no limit."""
     if not given > 0:
         raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
     return None if given == math.inf else given
@@ -70,7 +78,7 @@ def options_of_planning(planner: str) -> Callable[[Callable[..., Any]], Callable
                      help="Which planner to use."),
         click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
                      help="Tell the planner something; may be repeated."),
-        click.option("--time-limit", type=float, default=10, show_default=True, callback=_seconds,
+        click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
                      metavar="SECONDS", help="When to stop; inf for never."),
         click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True,
                      metavar="N", help="For planners that draw at random."),
@@ -103,7 +111,7 @@ def hand_over(
     found: Plan, output: str | None, page: str | None, *, log: bool, table: bool, as_json: bool
 ) -> int:
     """Write and report a plan; return the exit code."""
-    _write(found, output, page)
+    write(found, output, page)
     if output != "-":
         _report(found, log=log, table=table, as_json=as_json)
     return _end(found)
@@ -118,7 +126,8 @@ def _refuse_two_results(output: str | None, *, log: bool, table: bool, as_json: 
         raise click.UsageError(f"{words} is for people, --json for programs: choose one")
 
 
-def _write(found: Plan, output: str | None, page: str | None) -> None:
+def write(found: Plan, output: str | None, page: str | None = None) -> None:
+    """Write a plan, and a page that plays it, where they are asked for."""
     from rightofway.io import plan_text, save_plan
 
     if output == "-":

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 
+from rightofway.model.itinerary import Itinerary
+from rightofway.model.route import Route
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Lap"]
+__all__ = ["Lap", "lap_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,3 +42,22 @@ class Lap:
     def least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's."""
         return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
+
+
+def lap_of(itinerary: Itinerary, route: Route) -> Lap:
+    """Wrap a round trip into a lap.
+
+    Parameters
+    ----------
+    itinerary
+        What the robot has to do in one lap; it ends at home.
+    route
+        Where it goes for that; the last visit serves all stages at home at the end.
+    """
+    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
+    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
+    return Lap(
+        vertices=route.vertices[:-1],
+        dwell=(Tick(between), *route.dwell[1:-1]),
+        drive=(route.drive[-1], *route.drive[1:-1]),
+    )
