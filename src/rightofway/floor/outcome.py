@@ -202,6 +202,10 @@ class Outcome:
         ------
         IndexError
             If there was no such run.
+
+        Notes
+        -----
+        The judge finds no meeting in it; of robots that are early it says that they are too fast.
         """
         if not 0 <= run < self.runs:
             raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")
