@@ -205,7 +205,8 @@ class Outcome:
 
         Notes
         -----
-        The judge finds no meeting in it; of robots that are early it says that they are too fast.
+        The judge reckons with planned durations: robots that are early are too fast for it, and
+        where they book ahead it thinks that they book sooner than they do. Else it finds no fault.
         """
         if not 0 <= run < self.runs:
             raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")
