@@ -27,8 +27,8 @@ MOST_GROUPS = 3
 MOST_LINES = 12
 """Longer lists end with how many more there are."""
 
-MOST_OF_NUMBER = 8
-"""Columns that a number may take; longer fractions are rounded for people."""
+MOST_OF_DENOMINATOR = 12
+"""Fractions of smaller parts are rounded for people."""
 
 MOST_TIMES = 4
 """How often a conflict is told within one period; more times are counted."""
@@ -170,7 +170,7 @@ def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
 
 
 def _short(number: Fraction) -> str:
-    return str(number) if len(str(number)) <= MOST_OF_NUMBER else f"{float(number):.5g}"
+    return str(number) if number.denominator <= MOST_OF_DENOMINATOR else f"{float(number):.2f}"
 
 
 def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:

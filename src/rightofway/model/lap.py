@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import takewhile
 
 from rightofway.model.itinerary import Itinerary
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.route import Route, route_through
+from rightofway.model.route import Route
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Lap", "lap_along", "lap_of"]
+__all__ = ["Lap", "lap_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,24 +60,4 @@ def lap_of(itinerary: Itinerary, route: Route) -> Lap:
         vertices=route.vertices[:-1],
         dwell=(Tick(between), *route.dwell[1:-1]),
         drive=(route.drive[-1], *route.drive[1:-1]),
-    )
-
-
-def lap_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Lap:
-    """Wrap any way past all stops into a lap.
-
-    Parameters
-    ----------
-    roadmap
-        The graph it runs on.
-    itinerary
-        What the robot has to do in one lap; it ends at home.
-    vertices
-        Where it goes, from home and home again; each stop is served as early as it can be.
-    """
-    twice = replace(itinerary, stages=itinerary.stages * 2)
-    route = route_through(roadmap, twice, [*vertices, *vertices[1:]])
-    second = slice(len(vertices) - 1, -1)
-    return Lap(
-        vertices=route.vertices[second], dwell=route.dwell[second], drive=route.drive[second]
     )

@@ -1,5 +1,14 @@
 """Rights of way between visits, and the earliest timetable that keeps them."""
 
+from rightofway.precedence.delayed import (
+    NEVER,
+    DelayedPlan,
+    Execution,
+    Hazards,
+    Runs,
+    Setbacks,
+    order_of,
+)
 from rightofway.precedence.event_graph import (
     Arcs,
     Circuit,
@@ -18,19 +27,26 @@ from rightofway.precedence.sensitivity import (
 )
 
 __all__ = [
+    "NEVER",
     "Arcs",
     "Circuit",
+    "DelayedPlan",
     "EventGraph",
+    "Execution",
+    "Hazards",
     "Meeting",
     "PeriodicTimetable",
     "PrecedenceGraph",
+    "Runs",
     "Segment",
     "Sensitivity",
+    "Setbacks",
     "critical_circuit",
     "crossing",
     "cycle_time_without",
     "event_graph",
     "graph_of",
+    "order_of",
     "sensitivity",
     "shared_segment",
     "tight_arcs",
