@@ -37,7 +37,7 @@ CUTTING_SHARE, CUT = 0.25, 2
 BUILDING_SHARE = 0.3
 """The part of what is left then that goes into first timetables."""
 
-MANY, FILLING_SHARE = 300, 0.6
+MANY, FILLING_SHARE = 300, 0.3
 """Groups of more robots are built once and filled; there is hardly time to improve them."""
 
 PLACING_SHARE = 0.7
@@ -230,8 +230,9 @@ def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:
     timetable, parts = choice.timetable, choice.cycle_time.denominator
     if parts * sum(map(len, timetable.enter)) <= MOST_VISITS:
         timetable = unrolled(timetable, parts)
-        return shift.graph(timetable).earliest(Tick(choice.cycle_time.numerator))
-    return shift.graph(timetable).earliest(Tick(choice.period))
+        whole = choice.cycle_time.numerator
+        return shift.graph(timetable).earliest(Tick(whole), cycle_time=Fraction(whole))
+    return shift.graph(timetable).earliest(Tick(choice.period), cycle_time=choice.cycle_time)
 
 
 def _told(

@@ -22,7 +22,9 @@ SOMETIMES = 3
 
 def crowded(shift: Shift, choice: Choice) -> Choice:
     """Return a timetable with as many laps, or more, in a period as short as it can be."""
-    timetable = shift.graph(choice.timetable).earliest(Tick(choice.period))
+    timetable = shift.graph(choice.timetable).earliest(
+        Tick(choice.period), cycle_time=choice.cycle_time
+    )
     rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
     works = [Work(*row) for row in rows]
     circle = shift.circle(choice.period)

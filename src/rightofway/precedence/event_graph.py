@@ -201,13 +201,21 @@ class EventGraph:
         """
         return circuit_of(len(self), self.arcs, time_limit=time_limit)
 
-    def earliest(self, period: Tick, *, time_limit: float | None = None) -> PeriodicTimetable:
+    def earliest(
+        self,
+        period: Tick,
+        *,
+        cycle_time: Fraction | None = None,
+        time_limit: float | None = None,
+    ) -> PeriodicTimetable:
         """Return the timetable of the same orders in which everything comes as early as it can.
 
         Parameters
         ----------
         period
             At least the cycle time [ticks].
+        cycle_time
+            That, where it is known already.
         time_limit
             When to stop [s].
 
@@ -218,7 +226,8 @@ class EventGraph:
         GaveUp
             If time ran out.
         """
-        cycle_time = self.critical_circuit(time_limit=time_limit).cycle_time
+        if cycle_time is None:
+            cycle_time = self.critical_circuit(time_limit=time_limit).cycle_time
         if period < cycle_time:
             raise ValueError(f"period: {period} is less than the cycle time {cycle_time}")
         arcs = self.arcs
