@@ -8,6 +8,7 @@ class Card {
     Object.assign(this, { plan, clock, choice, words });
     this.box = document.getElementById("card");
     choice.on("choice", () => this.#show());
+    choice.on("mode", () => this.#show());
   }
 
   #show() {
@@ -27,16 +28,16 @@ class Card {
 
   #robot(robot) {
     const { words } = this;
-    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
-    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
-    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
+    const held = robot.held?.reduce((sum, ticks) => sum + ticks, 0);
+    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
       facts([
-        ["Done at", `${words.time(robot.completion)}${lost}`],
-        ["Alone", words.time(robot.alone)],
+        ...(robot.planned ? this.#floorTimes(robot) : this.#times(robot)),
+        ["Held up", held ? `${words.time(held)} in all` : ""],
         ["Waits", waited ? `${words.time(waited)} in all` : "never"],
+        ...this.#repeats(robot),
         ["Speed", robot.speed],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],
@@ -45,6 +46,31 @@ class Card {
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
       ...this.#waits(robot),
     ];
+  }
+
+  #times(robot) {
+    const { words } = this;
+    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
+    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
+    return [["Done at", `${words.time(robot.completion)}${lost}`], ["Alone", words.time(robot.alone)]];
+  }
+
+  #floorTimes(robot) {
+    const { words } = this;
+    const planned = ["Planned", words.time(robot.planned.completion)];
+    if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], planned];
+    if (robot.ending === WAIT) return [["Done", "never: it is stuck"], planned];
+    return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], planned];
+  }
+
+  /** From when on it repeats itself, and how often. */
+  #repeats(robot) {
+    const group = this.plan.steady?.groupOf[robot.index];
+    if (!group || robot.planned) return [];
+    const laps = this.plan.steady.laps(robot.index, group.start + group.period) -
+      this.plan.steady.laps(robot.index, group.start);
+    const every = `${counted(laps, "lap")} every ${this.words.time(group.period)}`;
+    return [["Repeats", `${every}, from ${this.words.time(group.start)} on`]];
   }
 
   #stage(robot, stage) {

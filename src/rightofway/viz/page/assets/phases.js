@@ -6,12 +6,15 @@ const WAIT = 1;
 const WORK = 2;
 const TURN = 3;
 const DONE = 4;
+const HELD = 5; // up, by itself: on the floor only
+const BROKEN = 6;
 
 /**
  * What a robot does when, one entry for each change: `begin[i]` to `begin[i + 1]`, during `visit[i]`.
  *
  * A robot stays at u for the edge's ticks and then, at one instant, is at w. For the eye it drives
- * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive.
+ * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive. On the
+ * floor it may be held up before it waits, and a robot that does not get to its last visit ends where it is.
  */
 function phasesOf(robot) {
   const phases = { begin: [], activity: [], visit: [] };
@@ -19,7 +22,7 @@ function phasesOf(robot) {
   let stage = 0;
   for (let visit = 0; visit <= last; visit++) {
     const leave = robot.leave(visit);
-    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : Infinity;
+    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : robot.broken;
     let now = robot.enter[visit];
     const add = (ticks, activity) => {
       const end = Math.min(now + ticks, go);
@@ -31,7 +34,8 @@ function phasesOf(robot) {
       add(robot.stages[stage].work, WORK);
       if (visit < last) add(robot.stages[stage].turn, TURN);
     }
-    if (visit === last) push(phases, now, DONE, visit);
+    if (robot.held) add(robot.held[visit], HELD);
+    if (visit === last) pushEnd(phases, now, robot);
     else {
       if (go > now) push(phases, now, WAIT, visit);
       if (leave > go) push(phases, go, DRIVE, visit);
@@ -45,6 +49,16 @@ function phasesOf(robot) {
       return i + 1 < this.begin.length ? this.begin[i + 1] : Infinity;
     },
   };
+}
+
+/** How it ends: with everything done, broken down, or waiting for ever behind a robot that is. */
+function pushEnd(phases, now, { ending, broken, vertices }) {
+  const visit = vertices.length - 1;
+  if (ending !== BROKEN) push(phases, now, ending, visit);
+  else {
+    if (now < broken) push(phases, now, WAIT, visit);
+    push(phases, broken, BROKEN, visit);
+  }
 }
 
 function push(phases, begin, activity, visit) {

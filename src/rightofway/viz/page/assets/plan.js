@@ -79,6 +79,9 @@ class Robot {
     this.completion = raw.completion;
     this.alone = raw.alone;
     this.waits = [];
+    this.held = raw.held ?? null; // ticks of each visit that it was held up by itself
+    this.broken = raw.broken ?? Infinity;
+    this.ending = raw.ending ?? DONE;
     this.phases = phasesOf(this);
   }
 
@@ -104,6 +107,10 @@ class Wait {
   }
 }
 
+function giveWaits(robots, rows) {
+  for (const wait of rows.map((row) => new Wait(row))) robots[wait.robot].waits.push(wait);
+}
+
 /** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
 function lastAtMost(numbers, limit) {
   let [low, high] = [0, numbers.length - 1];
@@ -119,14 +126,16 @@ function lastAtMost(numbers, limit) {
 class Plan {
   constructor(raw) {
     this.tick = { numerator: raw.tick[0], denominator: raw.tick[1] };
-    this.end = raw.end;
+    this.end = Math.max(raw.end, raw.floor?.end ?? 0);
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;
     this.roadmap = new Roadmap(raw.map);
     this.line = raw.line;
-    this.robots = raw.robots.map((robot, index) => new Robot(robot, index));
-    this.waits = raw.waits.map((wait) => new Wait(wait));
-    for (const wait of this.waits) this.robots[wait.robot].waits.push(wait);
+    this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
+    giveWaits(this.planned, raw.waits);
+    this.happened = raw.floor ? onTheFloor(raw, this.planned) : null;
+    this.robots = this.happened ?? this.planned; // those that are shown
+    this.steady = raw.steady ? new Steady(raw, this.planned) : null;
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;

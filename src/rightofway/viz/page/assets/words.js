@@ -5,7 +5,7 @@ function counted(number, thing) {
   return `${number} ${thing}${number === 1 ? "" : "s"}`;
 }
 
-const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done"];
+const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
 
 /** A number with its thousands apart, from five digits on. */
 function grouped(number) {
@@ -50,6 +50,38 @@ class Words {
     const next = this.vertex(wait.towards);
     if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
     return `${what} for ${this.robot(wait.forRobot)} to leave ${next}`;
+  }
+
+  /** How late a robot is. */
+  lateness(ticks) {
+    if (!ticks) return "on time";
+    return ticks > 0 ? `${this.time(ticks)} late` : `${this.time(-ticks)} early`;
+  }
+
+  /** Which lap a robot is on, of how many; without an end while a period is played for ever. */
+  lap(made, { index }, endless) {
+    const all = this.plan.steady.lapEnds[index].length;
+    if (endless) return `lap ${made + 1}`;
+    return made < all ? `lap ${made + 1} of ${all}` : counted(all, "lap");
+  }
+
+  /** What keeps a group from repeating itself sooner, in a line. */
+  bottleneck({ circuit, period }) {
+    return `Bottleneck: ${this.#several(circuit.map(({ robot }) => robot.name))}, ${this.time(period)} a period`;
+  }
+
+  /** The same with its places. */
+  bottleneckAtLength(group) {
+    const steps = group.circuit.map(({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`);
+    return `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
+      `the first again a period later: ${steps.join(", ")}`;
+  }
+
+  /** "R1, R2 and R3", each once; the first few of many. */
+  #several(names) {
+    const once = [...new Set(names)];
+    if (once.length > 4) return `${once.slice(0, 3).join(", ")} and ${once.length - 3} more`;
+    return once.length > 1 ? `${once.slice(0, -1).join(", ")} and ${once.at(-1)}` : once[0];
   }
 
   /** Where two robots would have met. */

@@ -1,0 +1,85 @@
+"""What the page is told about robots that repeat themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rightofway.errors import InputError
+from rightofway.model import Plan, Steady, Track
+from rightofway.viz.motion import Trip
+
+__all__ = ["laps_of", "steady_of"]
+
+
+def steady_of(plan: Plan, steady: Sequence[Steady], trips: Sequence[Trip]) -> list[dict[str, Any]]:
+    """Return the steady periods of a plan, as plain data for JSON.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    steady
+        Groups of its robots.
+    trips
+        The trip of each robot.
+
+    Raises
+    ------
+    InputError
+        If a group names a robot or a visit that the plan does not have.
+    """
+    _refuse_strangers(plan, steady)
+    return [
+        {
+            "robots": list(group.robots),
+            "start": group.start,
+            "period": group.period,
+            "until": min(
+                _until(group, plan.tracks[robot], trips[robot].drive) for robot in group.robots
+            ),
+            "critical": [list(visit) for visit in group.critical],
+        }
+        for group in steady
+    ]
+
+
+def laps_of(plan: Plan) -> list[int]:
+    """Return how many laps each robot makes."""
+    return [robot.laps or plan.scenario.rules.laps for robot in plan.scenario.robots]
+
+
+def _refuse_strangers(plan: Plan, steady: Sequence[Steady]) -> None:
+    robots = len(plan.tracks)
+    for index, group in enumerate(steady):
+        for robot in group.robots:
+            if not 0 <= robot < robots:
+                message = f"there is no robot {robot} (give 0 to {robots - 1})"
+                raise InputError.at(f"steady[{index}].robots", message)
+        for place, (robot, visit) in enumerate(group.critical):
+            if not 0 <= visit < len(plan.tracks[robot]):
+                message = (
+                    f"robot {robot} has no visit {visit} (its track has {len(plan.tracks[robot])})"
+                )
+                raise InputError.at(f"steady[{index}].critical[{place}]", message)
+
+
+def _until(group: Steady, track: Track, drive: Sequence[int]) -> int:
+    """Return the tick up to which a robot does what it did a period before.
+
+    A plan ends, so the first visit that is missing or comes at another tick ends the repetition:
+    when the robot would have had to set out for it.
+    """
+    first = int(np.searchsorted(track.enter, group.start))
+    shift = int(np.searchsorted(track.enter, group.start + group.period)) - first
+    if shift == 0:
+        return group.start
+    before = slice(first, len(track) - shift)
+    after = slice(first + shift, None)
+    same = (track.enter[after] - track.enter[before] == group.period) & (
+        track.vertices[after] == track.vertices[before]
+    )
+    last = first + (len(same) if same.all() else int(np.argmin(same)))
+    return int(track.enter[last]) + group.period - drive[last]
