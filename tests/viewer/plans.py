@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from rightofway.metrics.stays import stays_of
 from rightofway.model import (
     Actual,
     Decision,
@@ -206,29 +207,41 @@ def counter_steady() -> Steady:
 def counter_late() -> Actual:
     """Return a run of `counter`: R1 is held up for 4 ticks at its first work, R2 breaks down.
 
-    R1 leaves N1 at 10 instead of 6, and all that follows is 4 late. R2 comes to N1 at 20 instead of
-    16 and breaks down there at 22; R1, home since 20, waits for ever.
+    R1 stands still from 3 to 7 and leaves N1 at 10 instead of 6; all that follows is 4 late. R2
+    comes to N1 at 20 instead of 16 and breaks down there at 22; R1, home since 20, waits for ever.
     """
     return Actual(
         tracks=(
             Track.of([0, 1, 0, 1, 0], [0, 1, 10, 15, 20]),
             Track.of([2, 1, 2, 1], [0, 10, 15, 20]),
         ),
-        held=(np.array([0, 4, 0, 0, 0], np.int64), np.zeros(4, np.int64)),
-        broken=(None, Tick(22)),
+        dwell=(np.array([0, 4, 1, 4, 1]), np.array([0, 4, 1, 4])),
+        drive=(np.array([0, 1, 1, 1, 1]), np.array([0, 1, 1, 1])),
+        standstills=(((Tick(3), Tick(4)),), ((Tick(22), None),)),
     )
 
 
-def delayed(plan: Plan, every: int = 7) -> Actual:
-    """Return a run of a plan in which each robot loses a tick at every seventh visit, alone."""
-    tracks, all_held = [], []
-    for robot, track in enumerate(plan.tracks):
-        held = ((np.arange(len(track)) + robot) % every == 0).astype(np.int64)
-        held[-1] = 0
-        all_held.append(held)
-        tracks.append(
-            Track.of(
-                track.vertices.tolist(), (track.enter + np.append(0, np.cumsum(held[:-1]))).tolist()
-            )
-        )
-    return Actual(tracks=tuple(tracks), held=tuple(all_held))
+def delayed(plan: Plan, every: int = 9) -> Actual:
+    """Return a run of a plan in which each robot loses ticks by itself, and heeds nobody.
+
+    Each drive into every ninth visit takes a tick longer, and each robot stands still for 12 ticks.
+    """
+    tracks, dwells, drives, standstills = [], [], [], []
+    for robot, (track, stay) in enumerate(
+        zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True)
+    ):
+        slow = (np.arange(len(track)) + robot) % every == 0
+        slow[0] = False
+        begin = 20 + 7 * robot % 60
+        enter = track.enter + np.cumsum(slow)
+        enter[enter > begin] += 12
+        tracks.append(Track.of(track.vertices.tolist(), enter.tolist()))
+        dwells.append(stay.dwell)
+        drives.append(np.append(0, stay.drive[:-1]) + slow)
+        standstills.append(((Tick(begin), Tick(12)),) if begin < enter[-1] else ())
+    return Actual(
+        tracks=tuple(tracks),
+        dwell=tuple(dwells),
+        drive=tuple(drives),
+        standstills=tuple(standstills),
+    )

@@ -1,4 +1,4 @@
-"""What became of a plan on the floor: the same visits at other ticks."""
+"""What became of a plan on the floor: the same visits at other ticks, and why."""
 
 from __future__ import annotations
 
@@ -23,11 +23,15 @@ class Actual:
     tracks
         One for each robot: the vertices of its planned track, or the first of them where it never
         got further, with the ticks at which it entered them.
-    held
-        For each robot, how long each of its visits was held up by the robot itself, not by others
-        [ticks]; int64, as long as its track.
-    broken
-        When each robot broke down [ticks]; None for those that did not. Empty if none did.
+    dwell
+        For each robot, how long it really worked and turned in each visit [ticks]; int64, as long
+        as its track.
+    drive
+        For each robot, the ticks of the edge that it really drove into each visit, 0 for the first;
+        int64, as long as its track.
+    standstills
+        For each robot, from when it stood still by itself and how long [ticks], in order; None for
+        ever: it broke down. Empty if none did.
 
     Raises
     ------
@@ -36,16 +40,20 @@ class Actual:
     """
 
     tracks: tuple[Track, ...]
-    held: tuple[NDArray[np.int64], ...]
-    broken: tuple[Tick | None, ...] = ()
+    dwell: tuple[NDArray[np.int64], ...]
+    drive: tuple[NDArray[np.int64], ...]
+    standstills: tuple[tuple[tuple[Tick, Tick | None], ...], ...] = ()
 
     def __post_init__(self) -> None:
         robots = len(self.tracks)
-        for name, given in (("held", self.held), ("broken", self.broken or self.tracks)):
-            if len(given) != robots:
+        for name in ("dwell", "drive", "standstills"):
+            given = getattr(self, name)
+            if len(given) != robots and (given or name != "standstills"):
                 message = f"{len(given)} for {robots} tracks (give one for each)"
                 raise InputError.at(name, message)
-        for robot, (track, held) in enumerate(zip(self.tracks, self.held, strict=True)):
-            if len(held) != len(track):
-                message = f"{len(held)} ticks for {len(track)} visits (give one for each)"
-                raise InputError.at(f"held[{robot}]", message)
+        for robot, track in enumerate(self.tracks):
+            for name in ("dwell", "drive"):
+                given = len(getattr(self, name)[robot])
+                if given != len(track):
+                    message = f"{given} for {len(track)} visits (give one for each)"
+                    raise InputError.at(f"{name}[{robot}]", message)

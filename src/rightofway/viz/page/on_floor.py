@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.metrics.stays import Stays, stays_of
+from rightofway.metrics.stays import Stays
 from rightofway.metrics.waits import waits_in
 from rightofway.model import Actual, Plan, Tick, Track
+from rightofway.viz.motion import Trip
 from rightofway.viz.page.figures import differences, wait_row
 
 __all__ = ["floor_of"]
 
+Standstills = Sequence[tuple[Tick, Tick | None]]
 
-def floor_of(plan: Plan, actual: Actual) -> dict[str, Any]:
+
+def floor_of(plan: Plan, actual: Actual, trips: Sequence[Trip]) -> dict[str, Any]:
     """Return what became of a plan, as plain data for JSON.
 
     Parameters
@@ -26,6 +29,8 @@ def floor_of(plan: Plan, actual: Actual) -> dict[str, Any]:
         The plan.
     actual
         A run of it; times are ticks of the plan.
+    trips
+        The planned trip of each robot.
 
     Raises
     ------
@@ -33,26 +38,23 @@ def floor_of(plan: Plan, actual: Actual) -> dict[str, Any]:
         If a robot is missing, or went another way than planned.
     """
     _refuse_other_ways(plan, actual)
-    planned = stays_of(plan.scenario, plan.tracks)
-    stays = tuple(map(_stays, planned, actual.tracks, actual.held))
-    broken = actual.broken or (None,) * len(stays)
-    completions = [
-        stay.completion if len(track) == len(whole) else None
-        for stay, track, whole in zip(stays, actual.tracks, plan.tracks, strict=True)
+    still = actual.standstills or ((),) * len(trips)
+    stays = tuple(map(_stays, actual.tracks, actual.dwell, actual.drive, still))
+    robots = [
+        {
+            "enter": differences(track.enter),
+            "drive": drive.tolist(),
+            "stages": _stages(trip, dwell),
+            "still": [list(standstill) for standstill in standstills],
+            "completion": stay.completion if len(track) == len(trip.vertices) else None,
+        }
+        for trip, track, dwell, drive, standstills, stay in zip(
+            trips, actual.tracks, actual.dwell, actual.drive, still, stays, strict=True
+        )
     ]
     return {
-        "end": max(*_ends(stays), *(tick or 0 for tick in broken), 1),
-        "robots": [
-            {
-                "enter": differences(track.enter),
-                "held": [[int(visit), int(held[visit])] for visit in np.flatnonzero(held)],
-                "completion": completion,
-                "broken": tick,
-            }
-            for track, held, completion, tick in zip(
-                actual.tracks, actual.held, completions, broken, strict=True
-            )
-        ],
+        "end": max(1, *map(_end, stays, still)),
+        "robots": robots,
         "waits": [wait_row(wait) for wait in waits_in(plan.scenario, actual.tracks, stays)],
     }
 
@@ -67,21 +69,44 @@ def _refuse_other_ways(plan: Plan, actual: Actual) -> None:
             raise InputError.at(f"tracks[{robot}]", message)
 
 
-def _stays(planned: Stays, track: Track, held: np.ndarray[Any, np.dtype[np.int64]]) -> Stays:
-    """Return what the visits of a track are for: as planned, and being held up."""
-    reached = len(track)
-    dwell = planned.dwell[:reached] + held
-    drive = np.append(planned.drive[: reached - 1], 0)
-    waits = np.append(np.diff(track.enter), 0) - drive - dwell
+def _stays(
+    track: Track, dwell: NDArray[np.int64], drive: NDArray[np.int64], still: Standstills
+) -> Stays:
+    """Return what the visits of a track are for; standing still is not waiting."""
+    out = np.append(drive[1:], 0)
+    stood = dwell + _stood(track, still)
+    waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
     waits[-1] = 0
-    return replace(
-        planned,
-        dwell=dwell,
-        drive=drive,
-        waits=waits,
-        completion=Tick(int(track.enter[-1] + dwell[-1])),
-    )
+    completion = Tick(int(track.enter[-1] + dwell[-1]))
+    return Stays(dwell=stood, drive=out, waits=waits, completion=completion)
 
 
-def _ends(stays: Sequence[Stays]) -> Iterator[int]:
-    return (stay.completion for stay in stays)
+def _stood(track: Track, still: Standstills) -> NDArray[np.int64]:
+    """Return how much of each visit the robot stood still; nothing for the last one."""
+    stood = np.zeros(len(track), np.int64)
+    for begin, ticks in still:
+        if ticks is not None:
+            inside = np.clip(track.enter, begin, begin + ticks)
+            stood[:-1] += np.diff(inside)
+    return stood
+
+
+def _stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
+    """Return the stages with what they really took, each its part of what the visit took."""
+    reached, last = len(dwell), len(trip.vertices) - 1
+    planned = np.zeros(reached, np.int64)
+    for stage, visit in zip(trip.stages, trip.served, strict=True):
+        if 0 <= visit < reached:
+            planned[visit] += stage.work + (stage.turn if visit < last else 0)
+    rows = []
+    for stage, visit in zip(trip.stages, trip.served, strict=True):
+        if not 0 <= visit < reached:
+            rows.append([stage.vertex, stage.work, stage.turn, -1])
+            continue
+        pace = dwell[visit] / planned[visit] if planned[visit] else 1
+        rows.append([stage.vertex, round(stage.work * pace), round(stage.turn * pace), visit])
+    return rows
+
+
+def _end(stay: Stays, still: Standstills) -> int:
+    return max(stay.completion, *(begin for begin, _ in still), 0)

@@ -53,7 +53,7 @@ def payload_of(
         payload["steady"] = steady_of(plan, steady, trips)
         payload["laps"] = laps_of(plan)
     if actual is not None:
-        payload["floor"] = floor_of(plan, actual)
+        payload["floor"] = floor_of(plan, actual, trips)
     return payload
 
 

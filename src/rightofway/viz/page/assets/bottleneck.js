@@ -35,7 +35,7 @@ class Bottleneck {
       around.forEach((vertex, i) => context[i ? "lineTo" : "moveTo"](x[vertex], y[vertex]));
       context.stroke();
     };
-    const width = Math.max(0.62, 9 / scale);
+    const width = Math.max(0.34, 7 / scale);
     context.strokeStyle = this.theme.litEdge;
     context.lineWidth = width + 2 / scale;
     trace();
@@ -45,13 +45,13 @@ class Bottleneck {
     context.lineCap = "butt";
   }
 
-  /** A glow round the robots that are on the circuit at this moment. */
+  /** A disc under the robots that are on the circuit at this moment. */
   paintRobots(context, motion, scale) {
     for (const index of this.robotsNow(this.clock.tick)) {
       context.fillStyle = this.theme.lit;
       context.strokeStyle = this.theme.litEdge;
       context.lineWidth = Math.max(0.03, 1.25 / scale);
-      disc(context, motion.x[index], motion.y[index], Math.max(0.46, 8 / scale));
+      disc(context, motion.x[index], motion.y[index], Math.max(0.44, 8 / scale));
       context.stroke();
     }
   }
@@ -59,7 +59,7 @@ class Bottleneck {
   /** Who is on the circuit at this moment. */
   robotsNow(tick) {
     const { circuit } = this;
-    if (!circuit.length || tick < this.group.start || this.choice.mode === "floor") return [];
+    if (!circuit.length || tick < this.group.start || this.choice.mode !== "plan") return [];
     const { period } = this.group;
     const since = ({ begin }) => (((tick - begin) % period) + period) % period;
     return [...new Set(circuit.filter((step) => since(step) < step.ticks).map(({ robot }) => robot.index))];
@@ -68,7 +68,7 @@ class Bottleneck {
   /** Light the visits of all periods; `rowOf` tells top and height of a visit's row, or nothing. */
   paintDiagram(context, area, rowOf) {
     const { circuit } = this;
-    if (!circuit.length || this.choice.mode === "floor") return;
+    if (!circuit.length || this.choice.mode !== "plan") return;
     const { period, until } = this.group;
     if (area.x(period) - area.x(0) < NARROWEST_PERIOD) return;
     const rows = circuit.map(rowOf);

@@ -29,13 +29,12 @@ class Card {
   #robot(robot) {
     const { words } = this;
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
-    const held = robot.held?.reduce((sum, ticks) => sum + ticks, 0);
     const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
       facts([
         ...(robot.planned ? this.#floorTimes(robot) : this.#times(robot)),
-        ["Held up", held ? `${words.time(held)} in all` : ""],
+        ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
         ["Waits", waited ? `${words.time(waited)} in all` : "never"],
         ...this.#repeats(robot),
         ["Speed", robot.speed],
@@ -59,17 +58,15 @@ class Card {
     const { words } = this;
     const planned = ["Planned", words.time(robot.planned.completion)];
     if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], planned];
-    if (robot.ending === WAIT) return [["Done", "never: it is stuck"], planned];
+    if (robot.ending === WAIT) return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], planned];
     return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], planned];
   }
 
   /** From when on it repeats itself, and how often. */
   #repeats(robot) {
     const group = this.plan.steady?.groupOf[robot.index];
-    if (!group || robot.planned) return [];
-    const laps = this.plan.steady.laps(robot.index, group.start + group.period) -
-      this.plan.steady.laps(robot.index, group.start);
-    const every = `${counted(laps, "lap")} every ${this.words.time(group.period)}`;
+    if (!group?.whole || robot.planned) return [];
+    const every = `${counted(this.plan.steady.lapsInPeriod(robot.index), "lap")} every ${this.words.time(group.period)}`;
     return [["Repeats", `${every}, from ${this.words.time(group.start)} on`]];
   }
 
@@ -84,7 +81,7 @@ class Card {
 
   #waits(robot) {
     if (!robot.waits.length) return [];
-    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait)));
+    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait, robot)));
     return [element("h3", {}, "Waits"), lines];
   }
 

@@ -1,8 +1,7 @@
 "use strict";
 
 const MOST_SAMPLES = 1200;
-const STACK = [WORK, TURN, DRIVE, WAIT]; // from the bottom up; who is done, is the empty space above
-const STACK_ON_THE_FLOOR = [...STACK, HELD, BROKEN];
+const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; who is done, is the empty space above
 
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
 class Census {
@@ -35,7 +34,7 @@ class Census {
   }
 
   get #stack() {
-    return this.choice.mode === "plan" ? STACK : STACK_ON_THE_FLOOR;
+    return STACK.filter((activity) => activity < DONE || this.#counts.value[activity].some(Boolean));
   }
 
   /** How many robots are not done yet, in each sample. */

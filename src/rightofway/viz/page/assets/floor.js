@@ -22,6 +22,23 @@ class FloorRobot extends Robot {
     return Math.max(this.enter[visit] - this.planned.enter[visit], overdue);
   }
 
+  /** Ticks that it stood still by itself. */
+  get held() {
+    const { phases } = this;
+    return phases.begin.reduce((sum, begin, i) => sum + (phases.activity[i] === HELD ? phases.end(i) - begin : 0), 0);
+  }
+
+  /** How much longer a wait was than planned. */
+  unplanned(wait) {
+    return wait.ticks - this.plannedWait[lastAtMost(this.enter, wait.tick)];
+  }
+
+  /** The robot that stands for ever where this one has to go next, or null. */
+  stuckBehind(robots) {
+    const next = this.planned.vertices[this.vertices.length];
+    return robots.find((robot) => robot !== this && robot.vertices.at(-1) === next) ?? null;
+  }
+
   /** When it begins to wait longer than planned, in a phase that is a wait. */
   unplannedFrom(phase) {
     return this.phases.begin[phase] + this.plannedWait[this.phases.visit[phase]];
@@ -30,20 +47,10 @@ class FloorRobot extends Robot {
 
 function floorTrip(raw, run) {
   const reached = run.enter.length;
-  const whole = reached === raw.vertices.length;
-  const held = new Float64Array(reached);
-  for (const [visit, ticks] of run.held) held[visit] = ticks;
-  return {
-    ...raw,
-    vertices: raw.vertices.slice(0, reached),
-    enter: run.enter,
-    stages: raw.stages.map(([vertex, work, turn, visit]) => [vertex, work, turn, visit < reached ? visit : -1]),
-    drive: typeof raw.drive === "number" ? raw.drive : raw.drive.slice(0, reached),
-    held,
-    completion: run.completion,
-    ending: whole ? DONE : run.broken === null ? WAIT : BROKEN,
-    broken: whole ? null : run.broken,
-  };
+  const still = run.still.map(([begin, ticks]) => [begin, ticks === null ? Infinity : begin + ticks]);
+  const isBroken = still.some(([, to]) => to === Infinity);
+  const ending = reached === raw.vertices.length ? DONE : isBroken ? BROKEN : WAIT;
+  return { ...raw, ...run, vertices: raw.vertices.slice(0, reached), still, ending };
 }
 
 /** How long a robot waits in each visit. */

@@ -25,6 +25,9 @@ const tabs = new Tabs([plan.robots.length, decisionList.items.length], () => {
 });
 const deepLink = new DeepLink(plan, clock, choice);
 showSummary(plan, words);
+document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
+for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
+for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
 listenToKeys(clock, choice, mapView.viewport, modeSwitch, loop);
 
 const frames = {

@@ -15,7 +15,7 @@ class MapRobots {
   /** Paint all robots in map units; those that stand out come last, and so on top. */
   paint(context, scale) {
     const radius = Math.max(scale < SMALL_CELL ? SMALL_RADIUS : RADIUS, 1.6 / scale);
-    if (this.choice.ghosts) for (const robot of this.plan.robots) this.#ghost(context, robot, radius, scale);
+    if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, radius, scale);
     if (this.choice.robotIndex < 0) {
       for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
     } else {
@@ -29,6 +29,12 @@ class MapRobots {
     }
   }
 
+  /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */
+  get #haunted() {
+    if (this.choice.robot) return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
+    return this.plan.robots.length <= FEW ? this.plan.robots : [];
+  }
+
   /** A dashed ring where the plan has a robot that is elsewhere, and a line to where it is. */
   #ghost(context, robot, radius, scale) {
     const i = robot.index;
@@ -36,15 +42,15 @@ class MapRobots {
     const [right, down] = [this.motion.x[i] - x, this.motion.y[i] - y];
     const apart = Math.hypot(right, down);
     if (apart < 0.02) return;
-    context.globalAlpha = this.choice.standsOut(i) ? 1 : 0.28;
     context.strokeStyle = robot.colour;
     context.lineWidth = Math.max(0.045, 1.25 / scale);
-    context.setLineDash([radius * 0.34, radius * 0.27]);
-    ring(context, x, y, radius);
+    const outer = radius * 1.14; // seen round another robot, too
+    if (radius * scale >= 5) context.setLineDash([outer * 0.34, outer * 0.284]); // ten dashes
+    ring(context, x, y, outer);
     context.setLineDash([]);
-    if (apart > 2 * radius) {
-      const share = radius / apart;
-      context.globalAlpha *= 0.6;
+    if (apart > outer + radius) {
+      const share = outer / apart;
+      context.globalAlpha = 0.6;
       context.beginPath();
       line(context, x + right * share, y + down * share, x + right * (1 - share), y + down * (1 - share));
       context.stroke();
@@ -166,7 +172,16 @@ class MapRobots {
     context.textAlign = "center";
     context.textBaseline = "middle";
     context.fillStyle = hollow ? this.theme.ink : this.inks[robot.index];
+    if (this.motion.activity[robot.index] === BROKEN) this.#halo(context, robot.name, size);
     context.fillText(robot.name, 0, size * 0.04);
     context.restore();
+  }
+
+  /** Keeps a name apart from the cross behind it. */
+  #halo(context, name, size) {
+    context.strokeStyle = this.theme.floor;
+    context.lineWidth = size * 0.3;
+    context.lineJoin = "round";
+    context.strokeText(name, 0, size * 0.04);
   }
 }

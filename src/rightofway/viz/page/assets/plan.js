@@ -79,14 +79,27 @@ class Robot {
     this.completion = raw.completion;
     this.alone = raw.alone;
     this.waits = [];
-    this.held = raw.held ?? null; // ticks of each visit that it was held up by itself
-    this.broken = raw.broken ?? Infinity;
+    this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
     this.ending = raw.ending ?? DONE;
     this.phases = phasesOf(this);
   }
 
   get home() {
     return this.vertices[0];
+  }
+
+  /** When it broke down. */
+  get broken() {
+    return this.still.find(([, to]) => to === Infinity)?.[0] ?? Infinity;
+  }
+
+  /** Ticks it stands still before so many ticks have been of use, from a tick on. */
+  stillIn(begin, ticks) {
+    let lost = 0;
+    for (const [from, to] of this.still) {
+      if (to > begin && from < begin + ticks + lost) lost += to - Math.max(from, begin);
+    }
+    return lost;
   }
 
   /** Ticks lost to the others. */

@@ -38,11 +38,21 @@ class RobotList {
   }
 
   #fill(row, robot) {
-    const state = ACTIVITY_WORDS[this.motion.activity[robot.index]];
+    const state = this.#state(robot);
     if (row.filled !== robot) this.#make(row, robot);
     if (row.state.textContent !== state) row.state.textContent = state;
     const now = this.#now(robot);
     if (now !== null && row.late.textContent !== now) row.late.textContent = now;
+  }
+
+  #state(robot) {
+    return this.#isStuck(robot) ? "stuck" : ACTIVITY_WORDS[this.motion.activity[robot.index]];
+  }
+
+  /** Whether it waits for ever, and already longer than planned. */
+  #isStuck(robot) {
+    const phase = this.motion.phase[robot.index];
+    return robot.ending === WAIT && phase === robot.phases.begin.length - 1 && this.clock.tick >= robot.unplannedFrom(phase);
   }
 
   #make(row, robot) {
@@ -64,11 +74,13 @@ class RobotList {
   #now(robot) {
     const { index } = robot;
     if (robot.planned) {
-      if (this.motion.activity[index] === BROKEN) return "";
+      if (this.motion.activity[index] === BROKEN || this.#isStuck(robot)) return "";
       return this.words.lateness(robot.lateness(this.clock.wholeTick, robot.phases.visit[this.motion.phase[index]]));
     }
-    if (!this.plan.steady) return null;
-    return this.words.lap(this.plan.steady.laps(index, this.clock.running), robot, this.clock.loop);
+    const { steady } = this.plan;
+    if (!steady) return null;
+    const { loop, tick, running } = this.clock;
+    return this.words.lap(loop ? steady.lapsForEver(index, running) : steady.laps(index, tick), robot, loop);
   }
 }
 

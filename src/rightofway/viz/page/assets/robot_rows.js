@@ -1,6 +1,7 @@
 "use strict";
 
 const MOST_ROWS = 60;
+const ROW_WITH_GHOST = 9; // pixels; in lower rows only the end of the plan is marked
 
 /** A row for each robot: a line while it drives, a frame while it waits, a block while it works. */
 class RobotRows {
@@ -9,10 +10,12 @@ class RobotRows {
   }
 
   get title() {
-    const signs = "Robots over time: a line is driving, a frame waiting, a block working or turning";
-    if (this.choice.mode === "plan") return signs;
-    const floor = "stripes held up, a filled frame waiting for one that is late";
-    return this.choice.ghosts ? `${signs}, ${floor}; thin above it the plan` : `${signs}, ${floor}`;
+    if (this.choice.mode === "plan") {
+      return "Robots over time: a line is driving, a frame waiting, a block working or turning";
+    }
+    const signs = "Robots over time; red: held up, orange: waits for a late robot";
+    if (!this.choice.ghosts) return signs;
+    return `${signs}, grey: ${this.#hasGhosts ? "the plan" : "done by plan"}`;
   }
 
   paint(context, area) {
@@ -30,12 +33,20 @@ class RobotRows {
     return { top: this.#middle(robot.index) - this.rowHeight / 2, height: this.rowHeight };
   }
 
+  get #hasGhosts() {
+    return this.choice.ghosts && this.rowHeight >= ROW_WITH_GHOST;
+  }
+
   /** The plan as a thin row at the upper edge: a line, with blocks where the robot works or turns. */
   #ghost(context, robot) {
     const { phases } = robot;
     const thick = Math.max(this.rowHeight * 0.16, 1);
     const top = this.#middle(robot.index) - this.rowHeight * 0.46;
     context.fillStyle = this.theme.muted;
+    if (this.rowHeight < ROW_WITH_GHOST) {
+      context.fillRect(this.area.x(robot.completion) - 1, top, 2, this.rowHeight * 0.92);
+      return;
+    }
     const bar = (from, to, height) =>
       context.fillRect(this.area.x(from), top + (thick - height) / 2, this.area.x(to) - this.area.x(from), height);
     bar(0, robot.completion, Math.max(thick * 0.3, 0.6));
@@ -56,9 +67,8 @@ class RobotRows {
 
   #row(context, robot) {
     const { phases } = robot;
-    const { ghosts } = this.choice;
-    const middle = this.#middle(robot.index) + (ghosts ? this.rowHeight * 0.12 : 0);
-    const full = Math.max(this.rowHeight * (ghosts ? 0.56 : 0.68), 1.5);
+    const middle = this.#middle(robot.index) + (this.#hasGhosts ? this.rowHeight * 0.12 : 0);
+    const full = Math.max(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), 1.5);
     context.fillStyle = context.strokeStyle = robot.colour;
     const begin = this.area.x(0);
     context.fillRect(begin, middle - full * 0.16, this.area.x(robot.completion ?? Infinity) - begin, full * 0.32);

@@ -12,16 +12,22 @@ class SpaceTime {
   }
 
   get title() {
-    const { robot, decision } = this.choice;
-    if (decision) return "Place over time: lines are the two robots, fields what is booked";
-    if (robot) return `Place over time along the route of ${robot.name}, and who else books it${this.#signs}`;
-    return `Place over time: lines are robots, fields what they book${this.#signs}`;
+    return this.choice.mode === "plan" ? this.#titleOfPlan : `Place over time; ${this.#signsOfFloor}`;
   }
 
-  get #signs() {
-    if (this.choice.mode === "plan") return "";
-    const floor = "; striped while held up, underlaid while waiting for one that is late";
-    return this.choice.ghosts ? `${floor}; thin lines are the plan` : floor;
+  get #signsOfFloor() {
+    const { robot, ghosts } = this.choice;
+    const signs = ["stripes: held up", "orange: waits for a late robot"];
+    if (ghosts) signs.push("grey lines: the plan");
+    if (robot) signs.unshift(`along the route of ${robot.name}`);
+    return signs.join(", ");
+  }
+
+  get #titleOfPlan() {
+    const { robot, decision } = this.choice;
+    if (decision) return "Place over time: lines are the two robots, fields what is booked";
+    if (robot) return `Place over time along the route of ${robot.name}, and who else books it`;
+    return "Place over time: lines are robots, fields what they book";
   }
 
   paint(context, area) {
@@ -61,7 +67,8 @@ class SpaceTime {
   #lane(vertex) {
     const row = this.rows.get(vertex);
     if (row === undefined) return null;
-    return { top: this.#middle(row) - this.rowHeight * 0.4, height: this.rowHeight * 0.8 };
+    const height = Math.min(Math.max(this.rowHeight * 0.5, 5), this.rowHeight);
+    return { top: this.#middle(row) - height / 2, height };
   }
 
   #rowLines(context, vertices) {

@@ -30,7 +30,9 @@ class States {
 
   /** Show the signs that may be on the map. */
   #suit() {
-    this.rows[HELD].hidden = this.rows[BROKEN].hidden = this.choice.mode === "plan";
+    for (const activity of [HELD, BROKEN]) {
+      this.rows[activity].hidden = !this.motion.plan.robots.some(({ phases }) => phases.activity.includes(activity));
+    }
     this.ghost.hidden = !this.choice.ghosts;
   }
 

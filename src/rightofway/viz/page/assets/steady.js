@@ -19,13 +19,23 @@ class Steady {
     return this.groupOf[index]?.wrapped(tick) ?? tick;
   }
 
-  /** How many laps a robot has made by a tick; what lies beyond the plan is repeated. */
+  /** How many laps a robot has made by a tick of the plan. */
   laps(index, tick) {
+    return countAtMost(this.lapEnds[index], tick);
+  }
+
+  /** How many laps a robot that repeats itself makes in a period. */
+  lapsInPeriod(index) {
+    const { start, period } = this.groupOf[index];
+    return this.laps(index, start + period) - this.laps(index, start);
+  }
+
+  /** How many laps a robot has made if it goes on repeating itself until a tick. */
+  lapsForEver(index, tick) {
     const within = this.tickOf(index, tick);
-    const group = this.groupOf[index];
-    const periods = group ? Math.round((tick - within) / group.period) : 0;
-    const made = (at) => countAtMost(this.lapEnds[index], at);
-    return made(within) + (periods && periods * (made(group.start + group.period) - made(group.start)));
+    if (within === tick) return this.laps(index, tick);
+    const periods = Math.round((tick - within) / this.groupOf[index].period);
+    return this.laps(index, within) + periods * this.lapsInPeriod(index);
   }
 }
 

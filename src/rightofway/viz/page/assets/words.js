@@ -44,8 +44,19 @@ class Words {
     return `${percent && percent < 9.95 ? percent.toFixed(1) : Math.round(percent)} %`;
   }
 
-  /** Why a robot waits. */
-  wait(wait) {
+  /** Why a robot waits, and on the floor how much longer than planned. */
+  wait(wait, robot) {
+    const more = robot.planned ? robot.unplanned(wait) : 0;
+    return more > 0 ? `${this.#wait(wait)}, ${this.time(more)} more than planned` : this.#wait(wait);
+  }
+
+  /** Why a robot never gets on. */
+  stuck(behind) {
+    if (!behind) return "never";
+    return `never: stuck behind ${behind.name}${behind.ending === BROKEN ? ", which breaks down" : ""}`;
+  }
+
+  #wait(wait) {
     const what = `waits ${counted(wait.ticks, "tick")} in ${this.vertex(wait.vertex)}`;
     const next = this.vertex(wait.towards);
     if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
