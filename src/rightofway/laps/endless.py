@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
 
 from rightofway.errors import InputError, Problem
 from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_along
@@ -30,6 +32,11 @@ class Endless:
     robot: int
     lap: Lap
     first_least: Tick
+    _within: tuple[int, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        least = (self.lap.least(place) for place in range(len(self.lap)))
+        object.__setattr__(self, "_within", tuple(accumulate(least, initial=0)))
 
     def place(self, visit: int) -> int:
         """Return the place of a visit in the lap."""
@@ -47,12 +54,22 @@ class Endless:
         """Return the least ticks from a visit's enter to the next one's."""
         return self.lap.least(self.place(visit)) if visit else self.first_least
 
-    def alone(self, visit: int) -> Tick:
-        """Return when a visit would begin if nobody were in the way [ticks]."""
-        laps, place = divmod(visit, len(self.lap))
-        saved = self.lap.least(0) - self.first_least if visit else 0
-        within = sum(self.lap.least(before) for before in range(place))
-        return Tick(laps * self.lap.duration + within - saved)
+    def lasting(self, visit: int, ticks: int) -> int:
+        """Return how many visits from a later one than 0 on last that long at least."""
+        place = self.place(visit)
+        laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
+        return laps * len(self.lap) + bisect_left(self._within, rest) - place
+
+    def stretch(self, visits: range) -> tuple[list[VertexId], list[Tick], list[Tick]]:
+        """Return vertices, dwells and drives of visits one behind the other."""
+        place, times = self.place(visits.start), len(visits) // len(self.lap) + 2
+        part = slice(place, place + len(visits))
+        lap = self.lap
+        return (
+            list((lap.vertices * times)[part]),
+            list((lap.dwell * times)[part]),
+            list((lap.drive * times)[part]),
+        )
 
 
 def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:

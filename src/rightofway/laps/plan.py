@@ -9,7 +9,7 @@ from rightofway.errors import GaveUp
 from rightofway.laps.outcome import GroupRun, LapsRun
 from rightofway.model import Plan, PlannerRun, Track
 
-__all__ = ["plan_of"]
+__all__ = ["plan_of", "whole_laps"]
 
 
 def plan_of(run: LapsRun, laps: int | None = None) -> Plan:
@@ -29,6 +29,24 @@ def plan_of(run: LapsRun, laps: int | None = None) -> Plan:
         If there is no such plan: the run ended before a robot had made its laps, or a robot that
         has come home for the last time stands in the way of others.
     """
+    plan = whole_laps(run, laps)
+    report = check(plan)
+    if not report.ok:
+        raise GaveUp(
+            "whole laps make no plan here, as a robot that is home for the last time stays there:"
+            f" {report.faults[0].message}"
+        )
+    return plan
+
+
+def whole_laps(run: LapsRun, laps: int | None = None) -> Plan:
+    """Return what `plan_of` has judged; robots that have come home may be in the way of others.
+
+    Raises
+    ------
+    GaveUp
+        If a robot was not followed for so many laps.
+    """
     until = _until(run)
     tracks, robots = {}, list(run.scenario.robots)
     for group in run.groups:
@@ -40,14 +58,12 @@ def plan_of(run: LapsRun, laps: int | None = None) -> Plan:
                 raise GaveUp(f"{robots[robot].name} waits for ever (choose another rule)")
             robots[robot] = replace(robots[robot], laps=own)
             tracks[robot] = _track(group, index, own)
-    return _judged(
-        Plan(
-            scenario=replace(run.scenario, robots=tuple(robots)),
-            tracks=tuple(tracks[robot] for robot in range(len(robots))),
-            run=PlannerRun(
-                name="laps", options={"rule": run.rule, "routes": run.routes}, status="whole laps"
-            ),
-        )
+    return Plan(
+        scenario=replace(run.scenario, robots=tuple(robots)),
+        tracks=tuple(tracks[robot] for robot in range(len(robots))),
+        run=PlannerRun(
+            name="laps", options={"rule": run.rule, "routes": run.routes}, status="whole laps"
+        ),
     )
 
 
@@ -79,13 +95,3 @@ def _track(group: GroupRun, index: int, laps: int) -> Track:
     return Track.of(
         [endless.vertex(visit) for visit in visits], [enter(index, visit) for visit in visits]
     )
-
-
-def _judged(plan: Plan) -> Plan:
-    report = check(plan)
-    if not report.ok:
-        raise GaveUp(
-            "whole laps make no plan here, as a robot that is home for the last time stays there:"
-            f" {report.faults[0].message}"
-        )
-    return plan

@@ -13,7 +13,7 @@ from rightofway.planners.giving_way import Fleet
 from rightofway.planners.two_level import by_two_levels
 from rightofway.precedence import Meeting, Segment
 
-__all__ = ["RULES", "EndlessRule", "Waits"]
+__all__ = ["FAR_SIGHTED", "RULES", "EndlessRule", "Waits"]
 
 Waits = Literal[0, 1]
 """Which robot of a meeting (i, j): 0 for i, 1 for j."""
@@ -48,6 +48,9 @@ def two_level(fleet: Fleet, meeting: Meeting, segment: Segment) -> Waits:
     decision = settlement.decisions[0]
     return 0 if decision.waits == meeting.robots[0] else 1
 
+
+FAR_SIGHTED = frozenset({"two-level"})
+"""Rules that count what happens in this lap and the next; the others see two robots only."""
 
 RULES: dict[str, EndlessRule] = {
     "first-come": first_come,

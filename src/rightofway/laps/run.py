@@ -102,7 +102,7 @@ def _run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
         headway=planning_headway(task.scenario),
         books_ahead=task.scenario.rules.books_ahead,
     )
-    rolling, pattern = Rolling(ground, RULES[rule]), None
+    rolling, pattern = Rolling(ground, rule), None
     ends: Literal["repeats", "deadlock", "open"] = "repeats"
     why = ""
     try:

@@ -28,7 +28,17 @@ Numbered = tuple[tuple[int, int], tuple[int, int]]
 
 
 class TooShort(Exception):
-    """The window has to be longer."""
+    """The window has to show more visits of some robots.
+
+    Attributes
+    ----------
+    robots
+        Which, by place in the group.
+    """
+
+    def __init__(self, robots: Iterable[int]) -> None:
+        self.robots = tuple(robots)
+        super().__init__()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +112,9 @@ class Window(Fleet):
     cut
         What is frozen.
     ahead
-        How many ticks each robot's visits have to last, if nobody is in its way.
+        For each robot how many ticks its visits to come have to last, if nobody is in its way.
+    shown
+        For each robot a number; visits below it have to be in the window.
 
     Attributes
     ----------
@@ -112,13 +124,16 @@ class Window(Fleet):
         For each robot the number of its first visit in the window.
     """
 
-    def __init__(self, ground: Ground, cut: Cut, ahead: int) -> None:
+    def __init__(
+        self, ground: Ground, cut: Cut, ahead: Sequence[int], shown: Sequence[int]
+    ) -> None:
         self.begins = max(cut.tick - ground.reach, 0)
         self.cut = cut
         self.starts = [bisect_right(past, self.begins) - 1 for past in cut.history]
         self.group = ground.group
         self.n_vertices = ground.task.scenario.roadmap.n_vertices
-        routes = [self._route(robot, ahead) for robot in range(len(ground.group))]
+        ends = map(self._end, range(len(ahead)), ahead, shown)
+        routes = [self._route(robot, end) for robot, end in enumerate(ends)]
         graph = _Graph(routes, headway=ground.headway, books_ahead=ground.books_ahead)
         graph.frozen = frozenset(
             graph.visit(robot, index)
@@ -126,20 +141,15 @@ class Window(Fleet):
             for index in range(len(past) - start)
         )
         super().__init__(ground.task, routes, graph=graph)
-        self._ends = np.cumsum([len(route) for route in routes]) - 1
-
-    def least(self, robot: int, visit: int) -> int:
-        """Return how long a visit lasts at least, seen from the window."""
-        past, endless = self.cut.history[robot], self.group[robot]
-        enter = past[visit] if visit < len(past) else None
-        if enter is None:
-            return endless.least(visit)
-        leave = past[visit + 1] if visit + 1 < len(past) else enter + endless.least(visit)
-        return max(leave - max(enter, self.begins), 1)
+        self._ends = (np.cumsum([len(route) for route in routes]) - 1).tolist()
 
     def visit(self, robot: int, number: int) -> int:
         """Return the graph's number of a robot's visit."""
         return self.graph.visit(robot, number - self.starts[robot])
+
+    def shows(self, robot: int, number: int) -> bool:
+        """Tell whether the window reaches as far as a visit."""
+        return number - self.starts[robot] < len(self.routes[robot]) - 1
 
     def number(self, visit: int) -> tuple[int, int]:
         """Return the robot of a visit of the graph, and the visit's number."""
@@ -168,9 +178,10 @@ class Window(Fleet):
         )
         return (self.cut.tick - self.begins, *frozen)
 
-    def first_end(self) -> int:
-        """Return when the first robot leaves the window [ticks]."""
-        return self.begins + min(self.graph.enter(int(visit)) for visit in self._ends)
+    def ends(self) -> NDArray[np.int64]:
+        """Return when each robot leaves the window [ticks]."""
+        enter = self.graph.enter
+        return np.array([enter(visit) for visit in self._ends], np.int64) + self.begins
 
     def is_endless(self, meeting: Meeting, segment: Segment) -> bool:
         """Tell whether two robots are head-on for ever, so that neither can let the other pass.
@@ -190,22 +201,30 @@ class Window(Fleet):
         if segment.kind != "head-on" or not reaches_the_end:
             return False
         if len(segment.vertices) < len(self.group[i].lap) + len(self.group[j].lap):
-            raise TooShort
+            raise TooShort(meeting.robots)
         return True
 
-    def _route(self, robot: int, ahead: int) -> Route:
-        endless, start = self.group[robot], self.starts[robot]
-        frozen = len(self.cut.history[robot])
-        least = [self.least(robot, visit) for visit in range(start, frozen)]
-        left = ahead - sum(least)
-        while left > 0:
-            least.append(endless.least(start + len(least)))
-            left -= least[-1]
-        visits = range(start, start + len(least))
-        drive = [Tick(0), *(endless.drive(visit) for visit in visits[1:]), Tick(0)]
-        gone = VertexId(self.n_vertices + robot)
+    def _end(self, robot: int, ahead: int, shown: int) -> int:
+        begun = len(self.cut.history[robot])
+        return max(begun + self.group[robot].lasting(begun, ahead), shown)
+
+    def _route(self, robot: int, end: int) -> Route:
+        endless, start, past = self.group[robot], self.starts[robot], self.cut.history[robot]
+        visits = range(start, end)
+        vertices, dwell, drive = endless.stretch(visits)
+        dwell[-1] = endless.least(visits[-1])
+        for index, visit in enumerate(range(start, len(past))):
+            dwell[index] = Tick(self._lasted(robot, visit) - endless.drive(visit + 1))
         return Route(
-            vertices=(*(endless.vertex(visit) for visit in visits), gone),
-            dwell=(*(Tick(a - b) for a, b in zip(least, drive[1:], strict=True)), Tick(0)),
-            drive=tuple(drive),
+            vertices=(*vertices, VertexId(self.n_vertices + robot)),
+            dwell=(*dwell, Tick(0)),
+            drive=(Tick(0), *drive[1:], Tick(0)),
         )
+
+    def _lasted(self, robot: int, visit: int) -> int:
+        """Return how long a visit from before the cut lasts at least, seen from the window."""
+        past = self.cut.history[robot]
+        enter = past[visit]
+        known = visit + 1 < len(past)
+        leave = past[visit + 1] if known else enter + self.group[robot].least(visit)
+        return max(leave - max(enter, self.begins), 1)
