@@ -24,16 +24,20 @@ from rightofway.solve import improve, solve
 
 if TYPE_CHECKING:
     from rightofway.io import load, load_plan, save_plan
+    from rightofway.laps import LapsRun, plan_of, run_laps
     from rightofway.metrics import Metrics, measure, waits
     from rightofway.viz import write_gif, write_page, write_png
 
 __version__ = "0.1.0"
 
 _LATER = {
+    "LapsRun": "laps",
     "Metrics": "metrics",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
+    "plan_of": "laps",
+    "run_laps": "laps",
     "save_plan": "io",
     "waits": "metrics",
     "write_gif": "viz",
@@ -46,6 +50,7 @@ __all__ = [
     "GaveUp",
     "InputError",
     "InvalidPlan",
+    "LapsRun",
     "Metrics",
     "NoPlanExists",
     "Plan",
@@ -61,6 +66,8 @@ __all__ = [
     "load",
     "load_plan",
     "measure",
+    "plan_of",
+    "run_laps",
     "save_plan",
     "solve",
     "waits",

@@ -27,6 +27,7 @@ from rightofway.cli.bench import bench
 from rightofway.cli.check import check
 from rightofway.cli.convert import convert
 from rightofway.cli.improve import improve
+from rightofway.cli.laps import laps
 from rightofway.cli.plan import plan
 from rightofway.cli.schema import schema
 from rightofway.cli.show import show
@@ -62,7 +63,7 @@ def commands(context: click.Context, *, debug: bool) -> None:
     context.ensure_object(_Session).debug = debug
 
 
-for command in (plan, improve, check, show, table, convert, bench, schema):
+for command in (plan, improve, laps, check, show, table, convert, bench, schema):
     commands.add_command(command)
 
 

@@ -15,7 +15,7 @@ from rightofway.planners import PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = ["PlanningCommand", "hand_over", "options_of_planning", "refuse_bad_outputs"]
+__all__ = ["PlanningCommand", "hand_over", "options_of_planning", "refuse_bad_outputs", "seconds"]
 
 
 class PlanningCommand(click.Command):
@@ -49,7 +49,8 @@ def _options(
     return {name: value for name, _, value in pairs}
 
 
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+def seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+    """Take a time limit; None for no limit."""
     if not given > 0:
         raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
     return None if given == math.inf else given
@@ -70,7 +71,7 @@ def options_of_planning(planner: str) -> Callable[[Callable[..., Any]], Callable
                      help="Which planner to use."),
         click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
                      help="Tell the planner something; may be repeated."),
-        click.option("--time-limit", type=float, default=10, show_default=True, callback=_seconds,
+        click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
                      metavar="SECONDS", help="When to stop; inf for never."),
         click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True,
                      metavar="N", help="For planners that draw at random."),

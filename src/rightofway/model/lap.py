@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+from rightofway.model.itinerary import Itinerary
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.route import route_through
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Lap"]
+__all__ = ["Lap", "lap_along"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,3 +43,23 @@ class Lap:
     def least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's."""
         return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
+
+
+def lap_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Lap:
+    """Wrap a round trip into a lap.
+
+    Parameters
+    ----------
+    roadmap
+        The graph it runs on.
+    itinerary
+        What the robot has to do in one lap.
+    vertices
+        Where it goes, from home past all stops and home again.
+    """
+    twice = replace(itinerary, stages=itinerary.stages * 2)
+    route = route_through(roadmap, twice, [*vertices, *vertices[1:]])
+    second = slice(len(vertices) - 1, -1)
+    return Lap(
+        vertices=route.vertices[second], dwell=route.dwell[second], drive=route.drive[second]
+    )

@@ -59,6 +59,8 @@ class Fleet:
     sees_swaps
         Whether a swap is a meeting, and segments are decided at once; the published method does
         neither.
+    graph
+        What is decided before; nothing where it is not given.
 
     Attributes
     ----------
@@ -72,14 +74,21 @@ class Fleet:
         All decisions in the order they were taken.
     """
 
-    def __init__(self, task: Task, routes: Sequence[Route], *, sees_swaps: bool = True) -> None:
+    def __init__(
+        self,
+        task: Task,
+        routes: Sequence[Route],
+        *,
+        sees_swaps: bool = True,
+        graph: PrecedenceGraph | None = None,
+    ) -> None:
         self.task = task
         self.routes = routes
         self.sees_swaps = sees_swaps
         self.settled = np.zeros(len(routes), np.uint8)
         self.aside: dict[int, str] = {}
         self.decisions: list[Decision] = []
-        self.graph = PrecedenceGraph(
+        self.graph = graph or PrecedenceGraph(
             routes,
             headway=planning_headway(task.scenario),
             books_ahead=task.scenario.rules.books_ahead,

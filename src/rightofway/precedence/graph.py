@@ -76,14 +76,13 @@ class PrecedenceGraph:
         self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
         self._last_dwells: int = sum(route.dwell[-1] for route in routes)
-        drive = [ticks for route in routes for ticks in route.drive]
+        dwell = np.array([ticks for route in routes for ticks in route.dwell], np.int64)
+        drive = np.array([ticks for route in routes for ticks in route.drive], np.int64)
         self._kernel = _core.PrecedenceGraph(
             self._first,
             np.array([vertex for route in routes for vertex in route.vertices], np.int32),
-            np.array(
-                [route.least(visit) for route in routes for visit in range(len(route))], np.int64
-            ),
-            np.array(drive if books_ahead else [0] * len(drive), np.int64),
+            dwell + np.append(drive[1:], 0),
+            drive if books_ahead else np.zeros_like(drive),
             int(headway),
             forbid_swaps,
             np.ones(len(routes), np.uint8),
@@ -147,6 +146,18 @@ class PrecedenceGraph:
         """
         robots = [self._robot[visit] for visit in self._kernel.cycle().tolist()]
         return [robot for robot, _ in groupby(reversed(robots))]
+
+    def deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
+        """Return the rights of way that made the last one impossible, by closing a circle with it.
+
+        None if there was another reason.
+        """
+        circle = self._kernel.cycle().tolist()
+        return [
+            (one - 1, other)
+            for one, other in pairwise(circle)
+            if self._robot[one] != self._robot[other]
+        ]
 
     def keep_order(self, when: Sequence[Sequence[int]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.

@@ -1,0 +1,64 @@
+"""``rightofway laps``: what happens when everybody does it again."""
+
+from __future__ import annotations
+
+import click
+
+from rightofway.cli.planning import seconds
+from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
+
+__all__ = ["laps"]
+
+EXAMPLE = """\b
+Examples:
+  rightofway laps examples/door.yaml
+  rightofway laps examples/crossroad.yaml --rule two-level --json
+  rightofway laps examples/door.yaml -o plan.json
+"""
+
+
+@click.command(epilog=EXAMPLE)
+@click.argument("scenario", type=click.Path())
+@click.option("--rule", type=click.Choice(["first-come", "fixed-order", "two-level"]),
+              default="first-come", show_default=True,
+              help="Who goes first where two robots meet.")  # fmt: skip
+@click.option("--routes", type=click.Choice(["clear", "shortest"]), default="clear",
+              show_default=True, help="How round trips are chosen.")  # fmt: skip
+@click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
+              metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
+@click.option("-o", "--output", metavar="PLAN", callback=writable(),
+              help="Write the run as a plan of whole laps.")  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
+def laps(
+    *,
+    scenario: str,
+    rule: str,
+    routes: str,
+    time_limit: float | None,
+    output: str | None,
+    as_json: bool,
+) -> int:
+    """Let every robot of a SCENARIO repeat its round trip until the pattern repeats.
+
+    Prints, for each group of robots that have to do with each other, how long it takes until the
+    pattern repeats, its period, the mean lap of each robot, and who waits for whom, where and when.
+    Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
+    """
+    from rightofway.cli.laps_report import laps_data, laps_report
+    from rightofway.laps import run_laps
+
+    problem = read_scenario(scenario)
+    with progress() as report:
+        run = run_laps(problem, rule, routes=routes, time_limit=time_limit, report=report)
+    if as_json:
+        put_json(laps_data(run))
+    else:
+        put(laps_report(run))
+    if output:
+        from rightofway.io import save_plan
+        from rightofway.laps import plan_of
+
+        save_plan(plan_of(run), output)
+        say(f"wrote {output}")
+    ends = {group.ends for group in run.groups}
+    return 1 if "deadlock" in ends else 3 if "open" in ends else 0

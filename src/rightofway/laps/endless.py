@@ -1,0 +1,122 @@
+"""Routes without an end: a robot's laps one behind the other."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
+
+from rightofway.errors import InputError, Problem
+from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_along
+from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.search import Distances
+
+__all__ = ["Endless", "endless_routes"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Endless:
+    """The visits of a robot that makes lap after lap, numbered from 0.
+
+    Attributes
+    ----------
+    robot
+        Its number in the scenario.
+    lap
+        What it repeats.
+    first_least
+        The least ticks of visit 0: nobody turns at home before the first lap.
+    """
+
+    robot: int
+    lap: Lap
+    first_least: Tick
+    _within: tuple[int, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        least = (self.lap.least(place) for place in range(len(self.lap)))
+        object.__setattr__(self, "_within", tuple(accumulate(least, initial=0)))
+
+    def place(self, visit: int) -> int:
+        """Return the place of a visit in the lap."""
+        return visit % len(self.lap)
+
+    def vertex(self, visit: int) -> VertexId:
+        """Return where a visit is."""
+        return self.lap.vertices[self.place(visit)]
+
+    def drive(self, visit: int) -> Tick:
+        """Return the ticks of the edge driven into a visit."""
+        return self.lap.drive[self.place(visit)]
+
+    def least(self, visit: int) -> Tick:
+        """Return the least ticks from a visit's enter to the next one's."""
+        return self.lap.least(self.place(visit)) if visit else self.first_least
+
+    def lasting(self, visit: int, ticks: int) -> int:
+        """Return how many visits from a later one than 0 on last that long at least."""
+        place = self.place(visit)
+        laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
+        return laps * len(self.lap) + bisect_left(self._within, rest) - place
+
+    def stretch(self, visits: range) -> tuple[list[VertexId], list[Tick], list[Tick]]:
+        """Return vertices, dwells and drives of visits one behind the other."""
+        place, times = self.place(visits.start), len(visits) // len(self.lap) + 2
+        part = slice(place, place + len(visits))
+        lap = self.lap
+        return (
+            list((lap.vertices * times)[part]),
+            list((lap.dwell * times)[part]),
+            list((lap.drive * times)[part]),
+        )
+
+
+def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
+    """Choose a round trip for each robot, once and for all laps.
+
+    Parameters
+    ----------
+    scenario
+        The problem; how many laps it asks for plays no part.
+    routes
+        ``clear`` or ``shortest``, as planners choose them.
+
+    Raises
+    ------
+    InputError
+        If a robot does not come home, or never leaves it.
+    NoPlanExists
+        If a robot cannot get to a place.
+    """
+    once = _one_lap_each(scenario)
+    choose = clear_routes if routes == "clear" else shortest_routes
+    found = choose(once, Distances(once.roadmap))
+    return [
+        Endless(
+            robot=robot,
+            lap=lap_along(once.roadmap, once.timing.itineraries[robot], route.vertices),
+            first_least=route.least(0),
+        )
+        for robot, route in enumerate(found)
+    ]
+
+
+def _one_lap_each(scenario: Scenario) -> Scenario:
+    problems = [
+        problem.within(f"robots[{index}]")
+        for index, robot in enumerate(scenario.robots)
+        for problem in _faults(robot, scenario)
+    ]
+    if problems:
+        raise InputError(problems)
+    robots = tuple(replace(robot, laps=1) for robot in scenario.robots)
+    return replace(scenario, robots=robots)
+
+
+def _faults(robot: Robot, scenario: Scenario) -> Iterator[Problem]:
+    if (robot.ends or scenario.rules.ends) == "none":
+        yield Problem("return", "'none' leaves nothing to repeat (set return: home)")
+    if all(stop.at == robot.home for stop in robot.stops):
+        home = scenario.roadmap.name(robot.home)
+        yield Problem("stops", f"all are at its home {home} (let it go somewhere)")

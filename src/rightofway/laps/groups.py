@@ -1,0 +1,36 @@
+"""Independent groups: robots that can ever have to do with each other, even through others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rightofway.laps.endless import Endless
+from rightofway.model import VertexId
+
+__all__ = ["independent_groups"]
+
+
+def independent_groups(fleet: Sequence[Endless]) -> list[list[Endless]]:
+    """Part a fleet into groups whose laps share no vertex.
+
+    Returns
+    -------
+    list
+        Groups by their first robots, robots in the order given.
+    """
+    leader = list(range(len(fleet)))
+
+    def lead(index: int) -> int:
+        while leader[index] != index:
+            leader[index] = index = leader[leader[index]]
+        return index
+
+    first_at: dict[VertexId, int] = {}
+    for index, endless in enumerate(fleet):
+        for vertex in endless.lap.vertices:
+            one, other = sorted((lead(first_at.setdefault(vertex, index)), lead(index)))
+            leader[other] = one
+    groups: dict[int, list[Endless]] = {}
+    for index, endless in enumerate(fleet):
+        groups.setdefault(lead(index), []).append(endless)
+    return list(groups.values())

@@ -1,0 +1,123 @@
+"""What a fleet that repeats its work does in the long run, group by group."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from rightofway.laps.conflicts import Bookings, Conflict
+from rightofway.laps.endless import Endless
+from rightofway.laps.pattern import Pattern
+from rightofway.model import Scenario
+from rightofway.planners import planning_headway
+from rightofway.precedence import PeriodicTimetable
+
+__all__ = ["GroupRun", "LapsRun"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GroupRun:
+    """What a group of robots did that have to do with each other.
+
+    Attributes
+    ----------
+    ends
+        ``repeats``: for ever as in the pattern. ``deadlock``: it comes to a standstill. ``open``:
+        time ran out before either was known.
+    why
+        For a deadlock, who waits for whom; for an open end, what was not enough.
+    group
+        The endless routes of its robots.
+    history
+        For each robot the ticks at which its visits began, from visit 0 on.
+    pattern
+        What repeats; None if nothing is known to.
+    """
+
+    ends: Literal["repeats", "deadlock", "open"]
+    why: str
+    group: tuple[Endless, ...]
+    history: tuple[tuple[int, ...], ...]
+    pattern: Pattern | None
+
+    @property
+    def robots(self) -> tuple[int, ...]:
+        """The numbers of its robots in the scenario."""
+        return tuple(endless.robot for endless in self.group)
+
+    @property
+    def timetable(self) -> PeriodicTimetable | None:
+        """What repeats, as a timetable; None if nothing does or a robot stands still for ever."""
+        return self.pattern.timetable(self.group) if self.pattern else None
+
+    def laps_made(self) -> tuple[int, ...]:
+        """Return how many laps each robot completed while it was watched."""
+        return tuple(
+            (len(past) - 1) // len(endless.lap)
+            for endless, past in zip(self.group, self.history, strict=True)
+        )
+
+    def mean_laps(self) -> tuple[Fraction | None, ...]:
+        """Return how long a lap of each robot takes on average [ticks]; None if it makes none.
+
+        In the long run if the group repeats itself, otherwise of the laps that were made.
+        """
+        if self.pattern:
+            period = self.pattern.period
+            return tuple(Fraction(period, n) if n else None for n in self.pattern.counts)
+        return tuple(
+            Fraction(past[laps * len(endless.lap)], laps) if laps else None
+            for endless, past, laps in zip(self.group, self.history, self.laps_made(), strict=True)
+        )
+
+    def waiting_shares(self) -> tuple[Fraction, ...]:
+        """Return which part of its time each robot waits for others; 1 if it stands still."""
+        return tuple(
+            Fraction(1) if mean is None else max(1 - endless.lap.duration / mean, Fraction(0))
+            for endless, mean in zip(self.group, self.mean_laps(), strict=True)
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LapsRun:
+    """What a fleet did that repeats its work.
+
+    Attributes
+    ----------
+    scenario
+        The problem.
+    rule, routes
+        How rights of way were given, and how the round trips were chosen.
+    groups
+        Groups of robots that never meet each other, by their first robots.
+    """
+
+    scenario: Scenario
+    rule: str
+    routes: str
+    groups: tuple[GroupRun, ...]
+
+    def conflicts(self, group: GroupRun) -> tuple[Conflict, ...]:
+        """Return where robots of a group wait for each other in each period, by offset.
+
+        Offsets count from `Pattern.begins`. Empty if nothing repeats.
+        """
+        return self._bookings(group).in_period(group.pattern) if group.pattern else ()
+
+    def first_conflicts(self, group: GroupRun) -> tuple[Conflict, ...]:
+        """Return where robots of a group wait for each other in their first laps, by tick."""
+        return self._bookings(group).in_first_laps(group.history)
+
+    def throughput(self) -> Fraction:
+        """Return how many laps all robots complete in a time unit of the scenario."""
+        tick = self.scenario.timing.clock.tick
+        means = (mean for group in self.groups for mean in group.mean_laps())
+        return sum((1 / (mean * tick) for mean in means if mean), Fraction(0))
+
+    def _bookings(self, group: GroupRun) -> Bookings:
+        return Bookings(
+            group=group.group,
+            headway=planning_headway(self.scenario),
+            books_ahead=self.scenario.rules.books_ahead,
+        )

@@ -1,0 +1,134 @@
+"""A fleet that repeats its work: every group until its pattern repeats, or time is over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+from rightofway.errors import GaveUp, InputError
+from rightofway.laps.endless import Endless, endless_routes
+from rightofway.laps.giving import Deadlock
+from rightofway.laps.groups import independent_groups
+from rightofway.laps.outcome import GroupRun, LapsRun
+from rightofway.laps.pattern import pattern_of
+from rightofway.laps.rolling import Rolling
+from rightofway.laps.rules import RULES
+from rightofway.laps.window import Ground
+from rightofway.model import Scenario
+from rightofway.planners import Deadline, Task, planning_headway
+
+__all__ = ["ROUTES", "run_laps"]
+
+ROUTES = ("clear", "shortest")
+"""How round trips may be chosen."""
+
+
+def run_laps(
+    scenario: Scenario,
+    rule: str = "first-come",
+    *,
+    routes: str = "clear",
+    time_limit: float | None = 10,
+    report: Callable[[str], None] | None = None,
+) -> LapsRun:
+    """Let every robot repeat its round trip until the pattern of the fleet repeats.
+
+    Parameters
+    ----------
+    scenario
+        The problem; its number of laps plays no part.
+    rule
+        Who goes first where two robots meet: ``first-come``, ``fixed-order`` (the first in the
+        scenario) or ``two-level`` (as the paper does).
+    routes
+        How the round trips are chosen, once and for all laps: ``clear`` or ``shortest``.
+    time_limit
+        When to stop [s]; None for no limit. Groups get shares of it by their size.
+    report
+        Takes sentences on the progress.
+
+    Returns
+    -------
+    LapsRun
+        What each independent group of robots does.
+
+    Raises
+    ------
+    InputError
+        For an unknown rule, or a robot that has no lap to repeat.
+    NoPlanExists
+        If a robot has no way to a place.
+
+    Notes
+    -----
+    Exact: a pattern is reported when a state came again, so that it repeats for ever. A group whose
+    state has not come again in time has an open end. Where the time limit is not reached, the same
+    scenario has the same result.
+    """
+    _refuse_unknown("rule", rule, tuple(RULES))
+    _refuse_unknown("routes", routes, ROUTES)
+    deadline = Deadline.after(time_limit)
+    groups = independent_groups(endless_routes(scenario, routes))
+    found: dict[int, GroupRun] = {}
+    left = sum(map(len, groups))
+    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
+        group = groups[index]
+        if report:
+            report(f"{len(found)} of {len(groups)} groups done, next one of {len(group)} robots")
+        task = Task(
+            scenario=scenario,
+            options={"swaps": "resolve"},
+            deadline=deadline.sooner(len(group) / left),
+        )
+        left -= len(group)
+        found[index] = _run_group(task, group, rule)
+    return LapsRun(
+        scenario=scenario,
+        rule=rule,
+        routes=routes,
+        groups=tuple(found[index] for index in range(len(groups))),
+    )
+
+
+def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
+    if given not in known:
+        raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")
+
+
+def _run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
+    ground = Ground(
+        task=task,
+        group=group,
+        headway=planning_headway(task.scenario),
+        books_ahead=task.scenario.rules.books_ahead,
+    )
+    rolling, pattern = Rolling(ground, rule), None
+    ends: Literal["repeats", "deadlock", "open"] = "repeats"
+    why = ""
+    try:
+        known = rolling.until_it_repeats()
+        lengths = [len(endless.lap) for endless in group]
+        pattern = pattern_of(rolling.cut.history, lengths, known)
+    except Deadlock as deadlock:
+        ends, why = "deadlock", _explain(deadlock, ground)
+    except GaveUp:
+        ends, why = "open", "no state came again within the time limit"
+    return GroupRun(
+        ends=ends,
+        why=why,
+        group=tuple(group),
+        history=tuple(map(tuple, rolling.cut.history)),
+        pattern=pattern,
+    )
+
+
+def _explain(deadlock: Deadlock, ground: Ground) -> str:
+    scenario = ground.task.scenario
+    names = [scenario.robots[endless.robot].name for endless in ground.group]
+    i, j = (names[robot] for robot in deadlock.robots)
+    where = f"at {scenario.roadmap.name(deadlock.vertex)}, tick {deadlock.tick}"
+    why = f"waiting cannot keep {i} and {j} apart {where}"
+    if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
+        return why
+    circle = ", ".join(names[robot] for robot in deadlock.circle)
+    return f"{why}: in a circle, {circle} would each wait for the next"
