@@ -56,6 +56,7 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
 void bind_distance_tables(nb::module_& module);
 void bind_event_lacam(nb::module_& module);
 void bind_fleet_search(nb::module_& module);
+void bind_floor(nb::module_& module);
 void bind_lacam(nb::module_& module);
 void bind_precedence_graph(nb::module_& module);
 void bind_safe_interval_search(nb::module_& module);

@@ -28,6 +28,7 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_distance_tables(module);
     rightofway::bind::bind_event_lacam(module);
     rightofway::bind::bind_fleet_search(module);
+    rightofway::bind::bind_floor(module);
     rightofway::bind::bind_lacam(module);
     rightofway::bind::bind_precedence_graph(module);
     rightofway::bind::bind_safe_interval_search(module);

@@ -23,6 +23,7 @@ from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
 from rightofway.solve import improve, solve
 
 if TYPE_CHECKING:
+    from rightofway.floor import Outcome, simulate
     from rightofway.io import load, load_plan, save_plan
     from rightofway.laps import LapsRun, plan_of, run_laps
     from rightofway.metrics import Metrics, measure, waits
@@ -33,12 +34,14 @@ __version__ = "0.1.0"
 _LATER = {
     "LapsRun": "laps",
     "Metrics": "metrics",
+    "Outcome": "floor",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
     "plan_of": "laps",
     "run_laps": "laps",
     "save_plan": "io",
+    "simulate": "floor",
     "waits": "metrics",
     "write_gif": "viz",
     "write_page": "viz",
@@ -53,6 +56,7 @@ __all__ = [
     "LapsRun",
     "Metrics",
     "NoPlanExists",
+    "Outcome",
     "Plan",
     "Report",
     "RightOfWayError",
@@ -69,6 +73,7 @@ __all__ = [
     "plan_of",
     "run_laps",
     "save_plan",
+    "simulate",
     "solve",
     "waits",
     "write_gif",

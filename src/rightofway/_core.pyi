@@ -259,6 +259,112 @@ class FleetSearch:
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
 
+class Floor:
+    """
+    A plan on a floor where robots are late.
+
+    Parameters
+    ----------
+    first_visit : int32[R + 1]
+        Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
+    vertex, planned : int32[N], int64[N]
+        Where each visit is, and when it begins by the plan. [ticks]
+    dwell, drive : int64[N]
+        How long each visit lasts at least without the drive after it, and the drive into it. [ticks]
+    before : int32[N]
+        The visit that goes directly before at the same vertex, -1 for none.
+    headway : int
+        Ticks from one robot's leave to the next one's enter, or start to drive there.
+    books_ahead : bool
+        Whether a robot books a vertex from when it starts to drive there.
+    pace : float64[R]
+        How much longer than planned everything takes each robot, 1 for as planned.
+    delay_kind : int32[D]
+        0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
+    delay_a, delay_b : float64[D]
+        Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
+        ticks; chance and nothing.
+    first_standstill : int32[R + 1]
+        Which standstills of every run are whose.
+    standstill_tick, standstill_ticks : int64[S]
+        From when each robot stands still, rising, and how long, ``INFINITY`` for ever. [ticks]
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; names the array, the index and the value.
+    """
+
+    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def runs(self, seed: int, first: int, count: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))]]:
+        """
+        Run the plan many times by right of way, and by the clock.
+
+        Parameters
+        ----------
+        seed, first, count : int
+            Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
+        time_limit : float or None
+            After so many seconds no run is begun.
+
+        Returns
+        -------
+        completion : int64[K, R]
+            When each robot completes by right of way, ``INFINITY`` for never. [ticks]
+        is_broken : uint8[K, R]
+            Not 0 where a robot stands still for ever.
+        by_right_of_way, by_clock : int64[K, 4]
+            Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
+            these begins, ``INFINITY`` for never.
+        own, of_others : int64[N]
+            Ticks of lateness that began at each visit: of its own robot, of others.
+        between : int64[P, 3]
+            Robot, another, and the ticks that the first is late because of the other.
+
+        Notes
+        -----
+        The GIL is released; Ctrl-C is obeyed.
+        """
+
+    def setbacks(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return what befalls one run.
+
+        Returns
+        -------
+        tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
+            What dwells and drives really take, and the standstills, as the class takes them.
+        """
+
+    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Run the plan once, with these setbacks.
+
+        Parameters
+        ----------
+        dwell, drive, first_standstill, standstill_tick, standstill_ticks
+            As `setbacks` returns them.
+        clock : bool
+            Whether by the clock; else by right of way.
+
+        Returns
+        -------
+        tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
+            When each visit begins, from when it books its vertex, when robots complete, which stand still
+            for ever, and the collisions as `runs` counts them.
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+        """
+
+    def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the robots that can never complete, since they wait for each other.
+        """
+
 def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.

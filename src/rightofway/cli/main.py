@@ -31,6 +31,7 @@ from rightofway.cli.laps import laps
 from rightofway.cli.plan import plan
 from rightofway.cli.schema import schema
 from rightofway.cli.show import show
+from rightofway.cli.simulate import simulate
 from rightofway.cli.table import table
 from rightofway.cli.terminal import say, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
@@ -63,7 +64,7 @@ def commands(context: click.Context, *, debug: bool) -> None:
     context.ensure_object(_Session).debug = debug
 
 
-for command in (plan, improve, laps, check, show, table, convert, bench, schema):
+for command in (plan, improve, laps, check, simulate, show, table, convert, bench, schema):
     commands.add_command(command)
 
 

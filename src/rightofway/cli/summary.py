@@ -11,7 +11,7 @@ from rightofway.cli.words import COLUMNS, names_of, ticks, wrapped
 from rightofway.metrics import Metrics, Wait, measure, waits
 from rightofway.model import Plan
 
-__all__ = ["summary", "summary_data"]
+__all__ = ["MOST_LINES", "short", "summary", "summary_data"]
 
 MOST_LINES = 20
 """Longer lists end with how many more there are; --json has them all."""
@@ -92,7 +92,7 @@ def _robots(plan: Plan, metrics: Metrics, found: Sequence[Wait]) -> Iterator[str
     waiting = _waiting(plan, found)
     lost = [done - alone for done, alone in zip(metrics.completions, metrics.alone, strict=True)]
     shown = sorted(sorted(range(len(lost)), key=lambda robot: -lost[robot])[:MOST_LINES])
-    names = {robot: _short(plan.scenario.robots[robot].name) for robot in shown}
+    names = {robot: short(plan.scenario.robots[robot].name) for robot in shown}
     width = max(map(len, ("robot", *names.values())))
     yield f"{'robot':{width}}  completes  alone  waits"
     for robot, name in names.items():
@@ -102,7 +102,8 @@ def _robots(plan: Plan, metrics: Metrics, found: Sequence[Wait]) -> Iterator[str
         yield f"… and {len(lost) - len(shown)} more, who lose less time"
 
 
-def _short(name: str) -> str:
+def short(name: str) -> str:
+    """Return a name in as many columns as it may take."""
     return name if len(name) <= MOST_OF_NAME else f"{name[: MOST_OF_NAME - 1]}…"
 
 

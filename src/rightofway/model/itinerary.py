@@ -85,10 +85,13 @@ def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
     return Tick(sum(stage.work + (stage.turn if leaves else 0) for stage in stages))
 
 
-def timing_of(roadmap: Roadmap, robots: Sequence[Robot], rules: Rules) -> Timing:
-    """Express a valid scenario in ticks."""
-    each = (_durations(roadmap, robot, rules) for robot in robots)
-    clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
+def timing_of(
+    roadmap: Roadmap, robots: Sequence[Robot], rules: Rules, clock: Clock | None = None
+) -> Timing:
+    """Express a valid scenario in ticks, of a clock that is given or else chosen."""
+    if clock is None:
+        each = (_durations(roadmap, robot, rules) for robot in robots)
+        clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
     return Timing(
         clock=clock,
         headway=clock.ticks(rules.headway),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -149,6 +149,19 @@ class Roadmap:
         if not 0 <= vertex < self.n_vertices:
             raise KeyError(name)
         return VertexId(vertex)
+
+    def without(self, closed: Collection[int]) -> Roadmap:
+        """Return the same vertices without the edges from and to those that are closed."""
+        tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
+        shut = np.fromiter(closed, np.int64, len(closed))
+        is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
+        degree = np.bincount(tails[is_open], minlength=self.n_vertices)
+        return replace(
+            self,
+            indptr=np.concatenate(([0], np.cumsum(degree))).astype(np.int32),
+            heads=self.heads[is_open],
+            length_class=self.length_class[is_open],
+        )
 
     def edge(self, tail: int, head: int) -> int | None:
         """Return the index of the edge from ``tail`` to ``head``, or None without one."""

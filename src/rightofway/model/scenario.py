@@ -10,6 +10,7 @@ from rightofway.model.itinerary import Timing, timing_of
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Turn
 from rightofway.model.rules import Rules
+from rightofway.model.units import Clock
 
 __all__ = ["Scenario"]
 
@@ -26,6 +27,8 @@ class Scenario:
         At least one, each with a name and a home of its own.
     rules
         What holds for the whole fleet.
+    clock
+        The clock to keep, where this is what is left of another scenario; else one is chosen.
     timing
         The same in ticks; derived.
 
@@ -38,13 +41,16 @@ class Scenario:
     roadmap: Roadmap
     robots: tuple[Robot, ...]
     rules: Rules = field(default_factory=Rules)
+    clock: Clock | None = None
     timing: Timing = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         problems = [*_rule_problems(self), *_fleet_problems(self)]
         if problems:
             raise InputError(problems)
-        object.__setattr__(self, "timing", timing_of(self.roadmap, self.robots, self.rules))
+        object.__setattr__(
+            self, "timing", timing_of(self.roadmap, self.robots, self.rules, self.clock)
+        )
 
 
 def _rule_problems(scenario: Scenario) -> Iterator[Problem]:

@@ -21,7 +21,7 @@ an end in time. Not optimal.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
 
@@ -32,7 +32,7 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
 
-__all__ = ["local_search"]
+__all__ = ["Search", "local_search"]
 
 MOST_FAVOURS = 3
 """How many robots at most are to go first or last in a round."""
@@ -70,7 +70,7 @@ def local_search(task: Task) -> Draft:
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     before = graph_of(task.scenario, first.tracks)
     graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
-    _Search(task, graph).run(rounds=int(task.options["rounds"]))
+    Search(task, graph).run(rounds=int(task.options["rounds"]))
     if graph.flowtime() > before.flowtime():  # the headway of planning may cost more than it won
         graph = before
     said = f"flips took the flowtime from {before.flowtime()} to {graph.flowtime()} ticks"
@@ -81,12 +81,28 @@ def local_search(task: Task) -> Draft:
     )
 
 
-class _Search:
-    """A graph without meetings, and flips that keep it so."""
+class Search:
+    """A graph without meetings, and flips that keep it so.
 
-    def __init__(self, task: Task, graph: PrecedenceGraph) -> None:
+    Parameters
+    ----------
+    task
+        The problem.
+    graph
+        Without meetings.
+    may_wait
+        Tells of a visit whether another may be let go before it; it may not if it has begun.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        graph: PrecedenceGraph,
+        may_wait: Callable[[int], bool] = lambda _: True,
+    ) -> None:
         self.task = task
         self.graph = graph
+        self.may_wait = may_wait
         self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
         self.alone = [_alone(graph, robot) for robot in range(len(graph.routes))]
 
@@ -162,9 +178,13 @@ class _Search:
             return False  # a flip before has taken it back already
         for a, b in segment.meetings():
             graph.take_back(graph.visit(i, a), graph.visit(j, b))
-        return graph.give_all(
-            (graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()
+        return self.give_all(
+            [(graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()]
         )
+
+    def give_all(self, rights: Sequence[tuple[int, int]]) -> bool:
+        """Give several rights of way; false, with nothing changed, if that is impossible."""
+        return all(self.may_wait(second) for _, second in rights) and self.graph.give_all(rights)
 
     def settle(self, *, below: Tick | None = None, favour: _Favour | None = None) -> bool:
         """Keep apart whoever meets; false if that is impossible or the flowtime not below."""
@@ -187,11 +207,11 @@ class _Search:
         for waits in (0, 1):
             against = favour is not None and favour.is_against(meeting, waits)
             rights = rights_if_waits(graph, meeting, segment, waits)
-            if graph.give_all(rights):
+            if self.give_all(rights):
                 cost = (against, graph.flowtime(), graph.conflicts_left(), waits)
                 choices.append((cost, rights))
             graph.rollback(mark)
-        return bool(choices) and graph.give_all(min(choices)[1])
+        return bool(choices) and self.give_all(min(choices)[1])
 
 
 def _alone(graph: PrecedenceGraph, robot: int) -> Tick:
