@@ -54,6 +54,7 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
 }
 
 void bind_distance_tables(nb::module_& module);
+void bind_event_graph(nb::module_& module);
 void bind_event_lacam(nb::module_& module);
 void bind_fleet_search(nb::module_& module);
 void bind_floor(nb::module_& module);

@@ -26,6 +26,7 @@ NB_MODULE(_core, module) {
     module.attr("INFINITY") = rightofway::infinity;
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
     rightofway::bind::bind_distance_tables(module);
+    rightofway::bind::bind_event_graph(module);
     rightofway::bind::bind_event_lacam(module);
     rightofway::bind::bind_fleet_search(module);
     rightofway::bind::bind_floor(module);

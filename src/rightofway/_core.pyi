@@ -79,6 +79,65 @@ class DistanceTables:
     def n_edges(self) -> int:
         """The number of edges, E."""
 
+def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
+    """
+    Find the circuit with the largest mean: the cycle time of events that repeat.
+
+    Parameters
+    ----------
+    n_nodes : int
+        The number of events in a period, N.
+    tail, head : int32[M], int32[M]
+        The arcs.
+    length : int64[M]
+        How long after its tail the head of each comes at least, not negative. [ticks]
+    height : int32[M]
+        How many periods later; may be negative, as long as the height of no circuit is.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    tuple of (int, int, int32[n]) or None
+        Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
+        in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
+        lengths times all heights is beyond 2^58.
+
+    Notes
+    -----
+    Exact: integers only. Deterministic. The GIL is released; Ctrl-C is obeyed.
+    """
+
+def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], period: int, parts: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+    """
+    Return the least times that keep all arcs, period after period.
+
+    Parameters
+    ----------
+    n_nodes, tail, head, length, height
+        As for ``critical_circuit``.
+    period, parts : int
+        All comes again every ``period / parts`` ticks.
+    time_limit : float or None
+        After so many seconds the search stops.
+
+    Returns
+    -------
+    int64[N] or None
+        When each event comes, at least 0. [1 / parts ticks] None if the period is less than the cycle
+        time, or time ran out.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, or times may become too large.
+    """
+
 def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Plan a whole fleet with clocks, instant by instant.

@@ -9,13 +9,29 @@ from rightofway.precedence.delayed import (
     Setbacks,
     order_of,
 )
+from rightofway.precedence.event_graph import (
+    Arcs,
+    Circuit,
+    EventGraph,
+    critical_circuit,
+    event_graph,
+)
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
-from rightofway.precedence.periodic import PeriodicTimetable
+from rightofway.precedence.periodic import PeriodicTimetable, unrolled
 from rightofway.precedence.segments import Segment, crossing, shared_segment
+from rightofway.precedence.sensitivity import (
+    Sensitivity,
+    cycle_time_without,
+    sensitivity,
+    tight_arcs,
+)
 
 __all__ = [
     "NEVER",
+    "Arcs",
+    "Circuit",
     "DelayedPlan",
+    "EventGraph",
     "Execution",
     "Hazards",
     "Meeting",
@@ -23,9 +39,16 @@ __all__ = [
     "PrecedenceGraph",
     "Runs",
     "Segment",
+    "Sensitivity",
     "Setbacks",
+    "critical_circuit",
     "crossing",
+    "cycle_time_without",
+    "event_graph",
     "graph_of",
     "order_of",
+    "sensitivity",
     "shared_segment",
+    "tight_arcs",
+    "unrolled",
 ]

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Lap, Tick
 
-__all__ = ["PeriodicTimetable"]
+__all__ = ["PeriodicTimetable", "unrolled"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -37,3 +37,15 @@ class PeriodicTimetable:
     counts: tuple[int, ...]
     period: Tick
     enter: tuple[NDArray[np.int64], ...]
+
+
+def unrolled(timetable: PeriodicTimetable, times: int) -> PeriodicTimetable:
+    """Return the same timetable, with so many of its periods as one."""
+    period = int(timetable.period)
+    shifts = np.arange(times, dtype=np.int64)[:, None] * period
+    return replace(
+        timetable,
+        counts=tuple(count * times for count in timetable.counts),
+        period=Tick(period * times),
+        enter=tuple((enter + shifts).ravel() for enter in timetable.enter),
+    )

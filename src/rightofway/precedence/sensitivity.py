@@ -1,0 +1,159 @@
+"""What would help: how the cycle time follows what takes time, exactly, both ways and how far.
+
+Let something that takes time (a robot's driving, a work time, the headway) take less of it, by the
+same part everywhere. Each circuit's mean falls in proportion to how much of that is on it, so the
+cycle time, the largest of them, is convex and made of straight pieces: it falls at first by as much
+as on that critical circuit which has least of it, until another circuit takes over; and it rises
+by as much as on the one that has most. So whatever is on no critical circuit does neither.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway import _core
+from rightofway.errors import GaveUp
+from rightofway.precedence.event_graph import Arcs, Circuit, EventGraph, circuit_of
+
+__all__ = ["Sensitivity", "cycle_time_without", "sensitivity", "tight_arcs"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensitivity:
+    """How the cycle time follows something that takes time; fractions are exact.
+
+    Attributes
+    ----------
+    cycle_time
+        As it is [ticks].
+    gain
+        By how much it falls at first, for each part of that time that is saved: saving the part
+        ``x`` saves ``gain * x`` [ticks].
+    loss
+        By how much it rises, in the same way, if that takes longer [ticks].
+    until
+        The part up to which the gain holds, 0 to 1; beyond, another circuit decides.
+    at_best
+        The cycle time if that took no time at all [ticks].
+    """
+
+    cycle_time: Fraction
+    gain: Fraction
+    loss: Fraction
+    until: Fraction
+    at_best: Fraction
+
+
+def sensitivity(
+    graph: EventGraph,
+    share: NDArray[np.int64],
+    *,
+    tight: NDArray[np.bool_] | None = None,
+    time_limit: float | None = None,
+) -> Sensitivity:
+    """Return how the cycle time follows what takes its share of the arcs.
+
+    Parameters
+    ----------
+    graph
+        Laps and orders.
+    share
+        How much of each arc's length it is [ticks]; int64, shape (M,), at most the length.
+    tight
+        What `tight_arcs` returns, where several shares are asked for.
+    time_limit
+        For each search [s].
+
+    Raises
+    ------
+    GaveUp
+        If time ran out.
+    """
+    mask = tight_arcs(graph, time_limit=time_limit) if tight is None else tight
+    critical, on_critical = graph.arcs.chosen(mask), share[mask]
+    now = _mean(graph, critical, critical.length, time_limit)
+    gain = now - _mean(graph, critical, critical.length - on_critical, time_limit)
+    loss = _mean(graph, critical, on_critical, time_limit)
+    until, at_best = _reach(graph, share, now, gain, time_limit)
+    return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
+
+
+def tight_arcs(graph: EventGraph, *, time_limit: float | None = None) -> NDArray[np.bool_]:
+    """Return a mask of arcs with no slack at the cycle time: all critical circuits are of these.
+
+    Raises
+    ------
+    GaveUp
+        If time ran out.
+    """
+    arcs = graph.arcs
+    cycle_time = graph.critical_circuit(time_limit=time_limit).cycle_time
+    period, parts = cycle_time.numerator, cycle_time.denominator
+    times = _core.earliest_times(
+        len(graph), arcs.tail, arcs.head, arcs.length, arcs.height, period, parts, time_limit
+    )
+    if times is None:
+        raise GaveUp("time ran out in the search for critical circuits (give more time)")
+    due = times[arcs.tail] + arcs.length * parts
+    return np.asarray(times[arcs.head] + arcs.height.astype(np.int64) * period == due)
+
+
+def cycle_time_without(
+    graph: EventGraph,
+    share: NDArray[np.int64],
+    part: Fraction,
+    *,
+    time_limit: float | None = None,
+) -> Fraction:
+    """Return the cycle time if a part (0 to 1) of that share is saved [ticks].
+
+    Raises
+    ------
+    GaveUp
+        If time ran out.
+    """
+    return _without(graph, share, part, time_limit).cycle_time
+
+
+def _without(
+    graph: EventGraph, share: NDArray[np.int64], part: Fraction, time_limit: float | None
+) -> Circuit:
+    whole, saved = part.denominator, part.numerator
+    arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
+    found = circuit_of(len(graph), arcs, time_limit=time_limit)
+    return Circuit(cycle_time=found.cycle_time / whole, arcs=found.arcs)
+
+
+def _mean(
+    graph: EventGraph, arcs: Arcs, length: NDArray[np.int64], time_limit: float | None
+) -> Fraction:
+    return circuit_of(len(graph), arcs.stretched(length), time_limit=time_limit).cycle_time
+
+
+def _reach(
+    graph: EventGraph,
+    share: NDArray[np.int64],
+    now: Fraction,
+    gain: Fraction,
+    time_limit: float | None,
+) -> tuple[Fraction, Fraction]:
+    """Return how far the gain holds, and the cycle time with all of it saved.
+
+    From the end back: where the circuit that decides there takes over from the first line, look
+    which one decides there, until it is the first line itself.
+    """
+    until = Fraction(1)
+    found = _without(graph, share, until, time_limit)
+    at_best = found.cycle_time
+    while found.cycle_time > now - gain * until:
+        arcs = graph.arcs.chosen(found.arcs)
+        height = int(arcs.height.sum())
+        mean = Fraction(int(arcs.length.sum()), height)
+        slope = Fraction(int(share[found.arcs].sum()), height)
+        until = (now - mean) / (gain - slope)
+        found = _without(graph, share, until, time_limit)
+    return until, at_best

@@ -1,0 +1,40 @@
+"""What a part saved is worth: the exact gain holds as far as it says, and no further."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.precedence import EventGraph, cycle_time_without, sensitivity
+from tests.laws.test_event_graph import patterns
+
+law = settings(max_examples=150, derandomize=True, deadline=None)
+LITTLE = Fraction(1, 10**5)
+"""A part so small that no other circuit of these small fleets takes over within it."""
+
+
+@law
+@given(patterns(), st.randoms(use_true_random=False))
+def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
+    graph: EventGraph, draw: np.random.Generator
+) -> None:
+    lengths = graph.arcs.length.tolist()
+    share = np.array([draw.choice((0, length)) for length in lengths], np.int64)
+    effect = sensitivity(graph, share)
+
+    def at(part: Fraction) -> Fraction:
+        return cycle_time_without(graph, share, part)
+
+    now = effect.cycle_time
+    assert at(Fraction(0)) == now == graph.critical_circuit().cycle_time
+    assert at(Fraction(1)) == effect.at_best
+    assert at(-LITTLE) == now + effect.loss * LITTLE
+    assert effect.until > 0
+    assert at(LITTLE) == now - effect.gain * LITTLE
+    assert at(effect.until) == now - effect.gain * effect.until
+    if effect.until < 1:
+        beyond = min(Fraction(1), effect.until + LITTLE)
+        assert at(beyond) > now - effect.gain * beyond
