@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from rightofway.cli.planning import seconds
 from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
+
+if TYPE_CHECKING:
+    from rightofway.laps import LapsRun
 
 __all__ = ["laps"]
 
@@ -14,6 +19,7 @@ Examples:
   rightofway laps examples/door.yaml
   rightofway laps examples/crossroad.yaml --rule two-level --json
   rightofway laps examples/door.yaml -o plan.json
+  rightofway laps examples/crossroad.yaml --page laps.html
 """
 
 
@@ -28,6 +34,8 @@ Examples:
               metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
 @click.option("-o", "--output", metavar="PLAN", callback=writable(),
               help="Write the run as a plan of whole laps.")  # fmt: skip
+@click.option("--page", metavar="FILE", callback=writable(".html"),
+              help="Write a page that plays the laps.")  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 def laps(
     *,
@@ -36,6 +44,7 @@ def laps(
     routes: str,
     time_limit: float | None,
     output: str | None,
+    page: str | None,
     as_json: bool,
 ) -> int:
     """Let every robot of a SCENARIO repeat its round trip until the pattern repeats.
@@ -60,5 +69,16 @@ def laps(
 
         save_plan(plan_of(run), output)
         say(f"wrote {output}")
+    if page:
+        _write_page(run, page)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
+
+
+def _write_page(run: LapsRun, page: str) -> None:
+    from rightofway.laps import shown
+    from rightofway.viz import write_page
+
+    plan, steady = shown(run)
+    write_page(plan, page, steady=steady)
+    say(f"wrote {page}")

@@ -7,6 +7,7 @@ from rightofway.laps.pattern import Pattern
 from rightofway.laps.plan import plan_of
 from rightofway.laps.rules import RULES
 from rightofway.laps.run import ROUTES, run_laps
+from rightofway.laps.shown import shown
 
 __all__ = [
     "ROUTES",
@@ -19,4 +20,5 @@ __all__ = [
     "endless_routes",
     "plan_of",
     "run_laps",
+    "shown",
 ]

@@ -18,7 +18,7 @@ from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.ordering import vertices_in_line
 from rightofway.viz.page.figures import differences, wait_row
 from rightofway.viz.page.on_floor import floor_of
-from rightofway.viz.page.repeats import laps_of, steady_of
+from rightofway.viz.page.repeats import laps_of, last_tick_of_all, steady_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.plane import plane_of
 
@@ -52,6 +52,7 @@ def payload_of(
     if steady:
         payload["steady"] = steady_of(plan, steady, trips)
         payload["laps"] = laps_of(plan)
+        payload["end"] = last_tick_of_all(plan, payload["steady"])
     if actual is not None:
         payload["floor"] = floor_of(plan, actual, trips)
     return payload

@@ -11,7 +11,7 @@ from rightofway.errors import InputError
 from rightofway.model import Plan, Steady, Track
 from rightofway.viz.motion import Trip
 
-__all__ = ["laps_of", "steady_of"]
+__all__ = ["laps_of", "last_tick_of_all", "steady_of"]
 
 
 def steady_of(plan: Plan, steady: Sequence[Steady], trips: Sequence[Trip]) -> list[dict[str, Any]]:
@@ -51,6 +51,15 @@ def laps_of(plan: Plan) -> list[int]:
     return [robot.laps or plan.scenario.rules.laps for robot in plan.scenario.robots]
 
 
+def last_tick_of_all(plan: Plan, groups: Sequence[dict[str, Any]]) -> int:
+    """Return until when all robots are out on laps: what comes later is not what they repeat."""
+    untils: dict[int, int] = {
+        robot: group["until"] for group in groups for robot in group["robots"]
+    }
+    ends = (untils.get(robot, int(track.enter[-1])) for robot, track in enumerate(plan.tracks))
+    return max(1, min(ends))
+
+
 def _refuse_strangers(plan: Plan, steady: Sequence[Steady]) -> None:
     robots = len(plan.tracks)
     for index, group in enumerate(steady):
@@ -72,8 +81,8 @@ def _until(group: Steady, track: Track, drive: Sequence[int]) -> int:
     A plan ends, so the first visit that is missing or comes at another tick ends the repetition:
     when the robot would have had to set out for it.
     """
-    first = int(np.searchsorted(track.enter, group.start))
-    shift = int(np.searchsorted(track.enter, group.start + group.period)) - first
+    first, again = np.searchsorted(track.enter, (group.start, group.start + group.period), "right")
+    shift = int(again - first)
     if shift == 0:
         return group.start
     before = slice(first, len(track) - shift)
@@ -81,5 +90,5 @@ def _until(group: Steady, track: Track, drive: Sequence[int]) -> int:
     same = (track.enter[after] - track.enter[before] == group.period) & (
         track.vertices[after] == track.vertices[before]
     )
-    last = first + (len(same) if same.all() else int(np.argmin(same)))
+    last = int(first) + (len(same) if same.all() else int(np.argmin(same)))
     return int(track.enter[last]) + group.period - drive[last]

@@ -35,7 +35,7 @@ class Bottleneck {
       around.forEach((vertex, i) => context[i ? "lineTo" : "moveTo"](x[vertex], y[vertex]));
       context.stroke();
     };
-    const width = Math.max(0.34, 7 / scale);
+    const width = Math.max(0.34, 5 / scale);
     context.strokeStyle = this.theme.litEdge;
     context.lineWidth = width + 2 / scale;
     trace();
@@ -74,7 +74,10 @@ class Bottleneck {
     const rows = circuit.map(rowOf);
     for (let shift = -this.group.turn; shift < until; shift += period) {
       circuit.forEach((step, i) => this.#cell(context, area, rows[i], step, shift));
-      circuit.forEach((step, i) => this.#link(context, area, rows[i], rows[(i + 1) % rows.length], step, shift));
+      circuit.forEach((step, i) => {
+        const next = (i + 1) % circuit.length;
+        if (circuit[next].robot !== step.robot) this.#link(context, area, rows[i], rows[next], step, shift);
+      });
     }
   }
 
@@ -97,7 +100,7 @@ class Bottleneck {
     context.stroke();
   }
 
-  /** From a visit to the one that waits for it, in another row. */
+  /** From a visit to that of another robot, which waits for it. */
   #link(context, area, from, to, { begin, next }, shift) {
     if (!from || !to || from.top === to.top || !this.#repeats(begin + shift) || !this.#repeats(next + shift)) return;
     const down = to.top > from.top;

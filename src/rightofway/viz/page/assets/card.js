@@ -33,10 +33,9 @@ class Card {
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
       facts([
-        ...(robot.planned ? this.#floorTimes(robot) : this.#times(robot)),
+        ...this.#times(robot),
         ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
         ["Waits", waited ? `${words.time(waited)} in all` : "never"],
-        ...this.#repeats(robot),
         ["Speed", robot.speed],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],
@@ -48,6 +47,11 @@ class Card {
   }
 
   #times(robot) {
+    if (robot.planned) return this.#floorTimes(robot);
+    return this.plan.steady ? this.#lapTimes(robot) : this.#planTimes(robot);
+  }
+
+  #planTimes(robot) {
     const { words } = this;
     const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
     const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
@@ -63,9 +67,9 @@ class Card {
   }
 
   /** From when on it repeats itself, and how often. */
-  #repeats(robot) {
-    const group = this.plan.steady?.groupOf[robot.index];
-    if (!group?.whole || robot.planned) return [];
+  #lapTimes(robot) {
+    const group = this.plan.steady.groupOf[robot.index];
+    if (!group?.whole) return [["Repeats", "not within what is shown"]];
     const every = `${counted(this.plan.steady.lapsInPeriod(robot.index), "lap")} every ${this.words.time(group.period)}`;
     return [["Repeats", `${every}, from ${this.words.time(group.start)} on`]];
   }

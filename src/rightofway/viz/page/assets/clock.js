@@ -3,7 +3,7 @@
 /** How many time units pass in a second. */
 const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
 
-/** A whole plan plays in about this long [s], unless the user changes the speed. */
+/** A whole plan, or two periods, play in about this long [s], unless the user changes the speed. */
 const PLEASANT_SECONDS = 24;
 
 /**
@@ -17,7 +17,8 @@ class Clock extends Observable {
     this.tick = 0;
     this.playing = false;
     this.ticksPerUnit = plan.tick.denominator / plan.tick.numerator;
-    const pace = this.end / this.ticksPerUnit / PLEASANT_SECONDS;
+    const shown = plan.steady && !plan.happened ? Math.min(2 * plan.steady.largest.period, this.end) : this.end;
+    const pace = shown / this.ticksPerUnit / PLEASANT_SECONDS;
     this.rate = RATES.findLast((rate) => rate < 1.5 * pace) ?? RATES[0];
     this.loop = null; // { from, to }
     this.turns = 0; // how often it has gone back since it loops

@@ -16,6 +16,7 @@ class RobotList {
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
     choice.on("mode", () => this.#select());
+    this.sort.hidden = plan.steady && !plan.happened; // robots make different numbers of laps
     this.#select();
   }
 
@@ -80,7 +81,8 @@ class RobotList {
     const { steady } = this.plan;
     if (!steady) return null;
     const { loop, tick, running } = this.clock;
-    return this.words.lap(loop ? steady.lapsForEver(index, running) : steady.laps(index, tick), robot, loop);
+    const made = loop ? steady.lapsForEver(index, running) : steady.laps(index, tick);
+    return `lap ${made + 1}`;
   }
 }
 

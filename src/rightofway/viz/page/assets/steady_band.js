@@ -31,7 +31,6 @@ class SteadyBand {
     this.#part(context, area, top, 0, start, "transient", 0);
     if (apart < NARROWEST_PERIOD) this.#part(context, area, top, start, until, this.#everyTime(), 0.12);
     else borders.forEach((tick, index) => this.#period(context, area, top, tick, index));
-    this.#part(context, area, top, Math.max(until, start), area.end, "the last laps end", 0);
   }
 
   #everyTime() {
@@ -42,7 +41,9 @@ class SteadyBand {
     const { period, until } = this.group;
     const end = Math.min(tick + period, until);
     const looped = this.clock.loop?.from === tick;
-    const label = index ? String(index + 1) : `period 1: ${this.words.time(period)}`;
+    const every = 10 ** Math.max(Math.ceil(Math.log10(26 / (area.x(period) - area.x(0)))), 0);
+    const number = (index + 1) % every === 0 ? String(index + 1) : "";
+    const label = index ? number : `period 1: ${this.words.time(period)}`;
     this.#part(context, area, top, tick, end, label, looped ? 0.3 : index % 2 ? 0.07 : 0.13);
     context.strokeStyle = this.theme.muted;
     context.lineWidth = 1;
@@ -65,7 +66,7 @@ class SteadyBand {
     context.fillStyle = strength ? this.theme.ink : this.theme.muted;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    const fits = [label, label.split(":")[0], label.replace(/\D.*?(\d+).*/, "$1")]
+    const fits = [label, label.split(":")[0], label.split(":")[0].replace("period ", "")]
       .find((text) => context.measureText(text).width < right - left - 4);
     if (fits) context.fillText(fits, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
   }

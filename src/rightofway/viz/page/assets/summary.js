@@ -21,8 +21,14 @@ function outcome({ happened, steady, metrics }, words) {
     const done = Math.max(...happened.map(({ completion }) => completion));
     return done === metrics.makespan ? `done at ${planned} as planned` : `done at ${words.time(done)} instead of ${planned}`;
   }
-  if (steady?.groups.length > 1) return `in ${steady.groups.length} groups that repeat themselves`;
-  return steady ? `the same every ${words.time(steady.largest.period)}` : `done at ${planned}`;
+  return steady ? repetition(steady, words) : `done at ${planned}`;
+}
+
+function repetition({ groups, groupOf, largest }, words) {
+  const robots = groupOf.filter(Boolean).length;
+  if (robots < groupOf.length) return `${robots} of them known to repeat themselves`;
+  if (groups.length > 1) return `in ${groups.length} groups that repeat themselves`;
+  return `the same every ${words.time(largest.period)}`;
 }
 
 function planFigures({ metrics: { flowtime, makespan, lowerBound } }, words) {

@@ -12,6 +12,12 @@ function grouped(number) {
   return number < 10000 ? String(number) : String(number).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
 }
 
+/** "R1, R2 and R3"; the first few of many. */
+function several(names) {
+  if (names.length > 4) return `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
+  return names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
+}
+
 /** Durations as people write them, names, and sentences made of them. */
 class Words {
   constructor(plan) {
@@ -69,16 +75,11 @@ class Words {
     return ticks > 0 ? `${this.time(ticks)} late` : `${this.time(-ticks)} early`;
   }
 
-  /** Which lap a robot is on, of how many; without an end while a period is played for ever. */
-  lap(made, { index }, endless) {
-    const all = this.plan.steady.lapEnds[index].length;
-    if (endless) return `lap ${made + 1}`;
-    return made < all ? `lap ${made + 1} of ${all}` : counted(all, "lap");
-  }
-
   /** What keeps a group from repeating itself sooner, in a line. */
   bottleneck({ circuit, period }) {
-    return `Bottleneck: ${this.#several(circuit.map(({ robot }) => robot.name))}, ${this.time(period)} a period`;
+    const names = [...new Set(circuit.map(({ robot }) => robot.name))];
+    const alone = names.length === 1 ? " alone, which waits for nobody" : "";
+    return `Bottleneck: ${several(names)}${alone}, ${this.time(period)} a period`;
   }
 
   /** The same with its places. */
@@ -86,13 +87,6 @@ class Words {
     const steps = group.circuit.map(({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`);
     return `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
       `the first again a period later: ${steps.join(", ")}`;
-  }
-
-  /** "R1, R2 and R3", each once; the first few of many. */
-  #several(names) {
-    const once = [...new Set(names)];
-    if (once.length > 4) return `${once.slice(0, 3).join(", ")} and ${once.length - 3} more`;
-    return once.length > 1 ? `${once.slice(0, -1).join(", ")} and ${once.at(-1)}` : once[0];
   }
 
   /** Where two robots would have met. */
