@@ -5,7 +5,8 @@
 namespace rightofway {
 namespace {
 
-Tick sum(Tick left, Tick right) { return std::min(left + right, infinity); }
+// None is negative, and each at most `infinity` and a little more.
+Tick sum(Tick left, Tick right) { return right >= infinity - left ? infinity : left + right; }
 
 // One robot's standstills, of which those up to now are behind it.
 class Standstills {

@@ -134,8 +134,10 @@ class _Phases:
         tracks = floor.split(happens.enter)
         for robot, track in enumerate(tracks):
             done = _less(Tick(int(happens.completion[robot])), -self.offset)
-            if robot in unfinished or robot in ended.broken:
-                ended.completion[robot] = min(ended.completion[robot], NEVER)
+            if robot in ended.broken:
+                continue
+            if robot in unfinished:
+                ended.completion[robot] = NEVER
             elif len(track) > 1 or ended.completion[robot] == NEVER:
                 ended.completion[robot] = done
         before = ended.tracks or tuple(Track.of([track.vertices[0]], [0]) for track in tracks)

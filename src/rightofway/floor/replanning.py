@@ -17,6 +17,7 @@ from math import prod
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.floor.standing import Rest
 from rightofway.model import Plan, Roadmap, Robot, Scenario, Stage, Stop, VertexId
+from rightofway.search import Distances, joint_steps
 from rightofway.solve import solve
 
 __all__ = ["Anew", "plan_the_rest"]
@@ -79,6 +80,8 @@ def plan_the_rest(rest: Rest, seed: int) -> Anew | None:
     for tried in islice(_attempts(roadmap, rest, seed), MOST_TRIES):
         with suppress(NoPlanExists, GaveUp):
             scenario = _scenario(rest, roadmap, tried.stages, tried.parking)
+            if tried.parking:  # most of many ways are impossible, and this tells soonest
+                joint_steps(scenario, Distances(roadmap), seed=seed, time_limit=SECONDS)
             return Anew(plan=solve(scenario, PLANNER, SECONDS, seed), cut_off=tried.cut_off)
     return None
 
@@ -101,10 +104,30 @@ def _attempts(roadmap: Roadmap, rest: Rest, seed: int) -> Iterator[_Attempt]:
     for count in range(len(others) + 1):
         for more in combinations(others, count):
             parked = frozenset(cut_off.union(more))
+            if parked and not _could_finish_alone(roadmap, rest, stages, parked, seed):
+                continue  # nor could they with the others in their way
             idle = [[] if robot in parked else kept for robot, kept in enumerate(stages)]
-            for todo in [stages, idle] if parked else [stages]:
+            for todo in [stages, idle] if idle != stages else [stages]:
                 for parking in _parkings(roadmap, rest, todo, parked, seed):
                     yield _Attempt(cut_off=parked, stages=todo, parking=parking)
+
+
+def _could_finish_alone(
+    roadmap: Roadmap, rest: Rest, stages: Stages, parked: frozenset[int], seed: int
+) -> bool:
+    """Tell whether the other robots could finish if those that are to be parked were gone."""
+    whole = _scenario(rest, roadmap, stages, {})
+    staying = tuple(robot for r, robot in enumerate(whole.robots) if r not in parked)
+    if not staying:
+        return True
+    try:
+        fewer = replace(whole, robots=staying)
+        joint_steps(fewer, Distances(roadmap), seed=seed, time_limit=SECONDS)
+    except NoPlanExists:
+        return False
+    except GaveUp:
+        pass
+    return True
 
 
 def _within_reach(roadmap: Roadmap, at: int, left: Sequence[Stage]) -> list[Stage]:

@@ -100,8 +100,10 @@ def _held(floor: DelayedPlan, setbacks: Setbacks, since: Tick) -> Setbacks:
             drives = bool(free.start[at + 1] <= since)
         else:
             drives = int(free.enter[at] + setbacks.dwell[at]) <= since
-        if drives:
+        if drives and at + 2 < end:
             dwell[at + 1] = NEVER
+        elif drives:
+            continue  # to where it ends
         else:
             standing[:] = [pair for pair in standing if sum(pair) <= since]
             standing.append((since, NEVER))
@@ -125,7 +127,7 @@ class _Stand:
 
     def __init__(self, floor: DelayedPlan, setbacks: Setbacks, happens: Execution) -> None:
         self._floor, self._setbacks, self._happens = floor, setbacks, happens
-        begun = happens.enter < NEVER
+        begun = (happens.enter < NEVER).astype(np.int64)
         counts = np.add.reduceat(begun, floor.first_visit[:-1])
         self._at = floor.first_visit[:-1] + counts - 1
         self.last_enter = int(happens.enter[self._at].max())
@@ -171,11 +173,11 @@ class _Stand:
 
 def _served(route: Route, stages: Sequence[Stage]) -> list[int]:
     """Return the visit that serves each stage; the dwell of a route is made of their times."""
-    visit, spare, serves = 0, list(route.dwell), []
+    visit, last, spare, serves = 0, len(route) - 1, list(route.dwell), []
     for stage in stages[:-1]:
         need = stage.work + stage.turn
-        while route.vertices[visit] != stage.vertex or spare[visit] < need:
+        while visit < last and (route.vertices[visit] != stage.vertex or spare[visit] < need):
             visit += 1
         spare[visit] = Tick(spare[visit] - need)
         serves.append(visit)
-    return [*serves, len(route) - 1]
+    return [*serves, last]
