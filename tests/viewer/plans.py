@@ -217,6 +217,7 @@ def counter_late() -> Actual:
         ),
         dwell=(np.array([0, 4, 1, 4, 1]), np.array([0, 4, 1, 4])),
         drive=(np.array([0, 1, 1, 1, 1]), np.array([0, 1, 1, 1])),
+        completion=(None, None),
         standstills=(((Tick(3), Tick(4)),), ((Tick(22), None),)),
     )
 
@@ -243,5 +244,6 @@ def delayed(plan: Plan, every: int = 9) -> Actual:
         tracks=tuple(tracks),
         dwell=tuple(dwells),
         drive=tuple(drives),
+        completion=tuple(Tick(int(track.enter[-1])) for track in tracks),
         standstills=tuple(standstills),
     )

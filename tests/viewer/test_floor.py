@@ -110,7 +110,7 @@ def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
 
 
 def test_the_plan_is_drawn_thin_beside_what_happened(late: Viewer) -> None:
-    """By plan R1 is at home from 6 on; the line of that is grey, and gone without the plan."""
+    """By plan R1 is at home from 6 on; the line of that is gone without the plan."""
     x, y = late.ask("[diagram.area.x(8), diagram.area.bottom - 0.5 * diagram.spaceTime.rowHeight]")
 
     def darkness() -> float:

@@ -1,4 +1,4 @@
-"""What became of a plan on the floor: the same visits at other ticks, and why."""
+"""What became of a plan on the floor: where robots really were, and what really took how long."""
 
 from __future__ import annotations
 
@@ -21,14 +21,16 @@ class Actual:
     Attributes
     ----------
     tracks
-        One for each robot: the vertices of its planned track, or the first of them where it never
-        got further, with the ticks at which it entered them.
+        Where each robot was, when. Usually the vertices of its planned track, or the first of them
+        where it never got further; another way where what was left was planned anew.
     dwell
         For each robot, how long it really worked and turned in each visit [ticks]; int64, as long
         as its track.
     drive
         For each robot, the ticks of the edge that it really drove into each visit, 0 for the first;
         int64, as long as its track.
+    completion
+        When each robot had done its work and was at its last vertex [ticks]; None for never.
     standstills
         For each robot, from when it stood still by itself and how long [ticks], in order; None for
         ever: it broke down. Empty if none did.
@@ -42,11 +44,12 @@ class Actual:
     tracks: tuple[Track, ...]
     dwell: tuple[NDArray[np.int64], ...]
     drive: tuple[NDArray[np.int64], ...]
+    completion: tuple[Tick | None, ...]
     standstills: tuple[tuple[tuple[Tick, Tick | None], ...], ...] = ()
 
     def __post_init__(self) -> None:
         robots = len(self.tracks)
-        for name in ("dwell", "drive", "standstills"):
+        for name in ("dwell", "drive", "completion", "standstills"):
             given = getattr(self, name)
             if len(given) != robots and (given or name != "standstills"):
                 message = f"{len(given)} for {robots} tracks (give one for each)"

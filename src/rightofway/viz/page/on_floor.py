@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from rightofway.errors import InputError
 from rightofway.metrics.stays import Stays
 from rightofway.metrics.waits import waits_in
 from rightofway.model import Actual, Plan, Tick, Track
-from rightofway.viz.motion import Trip
+from rightofway.viz.motion import Trip, trips_of
 from rightofway.viz.page.figures import differences, wait_row
 
 __all__ = ["floor_of"]
@@ -35,38 +36,37 @@ def floor_of(plan: Plan, actual: Actual, trips: Sequence[Trip]) -> dict[str, Any
     Raises
     ------
     InputError
-        If a robot is missing, or went another way than planned.
+        If not every robot has a track.
     """
-    _refuse_other_ways(plan, actual)
+    if len(actual.tracks) != len(plan.tracks):
+        counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
+        raise InputError.at("actual.tracks", f"{counts} (give one for each)")
     still = actual.standstills or ((),) * len(trips)
     stays = tuple(map(_stays, actual.tracks, actual.dwell, actual.drive, still))
-    robots = [
-        {
-            "enter": differences(track.enter),
-            "drive": drive.tolist(),
-            "stages": _stages(trip, dwell),
-            "still": [list(standstill) for standstill in standstills],
-            "completion": stay.completion if len(track) == len(trip.vertices) else None,
-        }
-        for trip, track, dwell, drive, standstills, stay in zip(
-            trips, actual.tracks, actual.dwell, actual.drive, still, stays, strict=True
-        )
-    ]
+    anew = trips_of(replace(plan, tracks=actual.tracks))
     return {
-        "end": max(1, *map(_end, stays, still)),
-        "robots": robots,
+        "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
+        "robots": [
+            {
+                **_way(planned, taken, dwell),
+                "enter": differences(taken.enter),
+                "drive": drive.tolist(),
+                "still": [list(standstill) for standstill in standstills],
+                "completion": completion,
+            }
+            for planned, taken, dwell, drive, standstills, completion in zip(
+                trips, anew, actual.dwell, actual.drive, still, actual.completion, strict=True
+            )
+        ],
         "waits": [wait_row(wait) for wait in waits_in(plan.scenario, actual.tracks, stays)],
     }
 
 
-def _refuse_other_ways(plan: Plan, actual: Actual) -> None:
-    if len(actual.tracks) != len(plan.tracks):
-        counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
-        raise InputError.at("tracks", f"{counts} (give one for each)")
-    for robot, (whole, track) in enumerate(zip(plan.tracks, actual.tracks, strict=True)):
-        if not np.array_equal(track.vertices, whole.vertices[: len(track)]):
-            message = "goes another way than planned (give the planned vertices, or the first)"
-            raise InputError.at(f"tracks[{robot}]", message)
+def _way(planned: Trip, taken: Trip, dwell: NDArray[np.int64]) -> dict[str, Any]:
+    """Return what a robot did on its way, and the way itself unless it is that of the plan."""
+    if taken.vertices == planned.vertices[: len(taken.vertices)]:
+        return {"stages": _stages(planned, dwell)}
+    return {"stages": _stages(taken, dwell), "vertices": differences(taken.vertices)}
 
 
 def _stays(
@@ -98,15 +98,10 @@ def _stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
     for stage, visit in zip(trip.stages, trip.served, strict=True):
         if 0 <= visit < reached:
             planned[visit] += stage.work + (stage.turn if visit < last else 0)
-    rows = []
-    for stage, visit in zip(trip.stages, trip.served, strict=True):
-        if not 0 <= visit < reached:
-            rows.append([stage.vertex, stage.work, stage.turn, -1])
-            continue
-        pace = dwell[visit] / planned[visit] if planned[visit] else 1
-        rows.append([stage.vertex, round(stage.work * pace), round(stage.turn * pace), visit])
-    return rows
-
-
-def _end(stay: Stays, still: Standstills) -> int:
-    return max(stay.completion, *(begin for begin, _ in still), 0)
+    pace = [ticks / least if least else 1 for ticks, least in zip(dwell, planned, strict=True)]
+    return [
+        [stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit]
+        if 0 <= visit < reached
+        else [stage.vertex, stage.work, stage.turn, -1]
+        for stage, visit in zip(trip.stages, trip.served, strict=True)
+    ]

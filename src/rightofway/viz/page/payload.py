@@ -52,6 +52,7 @@ def payload_of(
     if steady:
         payload["steady"] = steady_of(plan, steady, trips)
         payload["laps"] = laps_of(plan)
+    if steady and actual is None:
         payload["end"] = last_tick_of_all(plan, payload["steady"])
     if actual is not None:
         payload["floor"] = floor_of(plan, actual, trips)

@@ -68,10 +68,9 @@ def _refuse_strangers(plan: Plan, steady: Sequence[Steady]) -> None:
                 message = f"there is no robot {robot} (give 0 to {robots - 1})"
                 raise InputError.at(f"steady[{index}].robots", message)
         for place, (robot, visit) in enumerate(group.critical):
-            if not 0 <= visit < len(plan.tracks[robot]):
-                message = (
-                    f"robot {robot} has no visit {visit} (its track has {len(plan.tracks[robot])})"
-                )
+            last = len(plan.tracks[robot]) - 1
+            if not 0 <= visit <= last:
+                message = f"robot {robot} has no visit {visit} (give 0 to {last})"
                 raise InputError.at(f"steady[{index}].critical[{place}]", message)
 
 
@@ -83,7 +82,7 @@ def _until(group: Steady, track: Track, drive: Sequence[int]) -> int:
     """
     first, again = np.searchsorted(track.enter, (group.start, group.start + group.period), "right")
     shift = int(again - first)
-    if shift == 0:
+    if shift == 0 or track.vertices[again - 1] != track.vertices[first - 1]:
         return group.start
     before = slice(first, len(track) - shift)
     after = slice(first + shift, None)

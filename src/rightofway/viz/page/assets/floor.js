@@ -12,12 +12,16 @@ class FloorRobot extends Robot {
   constructor(raw, run, planned) {
     super(floorTrip(raw, run), planned.index);
     this.planned = planned;
+    const other = this.vertices.findIndex((vertex, visit) => vertex !== planned.vertices[visit]);
+    this.asPlanned = other < 0 ? this.vertices.length : other; // visits before it goes another way
     this.delayInAll = this.ending === DONE ? this.completion - planned.completion : Infinity;
     this.plannedWait = waitedByVisit(planned);
   }
 
-  /** How much later than planned it is, at a tick and in a visit; negative where it is early. */
+  /** How much later than planned it is, at a tick and in a visit; null where it goes another way. */
   lateness(tick, visit) {
+    if (this.ending === DONE && visit === this.vertices.length - 1) return this.delayInAll;
+    if (visit >= this.asPlanned) return null;
     const overdue = tick - this.planned.leave(visit);
     return Math.max(this.enter[visit] - this.planned.enter[visit], overdue);
   }
@@ -30,7 +34,8 @@ class FloorRobot extends Robot {
 
   /** How much longer a wait was than planned. */
   unplanned(wait) {
-    return wait.ticks - this.plannedWait[lastAtMost(this.enter, wait.tick)];
+    const visit = lastAtMost(this.enter, wait.tick);
+    return visit < this.asPlanned ? wait.ticks - this.plannedWait[visit] : 0;
   }
 
   /** The robot that stands for ever where this one has to go next, or null. */
@@ -41,16 +46,16 @@ class FloorRobot extends Robot {
 
   /** When it begins to wait longer than planned, in a phase that is a wait. */
   unplannedFrom(phase) {
-    return this.phases.begin[phase] + this.plannedWait[this.phases.visit[phase]];
+    const visit = this.phases.visit[phase];
+    return visit < this.asPlanned ? this.phases.begin[phase] + this.plannedWait[visit] : Infinity;
   }
 }
 
 function floorTrip(raw, run) {
-  const reached = run.enter.length;
   const still = run.still.map(([begin, ticks]) => [begin, ticks === null ? Infinity : begin + ticks]);
   const isBroken = still.some(([, to]) => to === Infinity);
-  const ending = reached === raw.vertices.length ? DONE : isBroken ? BROKEN : WAIT;
-  return { ...raw, ...run, vertices: raw.vertices.slice(0, reached), still, ending };
+  const ending = run.completion !== null ? DONE : isBroken ? BROKEN : WAIT;
+  return { ...raw, vertices: raw.vertices.slice(0, run.enter.length), ...run, still, ending };
 }
 
 /** How long a robot waits in each visit. */

@@ -127,7 +127,8 @@ class MapRobots {
   /** A dotted line to the vertex that a waiting robot is kept from. */
   #wish(context, robot, x, y, scale) {
     const visit = robot.phases.visit[this.motion.phase[robot.index]];
-    const next = (robot.planned ?? robot).vertices[visit + 1];
+    const next = robot.vertices[visit + 1] ?? robot.planned?.vertices[visit + 1];
+    if (next === undefined) return;
     const { x: xs, y: ys } = this.plan.roadmap;
     context.strokeStyle = robot.colour;
     context.lineWidth = Math.max(0.06, 1.25 / scale);

@@ -18,7 +18,7 @@ class SpaceTime {
   get #signsOfFloor() {
     const { robot, ghosts } = this.choice;
     const signs = ["stripes: held up", "orange: waits for a late robot"];
-    if (ghosts) signs.push("grey lines: the plan");
+    if (ghosts) signs.push("thin lines: the plan");
     if (robot) signs.unshift(`along the route of ${robot.name}`);
     return signs.join(", ");
   }
@@ -105,7 +105,7 @@ class SpaceTime {
 
   #line(context, robot, ghost = false) {
     const { phases, vertices } = robot;
-    context.strokeStyle = ghost ? this.theme.muted : robot.colour;
+    context.strokeStyle = robot.colour;
     context.lineJoin = "round";
     for (let i = 0; i < phases.begin.length; i++) {
       const activity = phases.activity[i];
@@ -125,6 +125,7 @@ class SpaceTime {
 
   #thin(context, begin, end, from, to) {
     context.lineWidth = 1;
+    context.globalAlpha = 0.75;
     context.beginPath();
     line(context, this.area.x(begin), this.#middle(from), this.area.x(end), this.#middle(to));
     context.stroke();

@@ -66,6 +66,10 @@ class SteadyBand {
     context.fillStyle = strength ? this.theme.ink : this.theme.muted;
     context.textAlign = "center";
     context.textBaseline = "middle";
+    if (/^\d+$/.test(label)) { // as many of these are given as have room
+      context.fillText(label, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);
+      return;
+    }
     const fits = [label, label.split(":")[0], label.split(":")[0].replace("period ", "")]
       .find((text) => context.measureText(text).width < right - left - 4);
     if (fits) context.fillText(fits, (left + right) / 2, top + BAND_HEIGHT / 2 + 0.5);

@@ -5,8 +5,8 @@ function showSummary(plan, words) {
   const headline = `${counted(plan.robots.length, "robot")}, ${outcome(plan, words)}`;
   document.getElementById("headline").textContent = headline;
   const about = plan.happened ? floorFigures : plan.steady ? steadyFigures : planFigures;
-  const planner = [plan.planner.name, plan.planner.status].filter(Boolean).join(": ");
-  const figures = [...about(plan, words), ["Planner", planner, "Who made the plan, and how"]];
+  const told = plan.happened ? [plan.planner.name] : [plan.planner.name, plan.planner.status];
+  const figures = [...about(plan, words), ["Planner", told.filter(Boolean).join(": "), "Who made the plan, and how"]];
   const known = figures.filter(([, value]) => value);
   document.getElementById("figures").replaceChildren(...known.map(([term, value, title]) =>
     element("div", { title }, element("dt", {}, term), element("dd", { className: "name" }, value))));

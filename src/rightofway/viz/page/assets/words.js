@@ -71,6 +71,7 @@ class Words {
 
   /** How late a robot is. */
   lateness(ticks) {
+    if (ticks === null) return "another way";
     if (!ticks) return "on time";
     return ticks > 0 ? `${this.time(ticks)} late` : `${this.time(-ticks)} early`;
   }
