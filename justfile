@@ -74,3 +74,8 @@ gaps:
 # Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
 priorities *args:
     python -m benchmarks.compare_priorities {{ args }}
+
+# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/floor.md
+late-floors *args:
+    python -m benchmarks.late_floors {{ args }}
+    MPLBACKEND=agg python -m benchmarks.late_floors_plot

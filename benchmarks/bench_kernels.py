@@ -64,5 +64,4 @@ def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -
 
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    distances = Distances(scenario.roadmap)
-    benchmark(lambda: timetable_of(scenario, joint_steps(scenario, distances)))
+    benchmark(lambda: timetable_of(scenario, joint_steps(scenario)))

@@ -53,9 +53,11 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
     return to_numpy(std::vector<T>(values.begin(), values.end()));
 }
 
+void bind_circle(nb::module_& module);
 void bind_distance_tables(nb::module_& module);
 void bind_event_graph(nb::module_& module);
 void bind_event_lacam(nb::module_& module);
+void bind_event_pibt(nb::module_& module);
 void bind_fleet_search(nb::module_& module);
 void bind_floor(nb::module_& module);
 void bind_lacam(nb::module_& module);

@@ -64,6 +64,29 @@ is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.)
 
 using Plan = std::tuple<int, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
+struct Manner {
+    bool spreads;
+    std::uint64_t seed;
+    std::int64_t most_effort;
+};
+
+SearchEnd search(const Trips& trips, const Manner& manner, const Deadline& deadline,
+                 Tracks& tracks) {
+    StepTables tables(trips.graph);
+    const SearchEnd reach = reach_all(trips.goals(), tables, deadline);
+    if (reach != SearchEnd::found) {
+        return reach;
+    }
+    SpreadPaths paths(trips, tables);
+    if (manner.spreads && !paths.choose(deadline)) {
+        return SearchEnd::stopped;
+    }
+    EventLacam lacam(trips, tables, paths, manner.seed);
+    const SearchEnd end = lacam.run(deadline, manner.most_effort);
+    tracks = lacam.tracks();
+    return end;
+}
+
 Plan plan_by_events(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
                     const ArrayIn<std::int32_t>& edge_class, const ArrayIn<VertexId>& home,
                     const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
@@ -87,18 +110,8 @@ Plan plan_by_events(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indi
     {
         const nb::gil_scoped_release released;
         check(trips);
-        StepTables tables(trips.graph);
-        SpreadPaths paths(trips, tables);
-        end = reach_all(trips, tables, deadline);
-        if (end == SearchEnd::found && spreads && !paths.choose(deadline)) {
-            end = SearchEnd::stopped;
-        }
-        if (end == SearchEnd::found) {
-            EventLacam search(trips, tables, paths, seed);
-            end = search.run(deadline, most_effort);
-            tracks = search.tracks();
-            retime(trips, tracks);
-        }
+        end = search(trips, {spreads, seed, most_effort}, deadline, tracks);
+        retime(trips, tracks);  // once the tables of the search are gone
     }
     return {static_cast<int>(end), to_numpy(std::move(tracks.first_visit)),
             to_numpy(std::move(tracks.vertex)), to_numpy(std::move(tracks.enter))};

@@ -10,7 +10,7 @@
 #include "bindings.hpp"
 #include "deadline.hpp"
 #include "rightofway/improver.hpp"
-#include "rightofway/prioritized.hpp"
+#include "rightofway/in_turn.hpp"
 #include "rightofway/reject.hpp"
 
 namespace rightofway::bind {
@@ -90,7 +90,21 @@ time_limit : float or None
 Returns
 -------
 bool
-    Whether every robot has a track now; if not, none has.)";
+    Whether every robot has a track now; if not, `go_on` may change that.)";
+
+constexpr auto go_on_doc = R"(Go on with giving the robots tracks one after another.
+
+Parameters
+----------
+n_searches : int
+    After so many searches since the beginning it gives up.
+time_limit : float or None
+    After so many seconds as well.
+
+Returns
+-------
+bool
+    Whether every robot has a track now; false as well where nothing was begun.)";
 
 constexpr auto improve_doc = R"(Replace tracks by better ones, a few robots at a time.
 
@@ -144,12 +158,16 @@ class FleetSearch {
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
                     const Deadline& deadline) {
         clear();
-        Prioritized planner(fleet_, plan_);
-        const bool is_done = planner.run(order, n_searches, deadline) == SearchEnd::found;
-        if (!is_done) {
-            clear();
+        in_turn_.emplace(fleet_, plan_, order);
+        return go_on(n_searches, deadline);
+    }
+
+    bool go_on(std::int64_t n_searches, const Deadline& deadline) {
+        if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline)) {
+            return false;
         }
-        return is_done;
+        in_turn_.reset();
+        return true;
     }
 
     void start(std::span<const std::int32_t> first_visit, std::span<const VertexId> vertices,
@@ -213,6 +231,7 @@ class FleetSearch {
     static constexpr std::size_t bytes_for_distances = std::size_t{256} << 20;
 
     void clear() {
+        in_turn_.reset();
         improver_.reset();
         plan_ = FleetPlan(fleet_);
     }
@@ -223,6 +242,7 @@ class FleetSearch {
     std::size_t n_threads_;
     std::vector<Tick> alone_;
     Tick bound_ = 0;
+    std::optional<InTurn> in_turn_;
     std::optional<Improver> improver_;
 };
 
@@ -279,6 +299,14 @@ void bind_fleet_search(nb::module_& module) {
             },
             nb::arg("order").noconvert(), nb::arg("n_searches"), nb::arg("time_limit").none(),
             prioritize_doc)
+        .def(
+            "go_on",
+            [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.go_on(n_searches, deadline);
+            },
+            nb::arg("n_searches"), nb::arg("time_limit").none(), go_on_doc)
         .def(
             "improve",
             [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,

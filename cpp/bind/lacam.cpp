@@ -2,7 +2,6 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
 
 #include <optional>
 #include <tuple>
@@ -30,8 +29,6 @@ first_stage : int32[R + 1]
     Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
 stage_vertex : int32[S]
     The vertices to go to, one after the other; a robot stays at its last one.
-stage_tables : list of int32[V]
-    For each stage, how far it is to its vertex from everywhere, -1 where there is no way.
 may_rotate : bool
     Whether three or more robots may move round a circle in one step.
 seed : int
@@ -56,23 +53,31 @@ Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is 
 
 using Steps = std::tuple<int, TableOut<VertexId>>;
 
+SearchEnd search(const Graph& graph, const Goals& goals, bool may_rotate, std::uint32_t seed,
+                 const Deadline& deadline, std::vector<VertexId>& steps) {
+    check(graph, goals);
+    StepTables tables(graph);
+    const SearchEnd reach = reach_all(goals, tables, deadline);
+    if (reach != SearchEnd::found) {
+        return reach;
+    }
+    Lacam lacam(graph, goals, tables, may_rotate, seed);
+    const SearchEnd end = lacam.run(deadline);
+    steps = lacam.steps();
+    return end;
+}
+
 Steps joint_steps(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
                   const ArrayIn<VertexId>& home, const ArrayIn<std::int32_t>& first_stage,
-                  const ArrayIn<VertexId>& stage_vertex,
-                  const std::vector<ArrayIn<std::int32_t>>& stage_tables, bool may_rotate,
-                  std::uint32_t seed, std::optional<double> time_limit) {
-    Goals goals{view(home), view(first_stage), view(stage_vertex), {}};
-    for (const auto& table : stage_tables) {
-        goals.stage_table.push_back(view(table));
-    }
+                  const ArrayIn<VertexId>& stage_vertex, bool may_rotate, std::uint32_t seed,
+                  std::optional<double> time_limit) {
+    const Goals goals{view(home), view(first_stage), view(stage_vertex)};
     const Deadline deadline(time_limit);
     SearchEnd end = SearchEnd::stopped;
     std::vector<VertexId> steps;
     {
         const nb::gil_scoped_release released;
-        Lacam search({view(indptr), view(indices)}, goals, may_rotate, seed);
-        end = search.run(deadline);
-        steps = search.steps();
+        end = search({view(indptr), view(indices)}, goals, may_rotate, seed, deadline, steps);
     }
     const std::size_t n_steps = home.size() == 0 ? 0 : steps.size() / home.size();
     return {static_cast<int>(end),
@@ -85,8 +90,7 @@ void bind_lacam(nb::module_& module) {
     module.def("joint_steps", &joint_steps, nb::arg("indptr").noconvert(),
                nb::arg("indices").noconvert(), nb::arg("home").noconvert(),
                nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
-               nb::arg("stage_tables"), nb::arg("may_rotate"), nb::arg("seed"),
-               nb::arg("time_limit").none(), steps_doc);
+               nb::arg("may_rotate"), nb::arg("seed"), nb::arg("time_limit").none(), steps_doc);
 }
 
 }  // namespace rightofway::bind

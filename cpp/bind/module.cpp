@@ -25,9 +25,11 @@ NB_MODULE(_core, module) {
     module.attr("FOREVER") = rightofway::forever;
     module.attr("INFINITY") = rightofway::infinity;
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
+    rightofway::bind::bind_circle(module);
     rightofway::bind::bind_distance_tables(module);
     rightofway::bind::bind_event_graph(module);
     rightofway::bind::bind_event_lacam(module);
+    rightofway::bind::bind_event_pibt(module);
     rightofway::bind::bind_fleet_search(module);
     rightofway::bind::bind_floor(module);
     rightofway::bind::bind_lacam(module);

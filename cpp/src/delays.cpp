@@ -114,28 +114,10 @@ void Delays::draw_standstills(RobotId robot, Random& random, Setbacks& out) cons
 void Delays::draw_durations(RobotId robot, Random& random, Setbacks& out) const {
     Rounding rounding(unit(random));
     for (VisitId x = plan_.first_of(robot); x <= plan_.last_of(robot); ++x) {
-        double more = 0;
-        Tick stops = 0;
-        for (const Delay& delay : delays_) {
-            switch (delay.kind) {
-                case DelayKind::exponential:
-                    more += exponential(random, delay.a);
-                    break;
-                case DelayKind::uniform:
-                    more += delay.a + (delay.b - delay.a) * unit(random);
-                    break;
-                case DelayKind::normal:
-                    more += normal(random, delay.a, delay.b);
-                    break;
-                case DelayKind::stops:
-                    stops += unit(random) <= delay.a ? static_cast<Tick>(delay.b) : 0;
-                    break;
-                case DelayKind::breaks:
-                    break;
-            }
-        }
+        const auto [more, stop] = draw_visit(random);
         const double factor = std::max(pace_[robot] * (1 + more), least_factor);
-        out.dwell[x] = rounding.lengthen(plan_.dwell(x), factor, 0) + stops;
+        const bool is_done = plan_.is_last(x) && plan_.dwell(x) == 0;
+        out.dwell[x] = rounding.lengthen(plan_.dwell(x), factor, 0) + (is_done ? 0 : stop);
         if (plan_.is_first(x)) {
             out.drive[x] = 0;
         }
@@ -143,6 +125,31 @@ void Delays::draw_durations(RobotId robot, Random& random, Setbacks& out) const 
             out.drive[x + 1] = rounding.lengthen(plan_.drive(x + 1), factor, 1);
         }
     }
+}
+
+// By which part of its time a visit takes longer, and how many ticks the robot stops besides.
+std::pair<double, Tick> Delays::draw_visit(Random& random) const {
+    double more = 0;
+    Tick stop = 0;
+    for (const Delay& delay : delays_) {
+        switch (delay.kind) {
+            case DelayKind::exponential:
+                more += exponential(random, delay.a);
+                break;
+            case DelayKind::uniform:
+                more += delay.a + (delay.b - delay.a) * unit(random);
+                break;
+            case DelayKind::normal:
+                more += normal(random, delay.a, delay.b);
+                break;
+            case DelayKind::stops:
+                stop += unit(random) <= delay.a ? static_cast<Tick>(delay.b) : 0;
+                break;
+            case DelayKind::breaks:
+                break;
+        }
+    }
+    return {more, stop};
 }
 
 }  // namespace rightofway

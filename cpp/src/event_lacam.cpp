@@ -7,27 +7,11 @@ namespace rightofway {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr std::int32_t stages_between_questions = 64;
 constexpr std::int64_t effort_between_questions = 4096;
+constexpr std::int32_t levels_between_snapshots = 32;
+constexpr std::size_t most_snapshots = 16;
 
 }  // namespace
-
-SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over) {
-    for (RobotId r = 0; r < trips.n_robots(); ++r) {
-        VertexId place = trips.home[r];
-        for (std::int32_t s = trips.first_stage[r]; s < trips.first_stage[r + 1]; ++s) {
-            const StepTables::TableId table = tables.table_of(trips.stage_vertex[s]);
-            if (tables.steps(table, place) == StepTables::unreachable) {
-                return SearchEnd::proven_none;
-            }
-            if ((s + 1) % stages_between_questions == 0 && is_over()) {
-                return SearchEnd::stopped;
-            }
-            place = trips.stage_vertex[s];
-        }
-    }
-    return SearchEnd::found;
-}
 
 EventLacam::EventLacam(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
                        std::uint64_t seed)
@@ -168,7 +152,8 @@ void EventLacam::go_on(std::int32_t from) {
 void EventLacam::add(std::int32_t parent, std::size_t first_decision) {
     state_of_ = static_cast<std::int32_t>(nodes_.size());
     known_.emplace(state_.fingerprint(), state_of_);
-    nodes_.push_back({parent, first_decision, decisions_.size(), 0, {}, {}});
+    const std::int32_t level = parent == none ? 0 : nodes_[parent].level + 1;
+    nodes_.push_back({parent, level, first_decision, decisions_.size(), 0, {}, {}});
     open_.push_back(state_of_);
 }
 
@@ -176,18 +161,50 @@ void EventLacam::restore(std::int32_t node) {
     if (state_of_ == node) {
         return;
     }
-    state_ = start_;
-    for (const std::int32_t step : path_to(node)) {
-        for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
-            state_.decide(decisions_[k]);
-        }
-        n_retaken_ +=
-            1 + static_cast<std::int64_t>(nodes_[step].end_decision - nodes_[step].first_decision);
-        if (nodes_[step].parent != none) {
-            state_.advance();
+    std::vector<std::int32_t> path;
+    const Snapshot* snapshot = nullptr;
+    for (std::int32_t step = node; step != none && snapshot == nullptr;
+         step = nodes_[step].parent) {
+        snapshot = snapshot_of(step);
+        if (snapshot == nullptr) {
+            path.push_back(step);
         }
     }
+    state_ = snapshot == nullptr ? start_ : snapshot->state;
+    for (auto step = path.rbegin(); step != path.rend(); ++step) {
+        take_again(*step);
+        keep_snapshot(*step);
+    }
     state_of_ = node;
+}
+
+void EventLacam::take_again(std::int32_t node) {
+    const Node& taken = nodes_[node];
+    for (std::size_t k = taken.first_decision; k < taken.end_decision; ++k) {
+        state_.decide(decisions_[k]);
+    }
+    n_retaken_ += 1 + static_cast<std::int64_t>(taken.end_decision - taken.first_decision);
+    if (taken.parent != none) {
+        state_.advance();
+    }
+}
+
+const EventLacam::Snapshot* EventLacam::snapshot_of(std::int32_t node) const {
+    const auto found = std::find_if(snapshots_.begin(), snapshots_.end(),
+                                    [node](const Snapshot& one) { return one.node == node; });
+    return found == snapshots_.end() ? nullptr : &*found;
+}
+
+void EventLacam::keep_snapshot(std::int32_t node) {
+    if (nodes_[node].level % levels_between_snapshots != 0) {
+        return;
+    }
+    if (snapshots_.size() < most_snapshots) {
+        snapshots_.push_back({node, state_});
+    } else {
+        snapshots_[oldest_snapshot_] = {node, state_};
+        oldest_snapshot_ = (oldest_snapshot_ + 1) % most_snapshots;
+    }
 }
 
 std::vector<std::int32_t> EventLacam::path_to(std::int32_t node) const {

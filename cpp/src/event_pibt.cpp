@@ -2,15 +2,30 @@
 
 #include <algorithm>
 
+#include "rightofway/swaps.hpp"
+
 namespace rightofway {
 namespace {
 
-constexpr RobotId nobody = FleetState::nobody;
 constexpr VertexId nowhere = -1;
 constexpr Tick unsettled = -1;
 constexpr Tick in_queue = -2;
 
 }  // namespace
+
+// The fleet as it is while robots choose.
+struct EventPibt::Choosing {
+    EventPibt& pibt;
+    const FleetState& now;
+
+    const Graph& graph() const { return pibt.trips_.graph; }
+    VertexId at(RobotId robot) const { return now.at(robot); }
+    RobotId here(VertexId vertex) const { return now.here(vertex); }
+    VertexId target(RobotId robot) const { return now.target(robot); }
+    std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
+    bool is_free(RobotId robot) const { return !now.is_busy(robot); }
+    bool is_idle(RobotId robot) const { return pibt.is_idle(now, robot); }
+};
 
 EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& paths,
                      std::uint64_t seed)
@@ -90,7 +105,8 @@ bool EventPibt::choose_one(const FleetState& now, RobotId robot) {
     ++n_choices_;
     const std::size_t first = places_.size();
     push_places(now, robot);
-    const RobotId partner = swap_partner(now, robot, places_[first].vertex);
+    const Choosing fleet{*this, now};
+    const RobotId partner = Swaps(fleet).partner(robot, places_[first].vertex);
     if (partner != nobody) {
         std::reverse(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
     }
@@ -169,83 +185,6 @@ void EventPibt::push_places(const FleetState& now, RobotId robot) {
                : left.tie != right.tie ? left.tie < right.tie
                                        : left.vertex < right.vertex;
     });
-}
-
-// The robot to change places with: the one that stands where this one wants to go, or one behind
-// this one that has to get past it.
-RobotId EventPibt::swap_partner(const FleetState& now, RobotId robot, VertexId wanted) {
-    const VertexId here = now.at(robot);
-    if (wanted == here) {
-        return nobody;
-    }
-    const RobotId ahead = now.here(wanted);
-    if (ahead != nobody && is_idle(now, ahead) && must_swap(now, {robot, ahead, here, wanted}) &&
-        can_swap(now, wanted, here)) {
-        return ahead;
-    }
-    for (const VertexId place : trips_.graph.heads(here)) {
-        const RobotId behind = now.here(place);
-        if (behind != nobody && place != wanted && !now.is_busy(behind) &&
-            must_swap(now, {behind, robot, here, wanted}) && can_swap(now, wanted, here)) {
-            return behind;
-        }
-    }
-    return nobody;
-}
-
-// The one way on for whoever is pushed back along a corridor; `more` if there are several, and
-// `nowhere` if there is none.
-VertexId EventPibt::only_way_on(const FleetState& now, VertexId from, VertexId at) const {
-    VertexId found = nowhere;
-    for (const VertexId head : trips_.graph.heads(at)) {
-        const RobotId resident = now.here(head);
-        const bool is_blind = trips_.graph.heads(head).size() == 1 && resident != nobody &&
-                              now.target(resident) == head;
-        if (head == from || is_blind) {
-            continue;
-        }
-        if (found != nowhere) {
-            return more;
-        }
-        found = head;
-    }
-    return found;
-}
-
-// Whether the pusher, following the puller down the corridor, would only ever push it further from
-// where the puller wants to go.
-bool EventPibt::must_swap(const FleetState& now, Pair pair) {
-    auto [pusher, puller, behind, ahead] = pair;
-    while (way(now, pusher, ahead) < way(now, pusher, behind)) {
-        const VertexId on = only_way_on(now, behind, ahead);
-        if (on == more) {
-            return false;
-        }
-        if (on == nowhere) {
-            break;
-        }
-        behind = ahead;
-        ahead = on;
-    }
-    return way(now, puller, behind) < way(now, puller, ahead) &&
-           (way(now, pusher, behind) == 0 || way(now, pusher, ahead) < way(now, pusher, behind));
-}
-
-// Whether, going back along the corridor, there comes a place where the two can pass each other.
-bool EventPibt::can_swap(const FleetState& now, VertexId behind, VertexId ahead) const {
-    const VertexId start = behind;
-    while (ahead != start) {
-        const VertexId on = only_way_on(now, behind, ahead);
-        if (on == more) {
-            return true;
-        }
-        if (on == nowhere) {
-            return false;
-        }
-        behind = ahead;
-        ahead = on;
-    }
-    return false;
 }
 
 bool EventPibt::settle_arrivals(const FleetState& now) {

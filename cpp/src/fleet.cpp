@@ -107,22 +107,21 @@ std::int32_t Fleet::drive(RobotId robot, VertexId tail, VertexId head) const {
 }
 
 Tick Fleet::alone(RobotId robot) const {
-    TripReader reader(*this);
-    const Trip& trip = reader.read(robot);
-    const std::size_t n = trip.n_stages();
-    std::size_t first_last = n - 1;
-    while (first_last > 0 && trip.stage_vertex[first_last - 1] == trip.stage_vertex[n - 1]) {
+    const auto first = static_cast<std::size_t>(first_stage_[robot]);
+    const auto vertices = stages(robot);
+    std::size_t first_last = vertices.size() - 1;
+    while (first_last > 0 && vertices[first_last - 1] == vertices.back()) {
         --first_last;
     }
     Tick sum = 0;
-    VertexId place = trip.home;
-    for (std::size_t k = 0; k < n; ++k) {
-        const Tick way = trip.to_stage[k].from(place);
+    VertexId place = home_[robot];
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const Tick way = distances_->between(place, vertices[k], pace(robot));
         if (way < 0) {
             return -1;
         }
-        sum += way + trip.stage_work[k] + (k < first_last ? trip.stage_turn[k] : 0);
-        place = trip.stage_vertex[k];
+        sum += way + stage_work_[first + k] + (k < first_last ? stage_turn_[first + k] : 0);
+        place = vertices[k];
     }
     return sum;
 }

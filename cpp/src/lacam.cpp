@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
-
-#include "rightofway/reject.hpp"
 
 namespace rightofway {
 namespace {
@@ -25,32 +22,11 @@ std::size_t hash_of(const Configuration& now) {
     return hash;
 }
 
-void check(const Graph& graph, const Goals& goals) {
-    const auto n_robots = static_cast<std::size_t>(goals.n_robots());
-    require_length("first_stage", goals.first_stage.size(), n_robots + 1);
-    require_length("stage_tables", goals.stage_table.size(), goals.stage_vertex.size());
-    for (std::size_t k = 0; k < goals.stage_vertex.size(); ++k) {
-        require_id("stage_vertex[" + std::to_string(k) + "]", goals.stage_vertex[k],
-                   graph.n_vertices());
-        require_length("stage_tables[" + std::to_string(k) + "]", goals.stage_table[k].size(),
-                       static_cast<std::size_t>(graph.n_vertices()));
-    }
-    for (std::size_t r = 0; r < n_robots; ++r) {
-        require_id("home[" + std::to_string(r) + "]", goals.home[r], graph.n_vertices());
-        if (goals.first_stage[r] < 0 || goals.first_stage[r + 1] <= goals.first_stage[r]) {
-            reject_entry("first_stage", r + 1, goals.first_stage[r + 1], "leaves a robot no stage");
-        }
-    }
-    require_length("stage_vertex", goals.stage_vertex.size(),
-                   static_cast<std::size_t>(goals.first_stage.back()));
-}
-
 }  // namespace
 
-Lacam::Lacam(const Graph& graph, const Goals& goals, bool may_rotate, std::uint32_t seed)
-    : graph_(graph), goals_(goals), pibt_(graph, goals, may_rotate, seed) {
-    check(graph, goals);
-}
+Lacam::Lacam(const Graph& graph, const Goals& goals, StepTables& tables, bool may_rotate,
+             std::uint32_t seed)
+    : graph_(graph), goals_(goals), pibt_(graph, goals, tables, may_rotate, seed) {}
 
 SearchEnd Lacam::run(const std::function<bool()>& is_over) {
     Configuration start;
@@ -110,7 +86,7 @@ std::vector<float> Lacam::urgency(const Configuration& now, std::int32_t parent)
     for (RobotId r = 0; r < goals_.n_robots(); ++r) {
         const std::int32_t stage = now.stage[r];
         if (parent == none) {
-            const auto way = static_cast<float>(goals_.stage_table[stage][now.at[r]]);
+            const auto way = static_cast<float>(pibt_.way(now, r, now.at[r]));
             urgent[r] = way / (way + 1.0F) * 0.99F;
             continue;
         }

@@ -1,12 +1,12 @@
 #include "rightofway/pibt.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "rightofway/swaps.hpp"
 
 namespace rightofway {
 namespace {
 
-constexpr RobotId nobody = -1;
 constexpr VertexId nowhere = -1;
 
 bool has(std::span<const VertexId> vertices, VertexId wanted) {
@@ -15,19 +15,38 @@ bool has(std::span<const VertexId> vertices, VertexId wanted) {
 
 }  // namespace
 
-Pibt::Pibt(const Graph& graph, const Goals& goals, bool may_rotate, std::uint32_t seed)
+// The fleet as it is while robots choose.
+struct Pibt::Choosing {
+    const Pibt& pibt;
+    const Configuration& now;
+
+    const Graph& graph() const { return pibt.graph_; }
+    VertexId at(RobotId robot) const { return now.at[robot]; }
+    RobotId here(VertexId vertex) const { return pibt.here_[vertex]; }
+    VertexId target(RobotId robot) const { return pibt.goals_.stage_vertex[now.stage[robot]]; }
+    std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
+    bool is_free(RobotId) const { return true; }
+    bool is_idle(RobotId robot) const { return pibt.next_[robot] == nowhere; }
+};
+
+Pibt::Pibt(const Graph& graph, const Goals& goals, StepTables& tables, bool may_rotate,
+           std::uint32_t seed)
     : graph_(graph),
       goals_(goals),
+      tables_(tables),
       may_rotate_(may_rotate),
       draw_(seed),
       here_(graph.n_vertices(), nobody),
       comes_(graph.n_vertices(), nobody),
       next_(goals.n_robots(), nowhere),
-      tie_(graph.n_vertices(), 0) {}
+      tie_(graph.n_vertices(), 0) {
+    for (const VertexId target : goals.stage_vertex) {
+        stage_table_.push_back(tables.table_of(target));
+    }
+}
 
 std::int32_t Pibt::way(const Configuration& now, RobotId robot, VertexId vertex) const {
-    const std::int32_t ticks = goals_.stage_table[now.stage[robot]][vertex];
-    return ticks < 0 ? std::numeric_limits<std::int32_t>::max() : ticks;
+    return tables_.steps(stage_table_[now.stage[robot]], vertex);
 }
 
 void Pibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
@@ -75,7 +94,8 @@ void Pibt::take(RobotId robot, VertexId vertex) {
 bool Pibt::choose(const Configuration& now, RobotId robot) {
     const VertexId here = now.at[robot];
     std::vector<VertexId> places = places_by_distance(now, robot);
-    const RobotId partner = swap_partner(now, robot, places.front());
+    const Choosing fleet{*this, now};
+    const RobotId partner = Swaps(fleet).partner(robot, places.front());
     if (partner != nobody) {
         std::reverse(places.begin(), places.end());
     }
@@ -115,83 +135,6 @@ std::vector<VertexId> Pibt::places_by_distance(const Configuration& now, RobotId
                                            : left < right;
     });
     return places;
-}
-
-// The robot to change places with: the one that stands where this one wants to go, or one behind
-// this one that has to get past it.
-RobotId Pibt::swap_partner(const Configuration& now, RobotId robot, VertexId wanted) const {
-    const VertexId here = now.at[robot];
-    if (wanted == here) {
-        return nobody;
-    }
-    const RobotId ahead = here_[wanted];
-    if (ahead != nobody && next_[ahead] == nowhere &&
-        must_swap(now, {robot, ahead, here, wanted}) && can_swap(now, wanted, here)) {
-        return ahead;
-    }
-    for (const VertexId place : graph_.heads(here)) {
-        const RobotId behind = here_[place];
-        if (behind != nobody && place != wanted && must_swap(now, {behind, robot, here, wanted}) &&
-            can_swap(now, wanted, here)) {
-            return behind;
-        }
-    }
-    return nobody;
-}
-
-// The one way on for whoever is pushed back along a corridor; `more` if there are several, and
-// `nowhere` if there is none.
-VertexId Pibt::only_way_on(const Configuration& now, VertexId from, VertexId at) const {
-    VertexId found = nowhere;
-    for (const VertexId head : graph_.heads(at)) {
-        const RobotId resident = here_[head];
-        const bool is_blind = graph_.heads(head).size() == 1 && resident != nobody &&
-                              goals_.stage_vertex[now.stage[resident]] == head;
-        if (head == from || is_blind) {
-            continue;
-        }
-        if (found != nowhere) {
-            return more;
-        }
-        found = head;
-    }
-    return found;
-}
-
-// Whether the pusher, following the puller down the corridor, would only ever push it further from
-// where the puller wants to go.
-bool Pibt::must_swap(const Configuration& now, Pair pair) const {
-    auto [pusher, puller, behind, ahead] = pair;
-    while (way(now, pusher, ahead) < way(now, pusher, behind)) {
-        const VertexId on = only_way_on(now, behind, ahead);
-        if (on == more) {
-            return false;
-        }
-        if (on == nowhere) {
-            break;
-        }
-        behind = ahead;
-        ahead = on;
-    }
-    return way(now, puller, behind) < way(now, puller, ahead) &&
-           (way(now, pusher, behind) == 0 || way(now, pusher, ahead) < way(now, pusher, behind));
-}
-
-// Whether, going back along the corridor, there comes a place where the two can pass each other.
-bool Pibt::can_swap(const Configuration& now, VertexId behind, VertexId ahead) const {
-    const VertexId start = behind;
-    while (ahead != start) {
-        const VertexId on = only_way_on(now, behind, ahead);
-        if (on == more) {
-            return true;
-        }
-        if (on == nowhere) {
-            return false;
-        }
-        behind = ahead;
-        ahead = on;
-    }
-    return false;
 }
 
 // Follows every robot to the one it displaces; three or more that come back to the first rotate.

@@ -7,27 +7,30 @@ namespace {
 
 // For how many of its slowest edges a robot's home is kept free: at first, and as much longer each
 // time it has lost its track.
-constexpr Tick hold_edges = 4;
+constexpr Tick hold_edges = 16;
 
-// What it costs to take a robot's track away, in first holds: at first, and how much more each
-// time.
-constexpr Tick first_price = 10;
-constexpr Tick dearer = 5;
+// Searches look for a way around as long as that is cheaper than to take tracks away. So that this
+// comes to an end where the floor is full, all prices rise by a quarter each time so many states
+// have been expanded.
+constexpr std::int64_t states_between_raises = 1'000'000;
+constexpr Tick highest_price = Tick{1} << 32;
 
 // See Errand.
 constexpr Tick greed = 1;
 
 }  // namespace
 
-Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan)
+Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices)
     : fleet_(fleet),
       plan_(plan),
+      track_prices_(prices),
       search_(fleet.roads(), fleet.rules()),
       reader_(fleet),
       prices_(static_cast<std::size_t>(fleet.n_robots())),
-      holds_(prices_.size()) {
+      holds_(prices_.size()),
+      next_raise_(states_between_raises) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
-        prices_[static_cast<std::size_t>(robot)] = first_price * first_hold(robot);
+        prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
         holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
     }
 }
@@ -37,18 +40,20 @@ Tick Prioritized::first_hold(RobotId robot) const {
     return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
 }
 
-SearchEnd Prioritized::run(std::span<const RobotId> order, std::int64_t n_searches,
-                           const SafeIntervalSearch::IsOver& is_over) {
+void Prioritized::start(std::span<const RobotId> order) {
     waiting_.assign(order.begin(), order.end());
     for (const RobotId robot : order) {
         plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
     }
-    while (!waiting_.empty()) {
-        const RobotId robot = waiting_.front();
-        if (n_searches-- == 0 || !place(robot, is_over)) {
+}
+
+SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
+    for (; !waiting_.empty(); waiting_.pop_front()) {
+        if (n_searches_ >= n_searches || !place(waiting_.front(), is_over)) {
             return SearchEnd::stopped;
         }
-        waiting_.pop_front();
+        ++n_searches_;
+        raise_prices();
     }
     return SearchEnd::found;
 }
@@ -71,11 +76,19 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
     return true;
 }
 
+void Prioritized::raise_prices() {
+    for (; search_.n_expanded() >= next_raise_; next_raise_ += states_between_raises) {
+        for (Tick& price : prices_) {
+            price = std::min(price + price / 4, highest_price);
+        }
+    }
+}
+
 void Prioritized::evict(RobotId robot) {
     TimedTrack none;
     plan_.exchange(robot, none);
     plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
-    prices_[static_cast<std::size_t>(robot)] += dearer * first_hold(robot);
+    prices_[static_cast<std::size_t>(robot)] += track_prices_.dearer * first_hold(robot);
     holds_[static_cast<std::size_t>(robot)] += first_hold(robot);
     waiting_.push_back(robot);
     ++n_evictions_;

@@ -36,6 +36,18 @@ std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target,
     return table;
 }
 
+Tick SharedDistances::between(VertexId from, VertexId target, std::span<const std::int32_t> pace) {
+    if (!is_uniform_) {
+        return to(target, pace)->view(1).from(from);
+    }
+    const std::lock_guard lock(ways_mutex_);
+    if (!ways_) {
+        ways_.emplace(roads_.graph, tables_);
+    }
+    const std::int32_t steps = ways_->between(from, target);
+    return steps == WayLengths::no_way ? -1 : scale(pace) * steps;
+}
+
 std::int32_t SharedDistances::number_of(std::span<const std::int32_t> pace) {
     const auto known = std::find_if(paces_.begin(), paces_.end(), [&](const auto& one) {
         return std::equal(one.begin(), one.end(), pace.begin(), pace.end());

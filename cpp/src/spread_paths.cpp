@@ -10,15 +10,17 @@ constexpr VertexId nowhere = -1;
 
 // What an edge costs, and what it costs more for each path against it and each at its end, up to
 // a bound: a crowd is worth a detour, but not any detour.
-constexpr std::int64_t edge_cost = 16;
+constexpr std::int64_t cost_of_edge = 16;
 constexpr std::int64_t cost_against = 8;
 constexpr std::int64_t most_against = 64;
 constexpr std::int64_t cost_shared = 1;
 constexpr std::int64_t most_shared = 16;
 // What it costs to drive over a robot at the end of its trip: it has to make room, and come back.
 constexpr std::int64_t cost_ended = 320;
-// Above edge_cost, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
+// Above cost_of_edge, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
 constexpr std::int64_t estimate_per_step = 24;
+// Estimates in one list differ by less than this.
+constexpr std::int64_t list_width = 4;
 
 // The effort is bounded. Where it comes to less than this for a leg, it would be spent in vain.
 constexpr std::int64_t most_opened = 3'000'000;
@@ -33,8 +35,8 @@ SpreadPaths::SpreadPaths(const Trips& trips, StepTables& tables)
       tail_(trips.graph.indices.size()),
       back_(trips.graph.indices.size(), none),
       ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), infinity),
-      edge_use_(trips.graph.indices.size(), 0),
-      vertex_use_(ended_from_.size(), 0),
+      edge_cost_(trips.graph.indices.size(), cost_of_edge),
+      into_cost_(ended_from_.size(), 0),
       first_hop_(trips.stage_vertex.size(), 0),
       end_hop_(trips.stage_vertex.size(), 0),
       best_(ended_from_.size(), {0, 0, none, 0}) {}
@@ -110,59 +112,68 @@ Tick SpreadPaths::choose_leg(const Leg& leg, Tick when) {
     return when + trips_.pace(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
-bool SpreadPaths::is_worse(const Open& left, const Open& right) {
-    return left.estimate != right.estimate ? left.estimate > right.estimate
-           : left.cost != right.cost       ? left.cost < right.cost
-                                           : left.vertex > right.vertex;
-}
-
 bool SpreadPaths::search(const Leg& leg, Tick when) {
     const Graph& graph = trips_.graph;
     const VertexId target = trips_.stage_vertex[leg.stage];
     const StepTables::TableId table = tables_.table_of(target);
     ++round_;
     open_.clear();
-    open({0, 0, when, leg.start}, none, table);
-    for (; !open_.empty() && credit_ > 0; --credit_) {
-        std::pop_heap(open_.begin(), open_.end(), is_worse);
-        const Open top = open_.back();
-        open_.pop_back();
+    std::fill(first_open_.begin(), first_open_.end(), none);
+    least_ = cost_of_edge * tables_.steps(table, leg.start);
+    list_ = first_open_.size();
+    open(leg.start, {0, when, none, round_}, table);
+    for (Open top{}; credit_ > 0 && take_next(top); --credit_) {
         if (top.vertex == target) {
             return true;
         }
-        if (top.cost > best_[top.vertex].cost) {
+        const Best best = best_[top.vertex];
+        if (top.cost > best.cost) {
             continue;  // reached at less cost since
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
-            const Tick then = top.when + trips_.drive(leg.robot, e);
+            const Tick then = best.when + trips_.drive(leg.robot, e);
             const bool has_ended = head != target && ended_from_[head] <= then;
-            open({0, top.cost + cost_of(e) + (has_ended ? cost_ended : 0), then, head}, e, table);
+            open(head,
+                 {best.cost + edge_cost_[e] + into_cost_[head] + (has_ended ? cost_ended : 0), then,
+                  e, round_},
+                 table);
         }
     }
     return false;
 }
 
-void SpreadPaths::open(Open reached, EdgeId by, StepTables::TableId table) {
-    Best& best = best_[reached.vertex];
+void SpreadPaths::open(VertexId vertex, const Best& reached, StepTables::TableId table) {
+    Best& best = best_[vertex];
     if (best.round == round_ && best.cost <= reached.cost) {
         return;
     }
-    const std::int32_t steps = tables_.steps(table, reached.vertex);
+    const std::int32_t steps = tables_.steps(table, vertex);
     if (steps == StepTables::unreachable) {
         return;
     }
-    best = {reached.cost, reached.when, by, round_};
-    reached.estimate = reached.cost + estimate_per_step * steps;
-    open_.push_back(reached);
-    std::push_heap(open_.begin(), open_.end(), is_worse);
+    best = reached;
+    const std::int64_t estimate = reached.cost + estimate_per_step * steps;
+    const auto list = static_cast<std::size_t>((estimate - least_) / list_width);
+    if (list >= first_open_.size()) {
+        first_open_.resize(list + 1, none);
+    }
+    open_.push_back({reached.cost, vertex, first_open_[list]});
+    first_open_[list] = static_cast<std::int32_t>(open_.size()) - 1;
+    list_ = std::min(list_, list);  // the estimate is greedy, so it may fall
 }
 
-std::int64_t SpreadPaths::cost_of(EdgeId edge) const {
-    const std::int64_t against = back_[edge] == none ? 0 : edge_use_[back_[edge]];
-    const std::int64_t shared = vertex_use_[trips_.graph.indices[edge]];
-    return edge_cost + std::min(cost_against * against, most_against) +
-           std::min(cost_shared * shared, most_shared);
+// The last one opened of those with the least estimate.
+bool SpreadPaths::take_next(Open& next) {
+    while (list_ < first_open_.size() && first_open_[list_] == none) {
+        ++list_;
+    }
+    if (list_ == first_open_.size()) {
+        return false;
+    }
+    next = open_[first_open_[list_]];
+    first_open_[list_] = next.next;
+    return true;
 }
 
 // Goes back along the edges by which the search came.
@@ -170,8 +181,11 @@ void SpreadPaths::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
     for (VertexId at = trips_.stage_vertex[leg.stage]; at != leg.start;) {
         const EdgeId edge = best_[at].by;
-        ++edge_use_[edge];
-        ++vertex_use_[at];
+        into_cost_[at] = std::min(into_cost_[at] + cost_shared, most_shared);
+        if (const EdgeId back = back_[edge]; back != none) {
+            edge_cost_[back] =
+                std::min(edge_cost_[back] + cost_against, cost_of_edge + most_against);
+        }
         hops_.push_back({tail_[edge], at});
         at = tail_[edge];
     }

@@ -68,6 +68,15 @@ TEST_CASE("parts of a tick are carried, not lost") {
     }
 }
 
+TEST_CASE("who is done where it ends stops no more") {
+    const FloorPlan plan = long_way();
+    const std::vector<double> pace{1};
+    const Delays delays(plan, pace, {{DelayKind::stops, 1, 50}}, {0, 0}, {});
+    Setbacks out;
+    delays.draw(0, 0, out);
+    CHECK(out.dwell == std::vector<Tick>{150, 0});
+}
+
 TEST_CASE("standstills that overlap are one") {
     const FloorPlan plan = long_way();
     const std::vector<double> pace{1};

@@ -85,7 +85,7 @@ TEST_CASE("a stage out of reach is noticed") {
     test::ClockedFleet fleet{test::Roads{3, {{0, 1}}}, {{0, {{1}, {2}}}}};
     const Trips trips = fleet.trips();
     StepTables tables(trips.graph);
-    CHECK(reach_all(trips, tables, test::never) == SearchEnd::proven_none);
+    CHECK(reach_all(trips.goals(), tables, test::never) == SearchEnd::proven_none);
 }
 
 }  // namespace

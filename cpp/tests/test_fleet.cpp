@@ -7,6 +7,7 @@
 #include "corridors.hpp"
 #include "rightofway/fleet_plan.hpp"
 #include "rightofway/improver.hpp"
+#include "rightofway/in_turn.hpp"
 #include "rightofway/prioritized.hpp"
 
 namespace rightofway {
@@ -72,6 +73,12 @@ std::vector<RobotId> in_turn(const Fleet& fleet) {
     return order;
 }
 
+SearchEnd plan_all(const Fleet& fleet, FleetPlan& plan, std::int64_t n_searches) {
+    Prioritized planner(fleet, plan);
+    planner.start(in_turn(fleet));
+    return planner.run(n_searches, test::never);
+}
+
 bool is_sound(const Fleet& fleet, const FleetPlan& plan) {
     bool sound = true;
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
@@ -131,8 +138,7 @@ TEST_CASE("robots in turn get tracks that fit together, under every rule") {
             const Crossing crossing(6);
             const Fleet fleet(crossing.arrays(), 1, {headway, books_ahead}, plenty);
             FleetPlan plan(fleet);
-            Prioritized planner(fleet, plan);
-            REQUIRE(planner.run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+            REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
             CHECK(is_sound(fleet, plan));
         }
     }
@@ -142,7 +148,34 @@ TEST_CASE("planning in turn ends after as many searches as it may make") {
     const Crossing crossing(6);
     const Fleet fleet(crossing.arrays(), 1, {0, false}, plenty);
     FleetPlan plan(fleet);
-    CHECK(Prioritized(fleet, plan).run(in_turn(fleet), 2, test::never) == SearchEnd::stopped);
+    CHECK(plan_all(fleet, plan, 2) == SearchEnd::stopped);
+}
+
+TEST_CASE("planning in turn gives the same plan on one thread and on two, patient or in haste") {
+    const Crossing crossing(6);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    for (const std::int64_t n_searches : {6, 7, 1000}) {
+        FleetPlan one(fleet);
+        FleetPlan two(fleet);
+        const bool is_found =
+            InTurn(fleet, one, in_turn(fleet)).run(n_searches, false, test::never);
+        InTurn second(fleet, two, in_turn(fleet));
+        second.run(3, true, test::never);  // and on from there
+        CHECK(second.run(n_searches, true, test::never) == is_found);
+        if (is_found) {
+            CHECK(is_sound(fleet, two));
+            CHECK(one.flowtime() == two.flowtime());
+        }
+    }
+}
+
+TEST_CASE("what the caller throws while robots are planned in turn comes back") {
+    const Crossing crossing(6);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    FleetPlan plan(fleet);
+    const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
+    CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1, true, interrupt),
+                    std::runtime_error);
 }
 
 TEST_CASE("improvement never loses, and does not depend on the number of threads") {
@@ -150,7 +183,7 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
     FleetPlan first(fleet);
-    REQUIRE(Prioritized(fleet, first).run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+    REQUIRE(plan_all(fleet, first, 1000) == SearchEnd::found);
     std::vector<FleetPlan> plans(3, first);
     for (std::size_t k = 0; k < plans.size(); ++k) {
         Improver improver(fleet, plans[k], bounds, 5, k + 1);
@@ -170,7 +203,7 @@ TEST_CASE("what the caller throws comes back when the plan is whole") {
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
     FleetPlan plan(fleet);
-    REQUIRE(Prioritized(fleet, plan).run(in_turn(fleet), 1000, test::never) == SearchEnd::found);
+    REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
     Improver improver(fleet, plan, bounds, 5, 2);
     const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
     CHECK_THROWS_AS(improver.run(1 << 30, 1 << 30, interrupt, test::never), std::runtime_error);

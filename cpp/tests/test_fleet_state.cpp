@@ -17,9 +17,9 @@ TEST_CASE("a robot on the move holds both ends until it arrives") {
     REQUIRE(state.advance());
     CHECK(state.now() == 4);
     CHECK(state.at(0) == 1);
-    CHECK(state.here(0) == FleetState::nobody);
+    CHECK(state.here(0) == nobody);
     CHECK(state.left(0) == 4);
-    CHECK(state.comes(1) == FleetState::nobody);
+    CHECK(state.comes(1) == nobody);
     CHECK(state.undecided().size() == 1);
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("who follows at one instant finds the vertex free") {
     state.decide({0, 1, 1});
     state.decide({1, 2, 1});
     REQUIRE(state.advance());
-    CHECK(state.here(0) == FleetState::nobody);
+    CHECK(state.here(0) == nobody);
     CHECK(state.here(1) == 0);
     CHECK(state.here(2) == 1);
     CHECK(state.is_goal());

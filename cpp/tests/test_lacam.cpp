@@ -18,15 +18,10 @@ struct Fleet {
     bool may_rotate = true;
 
     SearchEnd run(Vertices& steps) const {
-        std::vector<std::vector<std::int32_t>> tables;
-        Goals goals{home, first_stage, stages, {}};
-        for (const VertexId stage : stages) {
-            tables.push_back(roads.table(stage));
-        }
-        for (const auto& table : tables) {
-            goals.stage_table.push_back(table);
-        }
-        Lacam search(roads.graph(), goals, may_rotate, 0);
+        const Goals goals{home, first_stage, stages};
+        check(roads.graph(), goals);
+        StepTables tables(roads.graph());
+        Lacam search(roads.graph(), goals, tables, may_rotate, 0);
         const SearchEnd end = search.run(test::never);
         steps = search.steps();
         return end;
@@ -66,13 +61,12 @@ TEST_CASE("a full ring turns in one step, if it may") {
 
 TEST_CASE("a search that is told to stop proves nothing") {
     const test::Roads ring{5, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}};
-    const auto one = ring.table(2);
-    const auto other = ring.table(1);
     const Vertices home{0, 1, 2};
     const std::vector<std::int32_t> first_stage{0, 1, 2, 3};
     const Vertices stages{2, 1, 2};  // two robots for one place: many steps, no way
-    const Goals goals{home, first_stage, stages, {one, other, one}};
-    Lacam search(ring.graph(), goals, true, 0);
+    const Goals goals{home, first_stage, stages};
+    StepTables tables(ring.graph());
+    Lacam search(ring.graph(), goals, tables, true, 0);
     CHECK(search.run([] { return true; }) == SearchEnd::stopped);
 }
 

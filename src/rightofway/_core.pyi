@@ -19,6 +19,93 @@ INFINITY: int = 4611686018427387904
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
 
+class Circle:
+    """
+    Who has booked which vertex when, on a circle as long as the period.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices, V.
+    period : int
+        All bookings come again after so long. [ticks]
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    def __init__(self, n_vertices: int, period: int, headway: int, books_ahead: bool) -> None: ...
+
+    @property
+    def period(self) -> int:
+        """How long the circle is. [ticks]"""
+
+    @property
+    def reached(self) -> int:
+        """Which visit the last search has reached; at the next one it got stuck."""
+
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Book the visits of a robot.
+
+        Parameters
+        ----------
+        robot : int
+            Whose they are.
+        vertex : int32[N]
+            Where its visits of one period are; after the last one the first comes again.
+        dwell : int64[N]
+            How long each lasts at least, without the drive that follows. [ticks]
+        drive : int64[N]
+            The drive into each. [ticks]
+        enter : int64[N]
+            When each begins, rising, within one period. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together, the robot is there already, or a booking overlaps another
+            robot's. Then nothing is booked.
+        """
+
+    def remove(self, robot: int) -> None:
+        """Take back all bookings of a robot; nothing happens if it has none."""
+
+    def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+        """
+        Find when a robot can make its visits among the bookings of others.
+
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            As for ``add``.
+        phase : int
+            Where on the circle to begin to look. [ticks]
+        time_limit : float or None
+            After so many seconds the search stops.
+
+        Returns
+        -------
+        int64[N] or None
+            When each visit begins; None if no way was found. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+
+        Notes
+        -----
+        Complete for these visits, but where nobody else visits the first vertex: then only this phase is
+        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        """
+
 class DistanceTables:
     """
     Least ticks from every vertex to one target.
@@ -188,6 +275,51 @@ def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
     """
 
+class Instants:
+    """
+    A fleet with clocks whose free robots choose where to go, one instant after another.
+
+    `plan_by_events` does this by itself; here a test can look at each instant.
+
+    Parameters
+    ----------
+    indptr, indices, edge_class, home, first_stage, stage_vertex, stage_dwell, class_ticks, headway, \\
+    books_ahead, may_rotate, seed
+        As for `plan_by_events`.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, seed: int) -> None: ...
+
+    @property
+    def now(self) -> int:
+        """The time on the clock. [ticks]"""
+
+    def undecided(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Return the robots that may choose."""
+
+    def choose(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], fixed: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))] | None:
+        """
+        Let robots choose in an order.
+
+        Parameters
+        ----------
+        order : int32[N]
+            Robots that are neither busy nor at the end of their trips.
+        fixed : int32[F, 2]
+            Robots that are told where to go, each with the vertex.
+
+        Returns
+        -------
+        int64[M, 3] or None
+            The moves: robot, vertex, arrival [ticks]; None where that does not work out.
+        """
+
+    def go_on(self) -> bool:
+        """
+        Take the moves chosen last, and go on to the next instant at which a robot finishes
+        something; False if nobody is busy.
+        """
+
 class FleetSearch:
     """
     The tracks of a whole fleet: finding first ones, and better ones.
@@ -275,7 +407,24 @@ class FleetSearch:
         Returns
         -------
         bool
-            Whether every robot has a track now; if not, none has.
+            Whether every robot has a track now; if not, `go_on` may change that.
+        """
+
+    def go_on(self, n_searches: int, time_limit: float | None) -> bool:
+        """
+        Go on with giving the robots tracks one after another.
+
+        Parameters
+        ----------
+        n_searches : int
+            After so many searches since the beginning it gives up.
+        time_limit : float or None
+            After so many seconds as well.
+
+        Returns
+        -------
+        bool
+            Whether every robot has a track now; false as well where nothing was begun.
         """
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
@@ -424,7 +573,7 @@ class Floor:
         Return the robots that can never complete, since they wait for each other.
         """
 
-def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
 
@@ -441,8 +590,6 @@ def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), orde
         Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
     stage_vertex : int32[S]
         The vertices to go to, one after the other; a robot stays at its last one.
-    stage_tables : list of int32[V]
-        For each stage, how far it is to its vertex from everywhere, -1 where there is no way.
     may_rotate : bool
         Whether three or more robots may move round a circle in one step.
     seed : int

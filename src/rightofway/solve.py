@@ -119,25 +119,46 @@ class _Given:
     report: Callable[[str], None] | None
 
 
+class _Clock:
+    """How long planning takes, and when the first plan was there [s]."""
+
+    def __init__(self) -> None:
+        self._began = time.perf_counter()
+        self.kept: float | None = None
+
+    def seconds(self) -> float:
+        return time.perf_counter() - self._began
+
+    def keep(self) -> None:
+        """Keep the time; only the first call counts."""
+        if self.kept is None:
+            self.kept = self.seconds()
+
+
 def _run(
     spec: PlannerSpec, scenario: Scenario, given: _Given, start: tuple[Track, ...] | None = None
 ) -> Plan:
+    clock = _Clock()
     task = Task(
         scenario=scenario,
         options=spec.settle(given.options or {}),
         seed=given.seed,
         deadline=Deadline.after(given.time_limit),
         report=given.report or (lambda _: None),
+        has_plan=clock.keep,
         start=start,
     )
-    began = time.perf_counter()
+    if start is not None:
+        clock.keep()
     draft = spec.load()(task)
+    clock.keep()
     run = PlannerRun(
         name=spec.name,
         options=task.options,
         seed=task.seed,
         status=draft.status,
-        seconds=time.perf_counter() - began,
+        seconds=clock.seconds(),
+        first_plan_seconds=clock.kept,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
     )

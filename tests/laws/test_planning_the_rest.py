@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections import Counter
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 from hypothesis import given, settings
@@ -35,7 +36,7 @@ def small_plan(draw: random.Random, robots: int) -> Plan | None:
     rules = Rules(
         occupancy=draw.choice(["one", "both"]),
         ends=draw.choice(["home", "home", "none"]),
-        headway=draw.choice([0, 0, 1]),
+        headway=Fraction(draw.choice([0, 0, 1])),
         laps=1,
     )
     try:

@@ -45,7 +45,10 @@ def event_arcs(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool)
 
 def lasts(timetable: PeriodicTimetable, robot: int, index: int) -> int:
     """Return how long a visit lasts."""
-    enter = [*timetable.enter[robot].tolist(), int(timetable.enter[robot][0]) + timetable.period]
+    enter: list[int] = [
+        *timetable.enter[robot].tolist(),
+        int(timetable.enter[robot][0]) + timetable.period,
+    ]
     return enter[index + 1] - enter[index]
 
 

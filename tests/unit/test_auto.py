@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 import rightofway
+from rightofway.io import load_plan, save_plan
 from rightofway.metrics import measure
 from rightofway.model import Rules
 from tests.fleets import grid_fleet, random_fleet
@@ -27,6 +30,22 @@ def test_where_nothing_better_is_found_the_decisions_of_two_level_are_kept() -> 
     plan, two_level = rightofway.solve(door), rightofway.solve(door, "two-level")
     assert plan.run.decisions == two_level.run.decisions
     assert plan.run.status == "two-level, waits only; 2000 neighbourhoods found nothing better"
+
+
+def test_it_tells_when_its_first_plan_was_there(tmp_path: Path) -> None:
+    """The file, which promises to be the same for the same seed, does not."""
+    plan = rightofway.solve(rightofway.load("examples/door.yaml"), options={"iterations": 2000})
+    assert plan.run.first_plan_seconds is not None
+    assert plan.run.seconds is not None
+    assert 0 < plan.run.first_plan_seconds < plan.run.seconds
+    save_plan(plan, tmp_path / "plan.json")
+    assert load_plan(tmp_path / "plan.json").run.first_plan_seconds is None
+
+
+def test_a_large_fleet_has_a_first_plan_long_before_its_last() -> None:
+    plan = rightofway.solve(random_fleet(1, size=32, robots=90), time_limit=3)
+    assert plan.run.first_plan_seconds is not None
+    assert plan.run.first_plan_seconds < 1.5
 
 
 def test_a_proven_optimum_ends_it() -> None:

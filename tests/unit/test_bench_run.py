@@ -50,7 +50,7 @@ def test_the_outcome_of_a_case_in_this_process_has_its_costs(case: Case) -> None
     outcome = run(case)
     assert outcome["status"] == "solved"
     assert 0 < outcome["cpu_seconds"] < 5
-    assert outcome["first_plan_seconds"] == outcome["wall_seconds"]
+    assert 0 < outcome["first_plan_seconds"] <= outcome["wall_seconds"]
 
 
 def test_no_process_is_started_after_the_end(case: Case) -> None:

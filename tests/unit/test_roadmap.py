@@ -76,3 +76,11 @@ def test_named_roadmaps_keep_edge_order_and_lengths() -> None:
 def test_an_edge_that_is_none_is_refused(edge: Edge, message: str) -> None:
     with pytest.raises(InputError, match=message):
         roadmap_of_edges({"A": (0.0, 0.0), "B": (1.0, 0.0)}, [edge])
+
+
+def test_closed_vertices_stay_without_their_edges() -> None:
+    """The middle of three in a row: nobody gets past it, and names stay."""
+    roadmap = roadmap_of_grid(["..."]).without({1})
+    assert (roadmap.n_vertices, roadmap.n_edges) == (3, 0)
+    assert roadmap.name(2) == "N2"
+    assert roadmap_of_grid(["...."]).without({0}).heads.tolist() == [2, 3, 1, 2]

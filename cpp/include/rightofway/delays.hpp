@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "rightofway/floor_plan.hpp"
@@ -58,6 +59,7 @@ class Delays {
     void check(std::size_t n_robots) const;
     void draw_standstills(RobotId robot, Random& random, Setbacks& out) const;
     void draw_durations(RobotId robot, Random& random, Setbacks& out) const;
+    std::pair<double, Tick> draw_visit(Random& random) const;
 
     const FloorPlan& plan_;
     std::vector<double> pace_;

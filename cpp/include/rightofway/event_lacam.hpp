@@ -3,7 +3,8 @@
 // Depth-first search over the states of the fleet at the instants at which somebody has finished
 // something. Each state asks for one successor at a time, and only when asked again is told a
 // little more of where which robot has to go, so a greedy choice (EventPibt) mostly does. A state
-// is kept as the decisions that lead to it, and made again by taking them again.
+// is kept as the decisions that lead to it, and made again by taking them again, from a snapshot
+// on the way.
 //
 // With one speed, no work and no booking ahead this is LaCAM (see lacam.hpp). States are told
 // apart by fingerprints of 64 bits, and robots at work cannot be pushed: to prove that there is no
@@ -29,9 +30,6 @@ struct Tracks {
     std::vector<Tick> enter;
 };
 
-// Whether every robot, if it were alone, could go through all of its stages: `found` if so.
-SearchEnd reach_all(const Trips& trips, StepTables& tables, const std::function<bool()>& is_over);
-
 class EventLacam {
   public:
     // Borrows everything.
@@ -56,11 +54,17 @@ class EventLacam {
     };
     struct Node {
         std::int32_t parent;
+        std::int32_t level;          // how many nodes are above
         std::size_t first_decision;  // those that led here from the parent
         std::size_t end_decision;
         std::size_t next_constraint;
         std::vector<Constraint> constraints;
         std::vector<RobotId> order;  // who is told first; made when first needed
+    };
+
+    struct Snapshot {
+        std::int32_t node;
+        FleetState state;
     };
 
     SearchEnd expand();
@@ -70,13 +74,18 @@ class EventLacam {
     void go_on(std::int32_t from);
     void add(std::int32_t parent, std::size_t first_decision);
     void restore(std::int32_t node);
+    void take_again(std::int32_t node);
+    const Snapshot* snapshot_of(std::int32_t node) const;
+    void keep_snapshot(std::int32_t node);
     std::vector<std::int32_t> path_to(std::int32_t node) const;
 
     const Trips& trips_;
     EventPibt pibt_;
     const FleetState start_;
     FleetState state_;
-    std::int32_t state_of_;           // the node whose state that is
+    std::int32_t state_of_;  // the node whose state that is
+    std::vector<Snapshot> snapshots_;
+    std::size_t oldest_snapshot_ = 0;
     std::vector<std::int32_t> rank_;  // of each robot: longest way first
     std::vector<RobotId> order_;
     std::vector<Node> nodes_;

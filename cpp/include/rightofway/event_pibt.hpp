@@ -43,7 +43,7 @@ class EventPibt {
     std::int64_t n_choices() const { return n_choices_; }
 
   private:
-    static constexpr VertexId more = -2;
+    struct Choosing;
     struct Fixed {
         RobotId robot;
         VertexId vertex;
@@ -52,12 +52,6 @@ class EventPibt {
         std::int64_t cost;
         std::uint32_t tie;
         VertexId vertex;
-    };
-    struct Pair {
-        RobotId pusher;
-        RobotId puller;
-        VertexId behind;  // where the pusher is, and the puller ahead of it
-        VertexId ahead;
     };
 
     bool take_fixed(const FleetState& now);
@@ -70,10 +64,6 @@ class EventPibt {
     void push_places(const FleetState& now, RobotId robot);
     Tick soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const;
     bool is_idle(const FleetState& now, RobotId robot) const;
-    RobotId swap_partner(const FleetState& now, RobotId robot, VertexId wanted);
-    VertexId only_way_on(const FleetState& now, VertexId from, VertexId at) const;
-    bool must_swap(const FleetState& now, Pair pair);
-    bool can_swap(const FleetState& now, VertexId behind, VertexId ahead) const;
     std::int32_t way(const FleetState& now, RobotId robot, VertexId vertex);
     bool settle_arrivals(const FleetState& now);
     bool settle_queue(const FleetState& now, RobotId last);

@@ -24,8 +24,6 @@ struct Decision {
 
 class FleetState {
   public:
-    static constexpr RobotId nobody = -1;
-
     // Everybody at home at tick 0, those without work there free to go. Borrows the trips.
     explicit FleetState(const Trips& trips);
 

@@ -23,8 +23,9 @@ namespace rightofway {
 
 class Lacam {
   public:
-    // Borrows the graph and the goals. Throws std::invalid_argument where they do not fit together.
-    Lacam(const Graph& graph, const Goals& goals, bool may_rotate, std::uint32_t seed);
+    // Borrows the graph, the goals and the tables.
+    Lacam(const Graph& graph, const Goals& goals, StepTables& tables, bool may_rotate,
+          std::uint32_t seed);
 
     // `is_over` is asked every few steps whether to stop.
     SearchEnd run(const std::function<bool()>& is_over);

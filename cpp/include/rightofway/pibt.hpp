@@ -15,14 +15,19 @@
 #include <span>
 #include <vector>
 
+#include "rightofway/step_tables.hpp"
 #include "rightofway/untimed_fleet.hpp"
 
 namespace rightofway {
 
 class Pibt {
   public:
-    // Borrows the graph and the goals.
-    Pibt(const Graph& graph, const Goals& goals, bool may_rotate, std::uint32_t seed);
+    // Borrows the graph, the goals and the tables.
+    Pibt(const Graph& graph, const Goals& goals, StepTables& tables, bool may_rotate,
+         std::uint32_t seed);
+
+    // How many edges it is from a vertex to the stage of a robot.
+    std::int32_t way(const Configuration& now, RobotId robot, VertexId vertex) const;
 
     // Says where a robot goes in the coming step.
     void fix(RobotId robot, VertexId vertex);
@@ -35,16 +40,10 @@ class Pibt {
     std::span<const VertexId> next() const { return next_; }
 
   private:
-    static constexpr VertexId more = -2;
+    struct Choosing;
     struct Fixed {
         RobotId robot;
         VertexId vertex;
-    };
-    struct Pair {
-        RobotId pusher;
-        RobotId puller;
-        VertexId behind;  // where the pusher is, and the puller ahead of it
-        VertexId ahead;
     };
 
     bool take_fixed(const Configuration& now);
@@ -52,15 +51,12 @@ class Pibt {
     void take(RobotId robot, VertexId vertex);
     bool choose(const Configuration& now, RobotId robot);
     std::vector<VertexId> places_by_distance(const Configuration& now, RobotId robot);
-    RobotId swap_partner(const Configuration& now, RobotId robot, VertexId wanted) const;
-    VertexId only_way_on(const Configuration& now, VertexId from, VertexId at) const;
-    bool must_swap(const Configuration& now, Pair pair) const;
-    bool can_swap(const Configuration& now, VertexId behind, VertexId ahead) const;
     bool closes_rotation(const Configuration& now) const;
-    std::int32_t way(const Configuration& now, RobotId robot, VertexId vertex) const;
 
     Graph graph_;
     const Goals& goals_;
+    StepTables& tables_;
+    std::vector<StepTables::TableId> stage_table_;
     bool may_rotate_;
     std::mt19937 draw_;
     std::vector<RobotId> here_;       // who is at each vertex

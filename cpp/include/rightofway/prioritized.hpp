@@ -23,25 +23,39 @@
 
 namespace rightofway {
 
+// What it costs to take a robot's track away, in first holds of its home: at first, and how much
+// more each time. The dearer, the sooner a search is content with a way around, and the longer
+// that.
+struct TrackPrices {
+    Tick first;
+    Tick dearer;
+};
+constexpr TrackPrices patient{3, 2};
+constexpr TrackPrices hasty{100, 50};
+
 class Prioritized {
   public:
     // Borrows both. The plan is without tracks.
-    Prioritized(const Fleet& fleet, FleetPlan& plan);
+    Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices = patient);
 
-    // Gives robots tracks in that order, in at most so many searches. `stopped` means that some
-    // are without a track.
-    SearchEnd run(std::span<const RobotId> order, std::int64_t n_searches,
-                  const SafeIntervalSearch::IsOver& is_over);
+    // Robots are to get tracks in that order.
+    void start(std::span<const RobotId> order);
+
+    // Gives them tracks, until so many searches were made since the start. `stopped` means that
+    // some are without a track; it can go on from there.
+    SearchEnd run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
 
     std::int64_t n_evictions() const { return n_evictions_; }
 
   private:
     bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
     void evict(RobotId robot);
+    void raise_prices();
     Tick first_hold(RobotId robot) const;
 
     const Fleet& fleet_;
     FleetPlan& plan_;
+    TrackPrices track_prices_;
     SafeIntervalSearch search_;
     TripReader reader_;
     std::deque<RobotId> waiting_;
@@ -49,7 +63,9 @@ class Prioritized {
     std::vector<Tick> holds_;
     std::vector<RobotId> met_;
     TimedTrack track_;
+    std::int64_t n_searches_ = 0;
     std::int64_t n_evictions_ = 0;
+    std::int64_t next_raise_;  // at so many states
 };
 
 }  // namespace rightofway

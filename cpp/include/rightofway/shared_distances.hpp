@@ -11,6 +11,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "rightofway/distance_tables.hpp"
 #include "rightofway/distance_view.hpp"
 #include "rightofway/trip.hpp"
+#include "rightofway/way_lengths.hpp"
 
 namespace rightofway {
 
@@ -40,6 +42,10 @@ class SharedDistances {
     // A table to the target, in units of `scale`, for robots of that pace. May be called by several
     // threads at once.
     std::shared_ptr<const DistanceTable> to(VertexId target, std::span<const std::int32_t> pace);
+
+    // The ticks from one vertex to another for a robot of that pace, -1 where no way leads there;
+    // without keeping a table, where all edges are equally long.
+    Tick between(VertexId from, VertexId target, std::span<const std::int32_t> pace);
 
     // What one unit of the tables takes a robot of that pace.
     Tick scale(std::span<const std::int32_t> pace) const {
@@ -67,6 +73,8 @@ class SharedDistances {
     DistanceTables tables_;
     bool is_uniform_;
     std::size_t budget_;
+    std::mutex ways_mutex_;
+    std::optional<WayLengths> ways_;  // made when first asked for
     std::mutex mutex_;
     std::vector<std::vector<std::int32_t>> paces_;
     std::unordered_map<Key, std::shared_ptr<const DistanceTable>, Hash> known_;

@@ -44,42 +44,44 @@ class SpreadPaths {
         VertexId to;
     };
     struct Open {
-        std::int64_t estimate;  // of the cost to the target
-        std::int64_t cost;      // so far
-        Tick when;              // the robot would be there, without waits
+        std::int64_t cost;  // so far
         VertexId vertex;
+        std::int32_t next;  // of about the same estimate
     };
     // How a vertex is reached at least cost, in the search of this round.
     struct Best {
         std::int64_t cost;
-        Tick when;
+        Tick when;  // the robot would be there, without waits
         EdgeId by;
         std::int32_t round;
     };
 
-    static bool is_worse(const Open& left, const Open& right);
     void pair_edges();
     void find_ends();
     Tick choose_leg(const Leg& leg, Tick when);
     bool search(const Leg& leg, Tick when);
-    void open(Open reached, EdgeId by, StepTables::TableId table);
-    std::int64_t cost_of(EdgeId edge) const;
+    void open(VertexId vertex, const Best& reached, StepTables::TableId table);
+    bool take_next(Open& next);
     void keep(const Leg& leg);
 
     const Trips& trips_;
     StepTables& tables_;
-    std::vector<VertexId> tail_;            // of each edge
-    std::vector<EdgeId> back_;              // of each edge: the one the other way, or -1
-    std::vector<Tick> ended_from_;          // of each vertex: when a trip ends there at the soonest
-    std::vector<std::int32_t> edge_use_;    // paths so far
-    std::vector<std::int32_t> vertex_use_;  // paths so far
-    std::vector<Hop> hops_;                 // of all paths, those of one by `from`
-    std::vector<std::size_t> first_hop_;    // of each stage
+    std::vector<VertexId> tail_;           // of each edge
+    std::vector<EdgeId> back_;             // of each edge: the one the other way, or -1
+    std::vector<Tick> ended_from_;         // of each vertex: when a trip ends there at the soonest
+    std::vector<std::int64_t> edge_cost_;  // of each edge: against the paths so far
+    std::vector<std::int64_t> into_cost_;  // of each vertex: shared with the paths so far
+    std::vector<Hop> hops_;                // of all paths, those of one by `from`
+    std::vector<std::size_t> first_hop_;   // of each stage
     std::vector<std::size_t> end_hop_;
     std::int64_t credit_ = 0;  // how many vertices may still be opened
     std::int32_t round_ = 0;
     std::vector<Best> best_;  // of each vertex
-    std::vector<Open> open_;  // a heap
+    // Open vertices in lists by their estimates, which begin with the least that there can be.
+    std::vector<Open> open_;
+    std::vector<std::int32_t> first_open_;  // of each list
+    std::int64_t least_ = 0;                // the estimate where the lists begin
+    std::size_t list_ = 0;                  // those before it are empty
 };
 
 }  // namespace rightofway

@@ -3,17 +3,24 @@
 //
 // One breadth-first search per target over the reversed edges, which goes on only until it has
 // reached the vertex that was asked for, and is taken up again when one further away is asked for.
-// Robots with one target share its table, whatever their speeds. Two bytes a vertex, and pages of
-// memory that no search has reached stay untouched, so ten thousand targets on a large map fit.
+// Robots with one target share its table, whatever their speeds. Tables are made of lines, as the
+// processor's cache is: each holds vertices near each other, whatever their numbers, so what a
+// robot asks for lies next to what it asked for before. Where every edge leads back, these differ
+// by a few steps, and one byte a vertex above a base for each line does: ten thousand targets on a
+// large map fit. On other graphs it takes two bytes.
 #pragma once
 
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rightofway/graph.hpp"
+#include "rightofway/search_end.hpp"
 #include "rightofway/types.hpp"
+#include "rightofway/untimed_fleet.hpp"
 
 namespace rightofway {
 
@@ -25,7 +32,7 @@ class StepTables {
     // Borrows nothing: the graph is kept reversed.
     explicit StepTables(const Graph& graph);
 
-    VertexId n_vertices() const { return static_cast<VertexId>(arriving_.size()) - 1; }
+    VertexId n_vertices() const { return static_cast<VertexId>(place_.size()); }
 
     // The table of a target, made at the first request.
     TableId table_of(VertexId target);
@@ -33,31 +40,64 @@ class StepTables {
     // The least number of edges from a vertex to the target of a table, or `unreachable`. Throws
     // std::overflow_error if that does not fit the type.
     std::int32_t steps(TableId table, VertexId from) {
-        const std::uint16_t cell = tables_[table].cells[from];
-        return cell != 0 ? cell - 1 : search_on(table, from);
+        const std::int32_t known = read(cells_[table], place_[from]);
+        return known >= 0 ? known : search_on(table, from);
     }
+
+    // Searches tables as far as a vertex each, on all cores; what comes out is the same.
+    struct Request {
+        TableId table;
+        VertexId from;
+    };
+    void search_all(std::span<const Request> requests);
 
   private:
     struct Free {
         void operator()(void* block) const { std::free(block); }
     };
-    struct Table {
-        std::uint16_t* cells;  // steps + 1, or 0 where the search has not been yet
-        std::vector<VertexId> frontier;
+    using Place = std::int32_t;  // of a vertex in each table [bytes]
+    using Byte = std::uint8_t;
+    static constexpr Place line_size = 64;
+    struct Search {
+        std::vector<Place> frontier;
         std::int32_t depth;  // of the frontier
     };
 
-    std::uint16_t* new_cells();
-    std::int32_t search_on(TableId table, VertexId from);
-    void next_level(Table& table);
+    // A line of bytes begins with its base, the least steps in it, plus 1; a cell is the steps
+    // above the least, plus 1. A wide cell is the steps plus 1. Where it is 0, the search has not
+    // been yet.
+    std::int32_t read(const Byte* table, Place place) const {
+        if (is_wide_) {
+            return std::int32_t{*reinterpret_cast<const std::uint16_t*>(table + place)} - 1;
+        }
+        const Byte cell = table[place];
+        return cell == 0 ? -1 : base(table, place) + cell - 2;
+    }
+    static std::uint16_t base(const Byte* table, Place place) {
+        return *reinterpret_cast<const std::uint16_t*>(table + place / line_size * line_size);
+    }
+    void write(Byte* table, Place place, std::int32_t steps) const;
 
-    std::vector<EdgeId> arriving_;  // the edges that arrive at v come from source_[k], for k in
-    std::vector<VertexId> source_;  // arriving_[v] .. arriving_[v + 1] - 1
+    void find_places(const Graph& graph);
+    Byte* new_cells();
+    std::int32_t search_on(TableId table, VertexId from);
+    void next_level(TableId table, std::vector<Place>& scratch);
+
+    bool is_wide_;
+    std::vector<Place> place_;      // of each vertex
+    Place size_ = 0;                // of a table
+    std::vector<EdgeId> arriving_;  // the edges that arrive at a place come from source_[k], for k
+    std::vector<Place> source_;     // in arriving_[place] .. arriving_[place + 1] - 1
     std::vector<TableId> by_target_;
-    std::vector<Table> tables_;
-    std::vector<std::unique_ptr<std::uint16_t, Free>> blocks_;
-    std::size_t free_in_block_ = 0;  // tables
-    std::vector<VertexId> scratch_;
+    std::vector<Byte*> cells_;      // of each table
+    std::vector<Search> searches_;  // of each table
+    std::vector<std::unique_ptr<Byte, Free>> blocks_;
+    Byte* next_cells_ = nullptr;  // in the last block
+    std::size_t n_free_ = 0;      // bytes there
+    std::vector<Place> scratch_;
 };
+
+// Whether every robot, if it were alone, could go through all of its stages: `found` if so.
+SearchEnd reach_all(const Goals& goals, StepTables& tables, const std::function<bool()>& is_over);
 
 }  // namespace rightofway

@@ -8,6 +8,7 @@
 
 #include "rightofway/graph.hpp"
 #include "rightofway/types.hpp"
+#include "rightofway/untimed_fleet.hpp"
 
 namespace rightofway {
 
@@ -24,6 +25,7 @@ struct Trips {
     bool books_ahead = false;  // a robot books a vertex from when it starts to drive there
     bool may_rotate = true;    // needs: no headway, and no booking ahead
 
+    Goals goals() const { return {home, first_stage, stage_vertex}; }
     RobotId n_robots() const { return static_cast<RobotId>(home.size()); }
     std::int32_t n_classes() const {
         return home.empty() ? 0 : static_cast<std::int32_t>(class_ticks.size() / home.size());

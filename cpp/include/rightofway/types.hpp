@@ -15,6 +15,8 @@ using RobotId = std::int32_t;
 using VisitId = std::int32_t;  // position in the concatenation of all robots' routes
 using Tick = std::int64_t;     // the integer unit of time
 
+inline constexpr RobotId nobody = -1;
+
 // The leave of a last visit: a robot stays at its last vertex for ever. Far above every time that
 // routes may reach (routes.hpp checks that), and far enough below the type's end to add to.
 inline constexpr Tick infinity = Tick{1} << 62;

@@ -20,13 +20,15 @@ struct Goals {
     std::span<const VertexId> home;
     std::span<const std::int32_t> first_stage;  // robot r owns first_stage[r] .. [r + 1] - 1
     std::span<const VertexId> stage_vertex;
-    std::vector<std::span<const std::int32_t>> stage_table;  // way to it from everywhere, -1: none
 
     RobotId n_robots() const { return static_cast<RobotId>(home.size()); }
     bool is_last(RobotId robot, std::int32_t stage) const {
         return stage + 1 == first_stage[robot + 1];
     }
 };
+
+// Throws std::invalid_argument where the arrays are no graph, or do not fit together or to it.
+void check(const Graph& graph, const Goals& goals);
 
 // Where every robot is, and which stage it is on its way to.
 struct Configuration {

@@ -56,7 +56,7 @@ COLUMNS = (
     Column("lower_bound", "int", "no flowtime is smaller [ticks]"),
     Column("ratio", "float", "flowtime / lower bound"),
     Column("tick", "text", "how long a tick is [time unit]"),
-    Column("first_plan_seconds", "float", "until the first plan was there [s]"),
+    Column("first_plan_seconds", "float", "until there was a first plan, not yet judged [s]"),
     Column("wall_seconds", "float", "that planning took, the judge included [s]"),
     Column("cpu_seconds", "float", "the same, added up over all cores [s]"),
     Column("peak_memory", "float", "most memory that its process held [MB]"),

@@ -54,7 +54,7 @@ def run(case: Case) -> dict[str, Any]:
             time_limit=float(case.limit), seed=case.seed, options=case.options,
         )  # fmt: skip
         spent = clock.spent()
-        return {**_judged(plan, spent["wall_seconds"]), **spent}
+        return {**_judged(plan), **spent}
     except Exception as error:  # noqa: BLE001 (a planner may raise anything, and the next case runs)
         status = next((name for kind, name in ENDINGS.items() if isinstance(error, kind)), "defect")
         valid = False if status == "invalid plan" else None
@@ -64,7 +64,7 @@ def run(case: Case) -> dict[str, Any]:
         }  # fmt: skip
 
 
-def _judged(plan: Plan, seconds: float) -> dict[str, Any]:
+def _judged(plan: Plan) -> dict[str, Any]:
     report = check(plan)
     if not report.ok:
         return {
@@ -81,8 +81,12 @@ def _judged(plan: Plan, seconds: float) -> dict[str, Any]:
         "lower_bound": int(metrics.lower_bound),
         "ratio": round(1 + metrics.gap, 6) if math.isfinite(metrics.gap) else None,
         "tick": str(plan.scenario.timing.clock.tick),
-        "first_plan_seconds": seconds,
+        "first_plan_seconds": _rounded(plan.run.first_plan_seconds),
     }
+
+
+def _rounded(seconds: float | None) -> float | None:
+    return None if seconds is None else round(seconds, 6)
 
 
 class _Clock:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.planning import seconds
+from rightofway.cli.planning import refuse_bad_outputs, seconds, write
 from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ Examples:
 @click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
               metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
 @click.option("-o", "--output", metavar="PLAN", callback=writable(),
-              help="Write the run as a plan of whole laps.")  # fmt: skip
+              help="Write the run as a plan of whole laps; - for standard output.")  # fmt: skip
 @click.option("--page", metavar="FILE", callback=writable(".html"),
               help="Write a page that plays the laps.")  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
@@ -54,21 +54,19 @@ def laps(
     Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.laps import run_laps
+    from rightofway.laps import plan_of, run_laps
 
+    refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
     problem = read_scenario(scenario)
     with progress() as report:
         run = run_laps(problem, rule, routes=routes, time_limit=time_limit, report=report)
-    if as_json:
-        put_json(laps_data(run))
-    else:
-        put(laps_report(run))
+    if output != "-":
+        if as_json:
+            put_json(laps_data(run))
+        else:
+            put(laps_report(run))
     if output:
-        from rightofway.io import save_plan
-        from rightofway.laps import plan_of
-
-        save_plan(plan_of(run), output)
-        say(f"wrote {output}")
+        write(plan_of(run), output)
     if page:
         _write_page(run, page)
     ends = {group.ends for group in run.groups}

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
 from rightofway.cli.words import wrapped
-from rightofway.laps import Conflict, GroupRun, LapsRun
+from rightofway.laps import Bottleneck, Conflict, GroupRun, LapsRun, in_words
 
 __all__ = ["laps_data", "laps_report"]
+
+HOUR = 3600
+"""Time units of a scenario in an hour, if they are seconds."""
 
 MOST_GROUPS = 3
 """More groups are only counted; --json has them all."""
@@ -21,35 +24,42 @@ MOST_LINES = 12
 MOST_OF_NUMBER = 8
 """Columns that a number may take; longer fractions are rounded for people."""
 
+MOST_TIMES = 4
+"""How often a conflict is told within one period; more times are counted."""
+
+Sights = dict[tuple[int, int, int], list[Fraction]]
+"""By place, who waits and for whom: when [time unit]."""
+
 
 def laps_data(run: LapsRun) -> dict[str, Any]:
     """Return a run for programs; times are exact fractions of the scenario's unit."""
     return {
         "rule": run.rule,
         "routes": run.routes,
-        "throughput_per_hour": str(3600 * run.throughput()),
+        "throughput_per_hour": str(HOUR * run.throughput()),
         "groups": [_group_data(run, group) for group in run.groups],
     }
 
 
 def _group_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
-    names, time = _names(run, group), run.scenario.timing.clock.time
-    pattern = group.pattern
+    names, pattern = _names(run, group), group.pattern
+    time = run.scenario.timing.clock.time
     means = [None if mean is None else str(mean * time(1)) for mean in group.mean_laps()]
+    shares = [None if share is None else str(share) for share in group.waiting_shares()]
     return {
         "robots": names,
         "ends": group.ends,
         "why": group.why,
         "transient": str(time(pattern.transient)) if pattern else None,
-        "period": str(time(pattern.period)) if pattern else None,
         "begins": str(time(pattern.begins)) if pattern else None,
+        "period": str(time(pattern.period)) if pattern else None,
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
         "laps_made": dict(zip(names, group.laps_made(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
-        "waiting_share": dict(zip(names, map(str, group.waiting_shares()), strict=True)),
+        "waiting_share": dict(zip(names, shares, strict=True)),
         "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
         "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
-        "bottleneck": [],
+        "bottleneck": _bottleneck_data(run, run.bottleneck(group)),
     }
 
 
@@ -64,75 +74,122 @@ def _conflict_data(run: LapsRun, conflict: Conflict, when: str) -> dict[str, Any
     }
 
 
+def _bottleneck_data(run: LapsRun, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+    time, scenario = run.scenario.timing.clock.time, run.scenario
+    return [
+        {
+            "kind": piece.kind,
+            "robot": scenario.robots[piece.robot].name,
+            "vertices": [scenario.roadmap.name(place) for place in piece.places],
+            "for": str(time(piece.ticks)),
+        }
+        for piece in (bottleneck.pieces if bottleneck else ())
+    ]
+
+
 def laps_report(run: LapsRun) -> str:
     """Return a run for people."""
     return "\n".join(_lines(run))
 
 
 def _lines(run: LapsRun) -> Iterator[str]:
-    ends = Counter(group.ends for group in run.groups)
     together = [group for group in run.groups if len(group.robots) > 1]
-    alone = len(run.groups) - len(together)
-    yield f"rule        {run.rule}, routes {run.routes}"
-    yield f"robots      {len(run.scenario.robots)}, {alone} of them never meet another"
-    yield f"groups      {len(together)}" + "".join(
-        f", {number} {words}"
-        for end, words in (("deadlock", "come to a standstill"), ("open", "open in this time"))
-        if (number := ends[end])  # type: ignore[index]
-    )
-    yield f"throughput  {float(3600 * run.throughput()):.6g} laps in 3600 time units"
+    yield f"rule        {run.rule}, on {run.routes} routes"
+    yield f"groups      {_groups(run, together)}"
+    yield f"throughput  {_short(HOUR * run.throughput())} laps in {HOUR} time units"
     largest = sorted(together, key=lambda group: -len(group.robots))
     for group in largest[:MOST_GROUPS]:
         yield ""
         yield from _group_lines(run, group)
     if len(largest) > MOST_GROUPS:
         yield ""
-        yield f"… and {len(largest) - MOST_GROUPS} smaller groups (--json has them all)"
+        yield f"… and {len(largest) - MOST_GROUPS} more groups, none larger (--json has them all)"
+
+
+def _groups(run: LapsRun, together: Sequence[GroupRun]) -> str:
+    ends = Counter(group.ends for group in together)
+    counts = [
+        (ends["repeats"], "repeats itself"),
+        (ends["deadlock"], "comes to a standstill"),
+        (ends["open"], "is open: time ran out"),
+    ]
+    told = [f"{number} of {len(together)} {words}" for number, words in counts if number]
+    alone = len(run.groups) - len(together)
+    lonely = [f"{alone} robots never meet anybody"] if alone else []
+    return "; ".join([*told, *lonely])
 
 
 def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
-    yield from wrapped(_headline(run, group))
-    yield from _robot_lines(run, group)
-    if group.pattern:
-        yield from _conflict_lines(run, group)
-
-
-def _headline(run: LapsRun, group: GroupRun) -> str:
-    time, pattern = run.scenario.timing.clock.time, group.pattern
+    time = run.scenario.timing.clock.time
     who = f"{len(group.robots)} robots"
-    if pattern is None:
-        return f"{who}: {group.why}; the laps so far:"
-    return f"{who}: after {time(pattern.transient)} all repeats every {time(pattern.period)}"
+    if group.pattern is None:
+        yield from wrapped(f"{who}: {group.why}. Their laps so far:")
+        yield from _robot_lines(run, group)
+        return
+    transient, period = time(group.pattern.transient), time(group.pattern.period)
+    yield f"{who}: from time {transient} on, all repeats every {period}"
+    yield from _robot_lines(run, group)
+    yield from _conflict_lines(run, group)
+    bottleneck = run.bottleneck(group)
+    if bottleneck:
+        yield from wrapped(f"bottleneck: {in_words(bottleneck, run.scenario)}")
 
 
 def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
-    names = _names(run, group)
-    width = max(5, *map(len, names))
+    names, tick = _names(run, group), run.scenario.timing.clock.tick
     counts = group.pattern.counts if group.pattern else group.laps_made()
-    yield f"{'robot':{width}}  laps  mean lap  alone  waiting"
-    time = run.scenario.timing.clock.time
+    title = "laps/period" if group.pattern else "laps so far"
+    width = max(map(len, ("robot", *names[:MOST_LINES])))
+    yield f"{'robot':{width}}  {title}  mean lap     alone  waiting"
     rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), group.group, strict=True)
     for name, laps, mean, share, endless in list(rows)[:MOST_LINES]:
-        lap = "never" if mean is None else _short(mean * time(1))
-        alone = _short(time(endless.lap.duration))
-        yield f"{name:{width}}  {laps:4}  {lap:>8}  {alone:>5}  {float(share):7.1%}"
+        lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
+        alone, waits = (
+            _short(endless.lap.duration * tick),
+            "" if share is None else f"{float(share):7.1%}",
+        )
+        yield f"{name:{width}}  {laps:11}  {lap:>8}  {alone:>8}  {waits}".rstrip()
     if len(names) > MOST_LINES:
         yield f"… and {len(names) - MOST_LINES} more robots"
 
 
 def _short(number: Fraction) -> str:
-    return str(number) if len(str(number)) <= MOST_OF_NUMBER else f"{float(number):.4g}"
+    return str(number) if len(str(number)) <= MOST_OF_NUMBER else f"{float(number):.5g}"
 
 
 def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
-    first, steady = run.first_conflicts(group), run.conflicts(group)
-    yield f"conflicts: first lap {len(first)}, then {len(steady)} a period"
-    place, robots = run.scenario.roadmap.name, run.scenario.robots
-    time = run.scenario.timing.clock.time
-    for one in steady[:MOST_LINES]:
-        who = f"{robots[one.waits].name} waits {_short(time(one.ticks))}"
-        whom = f"for {robots[one.for_robot].name} to leave {place(one.vertex)}"
-        yield f"  at {_short(time(one.tick))}: {who} {whom}"
+    """Yield who waits where for whom: in each period, and in the first lap."""
+    first, steady = (
+        _sights(run, found) for found in (run.first_conflicts(group), run.conflicts(group))
+    )
+    both = len(first.keys() & steady.keys())
+    yield f"waits: {len(first)} in the first lap, {len(steady)} in each period, {both} in both"
+    robots, place = run.scenario.robots, run.scenario.roadmap.name
+    for sight in [*steady, *(one for one in first if one not in steady)][:MOST_LINES]:
+        vertex, waits, whom = sight
+        text = f"{place(vertex)}: {robots[waits].name} waits for {robots[whom].name}"
+        when = [
+            f"{words} {_times(found[sight])}"
+            for words, found in (("first lap at", first), ("each period at", steady))
+            if sight in found
+        ]
+        yield from wrapped(f"{text}, {'; '.join(when)}", "  ")
+    more = len(first.keys() | steady.keys()) - MOST_LINES
+    if more > 0:
+        yield f"  … and {more} more"
+
+
+def _sights(run: LapsRun, conflicts: Sequence[Conflict]) -> Sights:
+    found: Sights = {}
+    for one in conflicts:
+        when = run.scenario.timing.clock.time(one.tick)
+        found.setdefault((one.vertex, one.waits, one.for_robot), []).append(when)
+    return found
+
+
+def _times(times: Sequence[Fraction]) -> str:
+    told = ", ".join(map(_short, times[:MOST_TIMES]))
+    return told if len(times) <= MOST_TIMES else f"{told} and {len(times) - MOST_TIMES} times more"
 
 
 def _names(run: LapsRun, group: GroupRun) -> list[str]:

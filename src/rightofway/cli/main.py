@@ -64,7 +64,7 @@ def commands(context: click.Context, *, debug: bool) -> None:
     context.ensure_object(_Session).debug = debug
 
 
-for command in (plan, improve, laps, check, simulate, show, table, convert, bench, schema):
+for command in (plan, improve, check, laps, simulate, show, table, convert, bench, schema):
     commands.add_command(command)
 
 

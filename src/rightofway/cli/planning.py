@@ -15,7 +15,14 @@ from rightofway.planners import PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = ["PlanningCommand", "hand_over", "options_of_planning", "refuse_bad_outputs", "seconds"]
+__all__ = [
+    "PlanningCommand",
+    "hand_over",
+    "options_of_planning",
+    "refuse_bad_outputs",
+    "seconds",
+    "write",
+]
 
 
 class PlanningCommand(click.Command):
@@ -104,7 +111,7 @@ def hand_over(
     found: Plan, output: str | None, page: str | None, *, log: bool, table: bool, as_json: bool
 ) -> int:
     """Write and report a plan; return the exit code."""
-    _write(found, output, page)
+    write(found, output, page)
     if output != "-":
         _report(found, log=log, table=table, as_json=as_json)
     return _end(found)
@@ -119,7 +126,8 @@ def _refuse_two_results(output: str | None, *, log: bool, table: bool, as_json: 
         raise click.UsageError(f"{words} is for people, --json for programs: choose one")
 
 
-def _write(found: Plan, output: str | None, page: str | None) -> None:
+def write(found: Plan, output: str | None, page: str | None = None) -> None:
+    """Write a plan, and a page that plays it, where they are asked for."""
     from rightofway.io import plan_text, save_plan
 
     if output == "-":

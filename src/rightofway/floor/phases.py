@@ -75,11 +75,12 @@ class _Phases:
     def phase(self, floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, Setbacks] | None:
         """Run a plan to its end or to the next breakdown; return what then is to be run."""
         if self.switch:
-            floor, switches = switched(floor, setbacks)
+            until = _first_breakdown(setbacks, floor.execute(setbacks))
+            floor, switches = switched(floor, setbacks, until=until)
             self.ended.switches += switches
         happens = floor.execute(setbacks)
         since = _first_breakdown(setbacks, happens)
-        following = None if since is None else self.follow(floor, setbacks, since)
+        following = None if since == NEVER else self.follow(floor, setbacks, since)
         if following is None:
             down = enumerate(happens.is_broken & (happens.completion == NEVER))
             self.write_down(floor, happens, self.ended.cut_off)
@@ -109,7 +110,7 @@ class _Phases:
 
     def what_comes(self, new: DelayedPlan, setbacks: Setbacks, rest: Rest) -> Setbacks:
         """Return new delays, and what is left of the standstills that were to come."""
-        drawn = new.setbacks(self.seed + self.ended.replans, self.run)
+        drawn = new.setbacks(self.seed + (self.ended.replans << 32), self.run)
         return with_standstills(
             drawn,
             [
@@ -146,15 +147,14 @@ class _Phases:
         )
 
 
-def _first_breakdown(setbacks: Setbacks, happens: Execution) -> Tick | None:
-    """Return when the first robot breaks down that has not completed."""
+def _first_breakdown(setbacks: Setbacks, happens: Execution) -> Tick:
+    """Return when the first robot breaks down that has not completed, `NEVER` if none does."""
     ticks = [
         breakdown(setbacks, robot)
         for robot, completion in enumerate(happens.completion.tolist())
         if completion == NEVER
     ]
-    first = min(ticks, default=NEVER)
-    return None if first == NEVER else first
+    return min(ticks, default=NEVER)
 
 
 def _less(ticks: Tick, passed: int) -> Tick:

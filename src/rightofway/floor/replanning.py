@@ -17,7 +17,8 @@ from math import prod
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.floor.standing import Rest
 from rightofway.model import Plan, Roadmap, Robot, Scenario, Stage, Stop, VertexId
-from rightofway.search import Distances, joint_steps
+from rightofway.planners import Deadline
+from rightofway.search import joint_steps
 from rightofway.solve import solve
 
 __all__ = ["Anew", "plan_the_rest"]
@@ -31,8 +32,8 @@ MOST_TRIES = 2000
 MOST_SORTED = 20_000
 """Up to so many ways all are tried, the nearest places first; of more, some at random."""
 
-SECONDS = 10.0
-"""How long one of these may be planned."""
+SECONDS = 30.0
+"""How long all of this may take [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,15 +75,19 @@ def plan_the_rest(rest: Rest, seed: int) -> Anew | None:
     -----
     Who is cut off by the map alone does what it can. Of the others, one more is given up only when
     no way to put the former out of the way lets all the rest finish, proven by a complete planner,
-    as long as that takes fewer than `MOST_TRIES` ways.
+    as long as `MOST_TRIES` and `SECONDS` are enough.
     """
-    roadmap = rest.scenario.roadmap.without(rest.closed)
-    for tried in islice(_attempts(roadmap, rest, seed), MOST_TRIES):
+    roadmap, deadline = rest.scenario.roadmap.without(rest.closed), Deadline.after(SECONDS)
+    for tried in islice(_attempts(roadmap, rest, seed, deadline), MOST_TRIES):
+        scenario = _scenario(rest, roadmap, tried.stages, tried.parking)
+        # Most of many ways are impossible, and the search without clocks tells that soonest.
+        if tried.parking and _is_impossible(scenario, seed, deadline):
+            continue
         with suppress(NoPlanExists, GaveUp):
-            scenario = _scenario(rest, roadmap, tried.stages, tried.parking)
-            if tried.parking:  # most of many ways are impossible, and this tells soonest
-                joint_steps(scenario, Distances(roadmap), seed=seed, time_limit=SECONDS)
-            return Anew(plan=solve(scenario, PLANNER, SECONDS, seed), cut_off=tried.cut_off)
+            plan = solve(scenario, PLANNER, deadline.seconds_left(), seed)
+            return Anew(plan=plan, cut_off=tried.cut_off)
+        if not deadline.seconds_left():
+            break
     return None
 
 
@@ -95,39 +100,34 @@ class _Attempt:
     parking: dict[int, int]
 
 
-def _attempts(roadmap: Roadmap, rest: Rest, seed: int) -> Iterator[_Attempt]:
+def _attempts(roadmap: Roadmap, rest: Rest, seed: int, deadline: Deadline) -> Iterator[_Attempt]:
     """Yield what to try, the best first."""
     pairs = zip(rest.at, rest.stages, strict=True)
     stages = [_within_reach(roadmap, at, left) for at, left in pairs]
     cut_off = {robot for robot, kept in enumerate(stages) if len(kept) < len(rest.stages[robot])}
-    others = [r for r in range(len(stages)) if stages[r] and r not in cut_off]
+    others = [robot for robot in range(len(stages)) if robot not in rest.broken | cut_off]
     for count in range(len(others) + 1):
         for more in combinations(others, count):
             parked = frozenset(cut_off.union(more))
-            if parked and not _could_finish_alone(roadmap, rest, stages, parked, seed):
-                continue  # nor could they with the others in their way
+            if 0 < len(parked) < len(stages):
+                others_only = _scenario(rest, roadmap, stages, {}, gone=parked)
+                if _is_impossible(others_only, seed, deadline):
+                    continue  # so it is with the parked ones in the way
             idle = [[] if robot in parked else kept for robot, kept in enumerate(stages)]
             for todo in [stages, idle] if idle != stages else [stages]:
                 for parking in _parkings(roadmap, rest, todo, parked, seed):
                     yield _Attempt(cut_off=parked, stages=todo, parking=parking)
 
 
-def _could_finish_alone(
-    roadmap: Roadmap, rest: Rest, stages: Stages, parked: frozenset[int], seed: int
-) -> bool:
-    """Tell whether the other robots could finish if those that are to be parked were gone."""
-    whole = _scenario(rest, roadmap, stages, {})
-    staying = tuple(robot for r, robot in enumerate(whole.robots) if r not in parked)
-    if not staying:
-        return True
+def _is_impossible(scenario: Scenario, seed: int, deadline: Deadline) -> bool:
+    """Tell whether it is proven that a fleet cannot get through its trips."""
     try:
-        fewer = replace(whole, robots=staying)
-        joint_steps(fewer, Distances(roadmap), seed=seed, time_limit=SECONDS)
+        joint_steps(scenario, seed=seed, time_limit=deadline.seconds_left())
     except NoPlanExists:
-        return False
+        return True
     except GaveUp:
         pass
-    return True
+    return False
 
 
 def _within_reach(roadmap: Roadmap, at: int, left: Sequence[Stage]) -> list[Stage]:
@@ -183,12 +183,18 @@ def _ways(choices: Sequence[Sequence[int]], draw: random.Random) -> Iterator[tup
 
 
 def _scenario(
-    rest: Rest, roadmap: Roadmap, stages: Sequence[Sequence[Stage]], parking: dict[int, int]
+    rest: Rest,
+    roadmap: Roadmap,
+    stages: Stages,
+    parking: dict[int, int],
+    gone: frozenset[int] = frozenset(),
 ) -> Scenario:
     """Return the problem of the rest: its robots go one way, from where they stand."""
     clock = rest.scenario.timing.clock
     robots = []
     for number, robot in enumerate(rest.scenario.robots):
+        if number in gone:
+            continue
         stops = [Stop(at=stage.vertex, work=clock.time(stage.work)) for stage in stages[number]]
         if number in parking or not stops:
             stops.append(Stop(at=VertexId(parking.get(number, rest.at[number]))))

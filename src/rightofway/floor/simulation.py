@@ -110,4 +110,4 @@ def simulate(
 def _refuse_faults(plan: Plan) -> None:
     report = check(plan)
     if not report.ok:
-        raise InputError.at("", f"the plan has {report.summary} (rightofway check lists them)")
+        raise InputError.at("", f"the plan has {report.summary} (only one without can be run)")

@@ -42,10 +42,15 @@ __all__ = ["switched"]
 HORIZON = 2
 """Who breaks down is given up at this multiple of the plan's makespan, or of what came last."""
 
+LOOKS = 400
+"""A robot is news when it is late by this part of the makespan, and by a usual visit at least."""
+
 Times = NDArray[np.int64]
 
 
-def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
+def switched(
+    floor: DelayedPlan, setbacks: Setbacks, *, until: Tick = NEVER
+) -> tuple[DelayedPlan, int]:
     """Run a plan once, and switch rights of way on the way.
 
     Parameters
@@ -54,23 +59,27 @@ def switched(floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, int]:
         The plan, with its order of visits.
     setbacks
         What befalls the run; used to let things happen, never to look ahead.
+    until
+        When the last right of way may be switched [ticks].
 
     Returns
     -------
     floor, switches
         The plan with the order in which visits really took place, and how often it was changed.
     """
-    patience = max(int(np.median(floor.dwell + floor.drive)), 1)
+    patience = max(int(np.median(floor.dwell + floor.drive)), _last(floor.planned) // LOOKS, 1)
     expected, now, switches = floor.planned, -1, 0
     happens = floor.execute(setbacks)
     while (news := _next_news(happens.enter, expected + patience, now)) is not None:
         now = news
-        if now > HORIZON * max(int(floor.planned.max()), _last(happens.enter)):
+        if now > min(until, HORIZON * max(_last(floor.planned), _last(happens.enter))):
             break
         outlook = _Outlook(floor, happens, now, expected)
-        expected = outlook.best()
-        before = order_of(floor.vertex, expected)
+        expected = outlook.times()
+        outlook.flip()
+        before = order_of(floor.vertex, outlook.times())
         if not np.array_equal(before, floor.before) and outlook.allows(before):
+            expected = outlook.times()
             floor = floor.reordered(before)
             happens = floor.execute(setbacks)
             switches += 1
@@ -122,13 +131,14 @@ class _Outlook:
         overdue = self.now - began - least
         return least if overdue < 0 else least + 2 * overdue + 1
 
-    def best(self) -> Times:
-        """Return when visits are expected to begin after flips that lower the flowtime."""
-        search = Search(
-            Task(scenario=self.floor.scenario), self.graph, lambda visit: not self.begun[visit]
-        )
-        search.descend()
+    def times(self) -> Times:
+        """Return when visits are expected to begin."""
         return np.concatenate([track.enter for track in self.graph.tracks()])
+
+    def flip(self) -> None:
+        """Flip rights of way that have not been used, as long as that lowers the flowtime."""
+        task = Task(scenario=self.floor.scenario)
+        Search(task, self.graph, lambda visit: not self.begun[visit]).descend()
 
     def allows(self, before: NDArray[np.int32]) -> bool:
         """Tell whether nobody who has begun would have to wait for somebody who has not."""

@@ -72,7 +72,9 @@ class Bookings:
 
     def in_period(self, pattern: Pattern) -> tuple[Conflict, ...]:
         """Return who waits for whom in each period, by offset."""
-        visits = [pattern.visits(robot) for robot in range(len(self.group))]
+        firsts = (pattern.visits(robot) for robot in range(len(self.group)))
+        # in the second period nobody leaves home for the first time, without a turn
+        visits = [range(first.stop, first.stop + len(first)) for first in firsts]
         return self._conflicts(pattern.enter, visits, visits, pattern.begins, pattern.period)
 
     def _conflicts(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
 from rightofway.errors import InputError, Problem
-from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_along
+from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_of
 from rightofway.planners.routing import clear_routes, shortest_routes
 from rightofway.search import Distances
 
@@ -95,7 +95,7 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
     return [
         Endless(
             robot=robot,
-            lap=lap_along(once.roadmap, once.timing.itineraries[robot], route.vertices),
+            lap=lap_of(once.timing.itineraries[robot], route),
             first_least=route.least(0),
         )
         for robot, route in enumerate(found)

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
+from rightofway.laps.bottleneck import Bottleneck, bottleneck_of
 from rightofway.laps.conflicts import Bookings, Conflict
 from rightofway.laps.endless import Endless
 from rightofway.laps.pattern import Pattern
 from rightofway.model import Scenario
 from rightofway.planners import planning_headway
-from rightofway.precedence import PeriodicTimetable
+from rightofway.precedence import PeriodicTimetable, event_graph
 
 __all__ = ["GroupRun", "LapsRun"]
 
@@ -71,10 +72,10 @@ class GroupRun:
             for endless, past, laps in zip(self.group, self.history, self.laps_made(), strict=True)
         )
 
-    def waiting_shares(self) -> tuple[Fraction, ...]:
-        """Return which part of its time each robot waits for others; 1 if it stands still."""
+    def waiting_shares(self) -> tuple[Fraction | None, ...]:
+        """Return which part of its time each robot waits for others; None if it makes no lap."""
         return tuple(
-            Fraction(1) if mean is None else max(1 - endless.lap.duration / mean, Fraction(0))
+            None if mean is None else max(1 - endless.lap.duration / mean, Fraction(0))
             for endless, mean in zip(self.group, self.mean_laps(), strict=True)
         )
 
@@ -108,6 +109,15 @@ class LapsRun:
     def first_conflicts(self, group: GroupRun) -> tuple[Conflict, ...]:
         """Return where robots of a group wait for each other in their first laps, by tick."""
         return self._bookings(group).in_first_laps(group.history)
+
+    def bottleneck(self, group: GroupRun) -> Bottleneck | None:
+        """Return what a group's period is made of; None if nothing repeats, or a robot stands."""
+        timetable = group.timetable
+        if timetable is None:
+            return None
+        how = self._bookings(group)
+        graph = event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
+        return bottleneck_of(graph)
 
     def throughput(self) -> Fraction:
         """Return how many laps all robots complete in a time unit of the scenario."""

@@ -3,13 +3,14 @@
 Each window ends where one robot of the group, the *pacemaker*, is home again. What meets less than
 a *lag* after that is settled too before everything up to there is frozen, so that whoever still has
 to wait before a segment has not entered it yet. Where that was too little, and waiting does not
-keep two robots apart any more, some windows are taken back and tried with a longer lag.
+keep two robots apart any more, some windows are taken back and tried with a longer lag, until that
+place is behind.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -23,6 +24,9 @@ __all__ = ["Rolling"]
 
 PATIENCE = 8
 """How many of the longest laps a pacemaker may stay away before somebody else becomes it."""
+
+PARTS = 4
+"""A pacemaker that is home this many times in the longest lap keeps windows short."""
 
 MOST_LAG = 4
 """How many of the longest laps the lag may grow to."""
@@ -63,11 +67,12 @@ class Rolling:
         self._orders: tuple[Order, ...] = ()
         durations = [endless.lap.duration for endless in ground.group]
         self._longest = max(durations)
-        least = self._longest if rule in FAR_SIGHTED else -(-self._longest // 4)
+        least = self._longest if rule in FAR_SIGHTED else -(-self._longest // PARTS)
         pace = min(duration for duration in durations if duration >= least)
         self._pacemaker = durations.index(pace)
-        self._lag = pace
-        self._usual = 3 * pace
+        self._pace = pace
+        self._lag: int = pace
+        self._trouble = 0
         self._seen: dict[Hashable, int] = {}
         self._past: deque[_Moment] = deque(maxlen=MEMORY)
         self._back = 1
@@ -84,21 +89,25 @@ class Rolling:
         """
         while True:
             self.ground.task.deadline.check("waiting for a state to come again")
-            window = self._window([self._usual] * len(self.ground.group))
+            in_trouble = self.cut.tick < self._trouble
+            if not in_trouble:
+                self._lag, self._back = self._pace, 1
+            window = self._window([3 * self._lag] * len(self.ground.group), self._orders)
             self._remember(window)
-            earlier = self._seen.setdefault(self._state(window), self.cut.tick)
-            if earlier < self.cut.tick:
-                return earlier, self.cut.tick
+            if not in_trouble:
+                earlier = self._seen.setdefault(self._state(window), self.cut.tick)
+                if earlier < self.cut.tick:
+                    return earlier, self.cut.tick
             try:
                 self._go_on(window)
             except Deadlock:
                 if not self._go_back():
                     raise
 
-    def _window(self, ahead: list[int]) -> Window:
+    def _window(self, ahead: list[int], orders: Iterable[Order]) -> Window:
         shown = [0] * len(ahead)
         shown[self._pacemaker] = self._next_home_of(self._pacemaker) + 1
-        for order in self._orders:
+        for order in orders:
             for robot, visit in chain.from_iterable(order.rights + order.others):
                 shown[robot] = max(shown[robot], visit + 1)
         return Window(self.ground, self.cut, ahead, shown)
@@ -113,30 +122,32 @@ class Rolling:
         """Take some windows back and look further ahead from now on; false if it is no use."""
         if self._lag >= MOST_LAG * self._longest:
             return False
+        self._trouble = max(self._trouble, self.cut.tick + 1)
         for _ in range(min(self._back, len(self._past))):
             moment = self._past.pop()
         for past, length in zip(self.cut.history, moment.lengths, strict=True):
             del past[length:]
         self.cut = Cut(moment.tick, self.cut.history)
         self._orders = moment.orders
-        self._usual += 2 * self._lag
         self._lag *= 2
         self._back *= 2
-        self._seen.clear()
+        self._seen = {state: tick for state, tick in self._seen.items() if tick <= self.cut.tick}
         return True
 
     def _go_on(self, window: Window) -> None:
         """Settle what has to be before the next cut, in a window as long as it takes."""
-        ahead = [self._usual] * len(self.ground.group)
+        ahead = [3 * self._lag] * len(self.ground.group)
+        orders: Sequence[Order] = self._orders
         while True:
-            decisions = Decisions(window, self._orders)
+            decisions = Decisions(window, orders)
             try:
                 self._settle(window, decisions)
                 break
             except TooShort as short:
                 for robot in short.robots:
                     ahead[robot] *= 2
-                window = self._window(ahead)
+                orders = decisions.orders()
+                window = self._window(ahead, orders)
         self._freeze(window, decisions)
 
     def _settle(self, window: Window, decisions: Decisions) -> None:

@@ -17,10 +17,13 @@ from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 
-__all__ = ["ROUTES", "run_laps"]
+__all__ = ["ROUTES", "run_group", "run_laps"]
 
 ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
+
+LEAST_SHARE = 0.05
+"""The part of the time left that a group may take, however small it is."""
 
 
 def run_laps(
@@ -78,10 +81,10 @@ def run_laps(
         task = Task(
             scenario=scenario,
             options={"swaps": "resolve"},
-            deadline=deadline.sooner(len(group) / left),
+            deadline=deadline.sooner(max(len(group) / left, LEAST_SHARE)),
         )
         left -= len(group)
-        found[index] = _run_group(task, group, rule)
+        found[index] = run_group(task, group, rule)
     return LapsRun(
         scenario=scenario,
         rule=rule,
@@ -95,7 +98,8 @@ def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
         raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")
 
 
-def _run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
+def run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
+    """Let one group repeat its round trips until its pattern repeats; see `run_laps`."""
     ground = Ground(
         task=task,
         group=group,

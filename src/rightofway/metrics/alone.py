@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from itertools import chain, groupby, pairwise
 
 import numpy as np
@@ -20,6 +21,7 @@ Pace = tuple[Tick, ...]
 """Ticks of each length class of edges; robots of one speed have one pace."""
 
 
+@lru_cache(maxsize=4)
 def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     """Return each robot's shortest completion time without the others.
 
@@ -40,6 +42,8 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
 
     Notes
     -----
+    The latest answers are kept: a plan is measured once for the summary and once for its file.
+
     Where all edges are equally long, hops are counted for the whole fleet at once; on other
     roadmaps Dijkstra searches once for each pace and place.
     """

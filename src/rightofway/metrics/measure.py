@@ -11,7 +11,7 @@ from rightofway.metrics.alone import alone_completions
 from rightofway.metrics.stays import stays_of
 from rightofway.model import Plan, Scenario, Tick, Track
 
-__all__ = ["Metrics", "completions_of", "measure"]
+__all__ = ["Metrics", "completions_of", "flowtime_of", "measure"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +67,11 @@ class Metrics:
 def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return when each robot has done its work and entered its last vertex [ticks]."""
     return tuple(stay.completion for stay in stays_of(scenario, tracks))
+
+
+def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return the sum of the robots' completion times [ticks]."""
+    return Tick(sum(completions_of(scenario, tracks)))
 
 
 def measure(plan: Plan) -> Metrics:

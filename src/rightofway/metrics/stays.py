@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Itinerary, Scenario, Stage, Tick, Track, least_dwell
+from rightofway.model import Itinerary, Roadmap, Scenario, Stage, Tick, Track, least_dwell
 
 __all__ = ["Stays", "stays_of"]
 
@@ -48,25 +46,35 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     one visit if they follow each other at one vertex. Of tracks that break the rules, a move
     without an edge takes no time, and what comes after a missed stop is waiting.
     """
-    roadmap = scenario.roadmap
-
-    @cache
-    def length_class(tail: int, head: int) -> int | None:
-        edge = roadmap.edge(tail, head)
-        return None if edge is None else int(roadmap.length_class[edge])
-
+    edges = _Edges(scenario.roadmap)
     return tuple(
-        _stays(itinerary, track, length_class)
+        _stays(itinerary, track, edges.ticks(track.vertices, itinerary.edge_ticks))
         for itinerary, track in zip(scenario.timing.itineraries, tracks, strict=True)
     )
 
 
-def _stays(
-    itinerary: Itinerary, track: Track, length_class: Callable[[int, int], int | None]
-) -> Stays:
-    moves = [length_class(*move) for move in pairwise(track.vertices.tolist())]
-    ticks = [0 if length is None else itinerary.edge_ticks[length] for length in moves]
-    drive = np.array([*ticks, 0], np.int64)
+class _Edges:
+    """The edges of a roadmap, found by where they lead from and to, many at a time."""
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self.n_vertices = roadmap.n_vertices
+        tails = np.repeat(np.arange(self.n_vertices), np.diff(roadmap.indptr))
+        keys = tails * self.n_vertices + roadmap.heads
+        order = np.argsort(keys, kind="stable")
+        self.keys = np.append(keys[order], -1)  # the last one is no edge
+        self.length_class = np.append(roadmap.length_class[order], -1)
+
+    def ticks(self, vertices: NDArray[np.int32], edge_ticks: Sequence[Tick]) -> NDArray[np.int64]:
+        """Return the ticks of the edge after each vertex of a track, 0 where there is none."""
+        tails, heads = vertices[:-1].astype(np.int64), vertices[1:].astype(np.int64)
+        keys = tails * self.n_vertices + heads
+        found = np.searchsorted(self.keys[:-1], keys)
+        is_edge = (self.keys[found] == keys) & (heads >= 0) & (heads < self.n_vertices)
+        by_class = np.array([*edge_ticks, 0], np.int64)
+        return np.append(by_class[np.where(is_edge, self.length_class[found], -1)], 0)
+
+
+def _stays(itinerary: Itinerary, track: Track, drive: NDArray[np.int64]) -> Stays:
     spare = np.append(np.diff(track.enter), 0) - drive
     dwell = np.zeros(len(track), np.int64)
     last = len(track) - 1
@@ -81,24 +89,16 @@ def _stays(
 
 def _served(itinerary: Itinerary, track: Track, spare: NDArray[np.int64]) -> dict[int, list[Stage]]:
     """Return the stages that each visit serves."""
-    vertices, left = track.vertices.tolist(), spare.tolist()
+    left = spare.copy()
     served: defaultdict[int, list[Stage]] = defaultdict(list)
-    visit = 0
+    visit, last = 0, len(track) - 1
     for stage in itinerary.stages:
         need = stage.work + stage.turn
-        found = next(_long_enough(vertices, left, stage.vertex, need, visit), None)
-        if found is None:
+        there = visit + np.flatnonzero(track.vertices[visit:] == stage.vertex)
+        long_enough = there[(there == last) | (left[there] >= need)]
+        if not len(long_enough):
             break
-        visit = found
+        visit = int(long_enough[0])
         served[visit].append(stage)
         left[visit] -= need
     return served
-
-
-def _long_enough(
-    vertices: list[int], left: list[int], vertex: int, need: int, begin: int
-) -> Iterator[int]:
-    last = len(vertices) - 1
-    for visit in range(begin, last + 1):
-        if vertices[visit] == vertex and (visit == last or left[visit] >= need):
-            yield visit

@@ -3,7 +3,7 @@
 from rightofway.model.actual import Actual
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
-from rightofway.model.lap import Lap, lap_along
+from rightofway.model.lap import Lap, lap_of
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
 from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.model.robot import Robot, Stop, TripEnd, Turn
@@ -44,7 +44,7 @@ __all__ = [
     "choose_clock",
     "cluster",
     "edge_ticks",
-    "lap_along",
+    "lap_of",
     "least_dwell",
     "node_length",
     "roadmap_of_edges",

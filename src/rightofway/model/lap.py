@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import takewhile
 
 from rightofway.model.itinerary import Itinerary
-from rightofway.model.roadmap import Roadmap
-from rightofway.model.route import route_through
+from rightofway.model.route import Route
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Lap", "lap_along"]
+__all__ = ["Lap", "lap_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,21 +44,20 @@ class Lap:
         return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
 
 
-def lap_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Lap:
+def lap_of(itinerary: Itinerary, route: Route) -> Lap:
     """Wrap a round trip into a lap.
 
     Parameters
     ----------
-    roadmap
-        The graph it runs on.
     itinerary
-        What the robot has to do in one lap.
-    vertices
-        Where it goes, from home past all stops and home again.
+        What the robot has to do in one lap; it ends at home.
+    route
+        Where it goes for that; the last visit serves all stages at home at the end.
     """
-    twice = replace(itinerary, stages=itinerary.stages * 2)
-    route = route_through(roadmap, twice, [*vertices, *vertices[1:]])
-    second = slice(len(vertices) - 1, -1)
+    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
+    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
     return Lap(
-        vertices=route.vertices[second], dwell=route.dwell[second], drive=route.drive[second]
+        vertices=route.vertices[:-1],
+        dwell=(Tick(between), *route.dwell[1:-1]),
+        drive=(route.drive[-1], *route.drive[1:-1]),
     )

@@ -132,6 +132,9 @@ class PlannerRun:
         What it did, for people: ``waits only``, ``re-routed R3, R7``, ``optimal``, …
     seconds
         How long it took [s], or None where that was not kept.
+    first_plan_seconds
+        How long it took until there was a plan to improve on [s], or None where that was not kept.
+        Files do not keep it.
     decisions
         Rights of way in the order they were decided, by planners that can tell.
     reroutes
@@ -143,6 +146,7 @@ class PlannerRun:
     seed: int = 0
     status: str = ""
     seconds: float | None = None
+    first_plan_seconds: float | None = None
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import completions_of
+from rightofway.metrics import flowtime_of
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -46,10 +46,10 @@ def auto(task: Task) -> Draft:
     explained = _explained(task) if len(task.scenario.robots) <= FEW else None
     if explained is None:
         return lns(task)
-    first = (explained.tracks, f"two-level, {explained.status}")
+    first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
-    before, after = (completions_of(task.scenario, one.tracks) for one in (explained, better))
-    if sum(after) < sum(before):
+    before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
+    if after < before:
         return better
     return replace(explained, status=better.status)
 
@@ -57,6 +57,8 @@ def auto(task: Task) -> Draft:
 def _explained(task: Task) -> Draft | None:
     options = {"swaps": "resolve", "routes": "clear"}
     try:
-        return two_level(replace(task, options=options, deadline=task.deadline.sooner(SHARE)))
+        draft = two_level(replace(task, options=options, deadline=task.deadline.sooner(SHARE)))
     except GaveUp:
         return None
+    task.has_plan()
+    return draft

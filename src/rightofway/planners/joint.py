@@ -58,12 +58,14 @@ def plan_jointly(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]
     """
     tracks = _by_events(task, spreads=spreads)
     if tracks is not None:
+        task.has_plan()
         return tracks, "instant by instant"
     task.report("no end by instants: planning the order of moves without clocks")
     left = task.deadline.seconds_left()
-    distances = Distances(task.scenario.roadmap)
-    steps = joint_steps(task.scenario, distances, seed=task.seed, time_limit=left)
-    return timetable_of(task.scenario, steps), "order of moves first"
+    steps = joint_steps(task.scenario, seed=task.seed, time_limit=left)
+    tracks = timetable_of(task.scenario, steps)
+    task.has_plan()
+    return tracks, "order of moves first"
 
 
 def _by_events(task: Task, *, spreads: bool) -> list[Track] | None:

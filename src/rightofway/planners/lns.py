@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import completions_of
+from rightofway.metrics import flowtime_of
 from rightofway.model import Track
 from rightofway.planners.joint import plan_jointly
 from rightofway.planners.prioritized import fleet_search, plan_in_turn
@@ -24,12 +24,9 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
-__all__ = ["FirstPlan", "improved", "lns"]
+__all__ = ["improved", "lns"]
 
-FirstPlan = tuple[tuple[Track, ...], str]
-"""Tracks to improve on, and where they come from."""
-
-SHARE = 0.7
+SHARE = 0.9
 """The part of the time that planning all together may take."""
 
 PATIENCE = 1000
@@ -59,11 +56,11 @@ def lns(task: Task) -> Draft:
     """
     search = fleet_search(task)
     if task.start is not None:
-        return _improve(task, search, (task.start, "the plan given"))
+        return _improve(task, search, Draft(tracks=task.start, status="the plan given"))
     return improved(task, search)
 
 
-def improved(task: Task, search: FleetSearch, *, first: FirstPlan | None = None) -> Draft:
+def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
     """Improve the best of several first plans, of one that is there already and of our own.
 
     Raises
@@ -75,28 +72,27 @@ def improved(task: Task, search: FleetSearch, *, first: FirstPlan | None = None)
     plans = [plan for plan in found if plan is not None]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
-    best = min(plans, key=lambda plan: sum(completions_of(task.scenario, plan[0])))
+    best = min(plans, key=lambda plan: flowtime_of(task.scenario, plan.tracks))
     return _improve(task, search, best)
 
 
-def _together(task: Task) -> FirstPlan | None:
+def _together(task: Task) -> Draft | None:
     """Plan all robots together; that is quick, and no worse than nothing."""
     try:
         tracks, _ = plan_jointly(replace(task, deadline=task.deadline.sooner(SHARE)))
     except GaveUp:
         return None
-    return tuple(tracks), "all together"
+    return Draft(tracks=tuple(tracks), status="all together")
 
 
-def _improve(task: Task, search: FleetSearch, first: FirstPlan) -> Draft:
-    tracks, origin = first
-    search.start(_spaced(task, tracks))
+def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
+    search.start(_spaced(task, first.tracks))
     improvement = _Improvement(task, search)
     improvement.run()
     found = search.tracks()
-    if sum(completions_of(task.scenario, found)) > sum(completions_of(task.scenario, tracks)):
-        found = tracks  # the headway of planning may cost more than was won
-    return Draft(tracks=found, status=improvement.status(origin))
+    if flowtime_of(task.scenario, found) > flowtime_of(task.scenario, first.tracks):
+        found = first.tracks  # the headway of planning may cost more than was won
+    return Draft(tracks=found, status=improvement.status(first.status))
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

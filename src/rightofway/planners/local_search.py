@@ -68,6 +68,7 @@ def local_search(task: Task) -> Draft:
         As `two_level`, where no plan to start from is given.
     """
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
+    task.has_plan()
     before = graph_of(task.scenario, first.tracks)
     graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
     Search(task, graph).run(rounds=int(task.options["rounds"]))

@@ -61,6 +61,9 @@ class Task:
         When to stop.
     report
         Takes a sentence on progress.
+    has_plan
+        To be called as soon as there is a plan, by planners that then go on to a better one. Only
+        the first call counts.
     start
         A plan that keeps the rules, to improve on; only for planners that can.
     """
@@ -70,6 +73,7 @@ class Task:
     seed: int = 0
     deadline: Deadline = Deadline()
     report: Callable[[str], None] = lambda _: None
+    has_plan: Callable[[], None] = lambda: None
     start: tuple[Track, ...] | None = None
 
 

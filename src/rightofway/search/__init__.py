@@ -1,6 +1,7 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
 from rightofway.search.bookings import FOREVER, Booking, Bookings
+from rightofway.search.circle import Circle
 from rightofway.search.distances import Distances, Path
 from rightofway.search.events import plan_by_events
 from rightofway.search.fleet import FleetSearch
@@ -13,6 +14,7 @@ __all__ = [
     "FOREVER",
     "Booking",
     "Bookings",
+    "Circle",
     "Distances",
     "FleetSearch",
     "Path",

@@ -84,6 +84,18 @@ class FleetSearch:
         """
         return self._core.prioritize(np.array(order, np.int32), searches, time_limit)
 
+    def go_on(self, *, searches: int, time_limit: float | None) -> bool:
+        """Go on with `prioritize` where it ended; tell whether all robots have a track now.
+
+        Parameters
+        ----------
+        searches
+            After so many searches since the beginning it gives up.
+        time_limit
+            When to stop [s].
+        """
+        return self._core.go_on(searches, time_limit)
+
     def start(self, tracks: Sequence[Track]) -> None:
         """Take over tracks.
 

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Tick
-from rightofway.search.distances import Distances
+from rightofway.model import Scenario
 
 __all__ = ["joint_steps"]
 
@@ -23,7 +22,7 @@ FOUND, PROVEN_NONE = 0, 1
 
 
 def joint_steps(
-    scenario: Scenario, distances: Distances, *, seed: int = 0, time_limit: float | None = None
+    scenario: Scenario, *, seed: int = 0, time_limit: float | None = None
 ) -> NDArray[np.int32]:
     """Find steps for the whole fleet that bring every robot through its stages.
 
@@ -34,9 +33,7 @@ def joint_steps(
     Parameters
     ----------
     scenario
-        The problem; every stage can be reached.
-    distances
-        Tables that guide the search.
+        The problem.
     seed
         For ties.
     time_limit
@@ -59,7 +56,6 @@ def joint_steps(
     Complete; deterministic for a seed; not optimal.
     """
     itineraries = scenario.timing.itineraries
-    unit = tuple(Tick(1) for _ in scenario.roadmap.lengths)
     stages = [itinerary.stages for itinerary in itineraries]
     end, steps = _core.joint_steps(
         scenario.roadmap.indptr,
@@ -67,7 +63,6 @@ def joint_steps(
         np.array([itinerary.home for itinerary in itineraries], np.int32),
         np.array([0, *accumulate(map(len, stages))], np.int32),
         np.array([stage.vertex for stage in chain.from_iterable(stages)], np.int32),
-        [distances.to(stage.vertex, unit) for stage in chain.from_iterable(stages)],
         _may_rotate(scenario),
         seed,
         time_limit,

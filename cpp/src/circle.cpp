@@ -1,0 +1,259 @@
+#include "rightofway/circle.hpp"
+
+#include <algorithm>
+
+#include "rightofway/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr Tick longest_period = Tick{1} << 50;
+
+void require_round(const Round& round, VertexId n_vertices) {
+    require_length("dwell", round.dwell.size(), round.vertex.size());
+    require_length("drive", round.drive.size(), round.vertex.size());
+    if (round.vertex.size() < 2) {
+        reject("vertex", static_cast<std::int64_t>(round.vertex.size()), "visits are too few");
+    }
+    for (std::size_t k = 0; k < round.vertex.size(); ++k) {
+        require_id("vertex[" + std::to_string(k) + "]", round.vertex[k], n_vertices);
+        if (round.dwell[k] < 0 || round.dwell[k] > longest_period) {
+            reject_entry("dwell", k, round.dwell[k], "is negative or too long");
+        }
+        if (round.drive[k] <= 0 || round.drive[k] > longest_period) {
+            reject_entry("drive", k, round.drive[k], "is not above 0, or too long");
+        }
+    }
+}
+
+}  // namespace
+
+Circle::Circle(VertexId n_vertices, Tick period, Tick headway, bool books_ahead)
+    : period_(period), headway_(headway), books_ahead_(books_ahead) {
+    if (n_vertices < 0) {
+        reject("n_vertices", n_vertices, "is negative");
+    }
+    if (period <= 0 || period > longest_period) {
+        reject("period", period, "is not above 0, or too long");
+    }
+    if (headway < 0 || headway > longest_period) {
+        reject("headway", headway, "is negative or too long");
+    }
+    at_.resize(static_cast<std::size_t>(n_vertices));
+}
+
+Tick Circle::fold(Tick tick) const {
+    const Tick rest = tick % period_;
+    return rest < 0 ? rest + period_ : rest;
+}
+
+// What a visit books, its start turned into the first period.
+Circle::Booking Circle::folded(const Round& round, std::span<const Tick> enter, std::size_t k,
+                               RobotId robot) const {
+    const std::size_t n = round.vertex.size();
+    const Tick leave = k + 1 < n ? enter[k + 1] : enter[0] + period_;
+    const Tick start = enter[k] - (books_ahead_ ? round.drive[k] : 0);
+    const Tick begins = fold(start);
+    return {begins, begins + (leave + headway_ - start), robot};
+}
+
+bool Circle::is_free(VertexId vertex, const Booking& booking) const {
+    for (const Booking& other : at_[static_cast<std::size_t>(vertex)]) {
+        for (const Tick shift : {-period_, Tick{0}, period_}) {
+            if (other.robot != booking.robot && other.start + shift < booking.end &&
+                booking.start < other.end + shift) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void Circle::add(RobotId robot, const Round& round, std::span<const Tick> enter) {
+    require_round(round, static_cast<VertexId>(at_.size()));
+    require_length("enter", enter.size(), round.vertex.size());
+    if (vertices_of_.contains(robot)) {
+        reject("robot", robot, "is there already");
+    }
+    const std::size_t n = enter.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        if ((k + 1 < n ? enter[k + 1] : enter[0] + period_) <= enter[k]) {
+            reject_entry("enter", k, enter[k], "is not before the next, or not within a period");
+        }
+        if (!is_free(round.vertex[k], folded(round, enter, k, robot))) {
+            reject_entry("enter", k, enter[k], "overlaps the booking of another robot");
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        auto& row = at_[static_cast<std::size_t>(round.vertex[k])];
+        const Booking booking = folded(round, enter, k, robot);
+        row.insert(std::upper_bound(row.begin(), row.end(), booking,
+                                    [](const Booking& one, const Booking& other) {
+                                        return one.start < other.start;
+                                    }),
+                   booking);
+    }
+    vertices_of_[robot].assign(round.vertex.begin(), round.vertex.end());
+}
+
+void Circle::remove(RobotId robot) {
+    const auto found = vertices_of_.find(robot);
+    if (found == vertices_of_.end()) {
+        return;
+    }
+    for (const VertexId vertex : found->second) {
+        std::erase_if(at_[static_cast<std::size_t>(vertex)],
+                      [robot](const Booking& one) { return one.robot == robot; });
+    }
+    vertices_of_.erase(found);
+}
+
+// Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in order,
+// until it returns false. Gaps may be empty where one robot follows another at once.
+template <class Use>
+void Circle::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
+    const auto& row = at_[static_cast<std::size_t>(vertex)];
+    if (row.empty()) {
+        use(Gap{-infinity, infinity, nobody, nobody});
+        return;
+    }
+    // The first gap is that before the first booking that starts at `from` or after it.
+    const Tick turn = from - fold(from);
+    std::size_t k = static_cast<std::size_t>(
+        std::lower_bound(row.begin(), row.end(), from - turn,
+                         [](const Booking& one, Tick tick) { return one.start < tick; }) -
+        row.begin());
+    for (Tick shift = turn;; ++k) {
+        if (k == row.size()) {
+            k = 0;
+            shift += period_;
+        }
+        const Booking& before = k > 0 ? row[k - 1] : row.back();
+        const Tick start = before.end + shift - (k > 0 ? 0 : period_);
+        if (start > to || !use(Gap{start, row[k].start + shift, before.robot, row[k].robot})) {
+            return;
+        }
+    }
+}
+
+bool Circle::search(const Round& round, Tick phase, std::vector<Tick>& enter,
+                    const IsOver& is_over) {
+    require_round(round, static_cast<VertexId>(at_.size()));
+    const std::size_t n = round.vertex.size();
+    rest_.assign(n + 1, 0);
+    for (std::size_t k = n; k-- > 0;) {
+        rest_[k] = rest_[k + 1] + round.dwell[k] + round.drive[(k + 1) % n];
+    }
+    stays_.resize(std::max(stays_.size(), n + 1));
+    if (rest_[0] > period_) {
+        return false;
+    }
+    const Tick approach = books_ahead_ ? round.drive[0] : 0;
+    const Tick first = fold(phase);
+    bool is_found = false;
+    reached_ = 0;
+    for_each_gap(round.vertex[0], first, first + period_, [&](const Gap& home) {
+        const Tick start = home.start == -infinity ? first : home.start + approach;
+        is_found = close_from(round, home, start, enter, is_over);
+        return !is_found;
+    });
+    return is_found;
+}
+
+// Starts as early in a gap of its home as it can be back there a period later.
+bool Circle::close_from(const Round& round, const Gap& home, Tick start, std::vector<Tick>& enter,
+                        const IsOver& is_over) {
+    const Tick leaves =
+        home.end == infinity ? start : home.end - headway_ - round.dwell[0] - round.drive[1];
+    while (start <= leaves && !is_over()) {
+        // Home again at the latest when the last possible start comes again.
+        const Tick again =
+            run(round, home, start, (home.end == infinity ? start : leaves) + period_);
+        if (again >= infinity) {
+            return false;
+        }
+        if (again <= start + period_) {
+            trace(round, closing_, enter);
+            return true;
+        }
+        start = again - period_;
+    }
+    return false;
+}
+
+// When a robot that enters its home at `start` is there again, in the same gap a period later;
+// infinity if it cannot be.
+Tick Circle::run(const Round& round, const Gap& home, Tick start, Tick latest) {
+    const std::size_t n = round.vertex.size();
+    for (std::size_t k = 0; k <= n; ++k) {
+        stays_[k].clear();
+    }
+    stays_[0].push_back({start, home, nobody});
+    for (std::size_t k = 0; k < n && !stays_[k].empty(); ++k) {
+        reached_ = std::max(reached_, k);
+        for (std::size_t from = 0; from < stays_[k].size(); ++from) {
+            go_on(round, k, static_cast<std::int32_t>(from), latest);
+        }
+    }
+    closing_ = nobody;
+    for (std::size_t k = 0; k < stays_[n].size(); ++k) {
+        const Stay& stay = stays_[n][k];
+        if (home.end == infinity || stay.gap.start == home.start + period_) {
+            closing_ = static_cast<std::int32_t>(k);
+            return stay.enter;
+        }
+    }
+    return infinity;
+}
+
+// Drives from a stay into every gap of the next vertex that it can enter.
+void Circle::go_on(const Round& round, std::size_t k, std::int32_t from, Tick latest) {
+    const std::size_t n = round.vertex.size();
+    const Stay here = stays_[k][static_cast<std::size_t>(from)];
+    const std::size_t next = (k + 1) % n;
+    const Tick soonest = here.enter + round.dwell[k] + round.drive[next];
+    const Tick last = std::min(here.gap.end == infinity ? infinity : here.gap.end - headway_,
+                               latest - rest_[k + 1]);
+    if (soonest > last) {
+        return;
+    }
+    const Tick approach = books_ahead_ ? round.drive[next] : 0;
+    for_each_gap(round.vertex[next], soonest, last - approach, [&](const Gap& gap) {
+        const Tick enter =
+            gap.start == -infinity ? soonest : std::max(soonest, gap.start + approach);
+        if (enter > last) {
+            return false;
+        }
+        const bool swaps = headway_ == 0 && approach == 0 && gap.start == enter &&
+                           here.gap.end == enter && gap.before == here.gap.after;
+        if (!swaps && (gap.end == infinity || enter + headway_ < gap.end)) {
+            arrive(k + 1, {enter, gap, from});
+        }
+        return true;
+    });
+}
+
+void Circle::arrive(std::size_t k, const Stay& stay) {
+    for (Stay& known : stays_[k]) {
+        if (known.gap.start == stay.gap.start && known.gap.end == stay.gap.end) {
+            if (stay.enter < known.enter) {
+                known = stay;
+            }
+            return;
+        }
+    }
+    stays_[k].push_back(stay);
+}
+
+void Circle::trace(const Round& round, std::int32_t last, std::vector<Tick>& enter) const {
+    const std::size_t n = round.vertex.size();
+    enter.resize(n);
+    std::int32_t stay = last;
+    for (std::size_t k = n; k > 0; --k) {
+        const Stay& one = stays_[k][static_cast<std::size_t>(stay)];
+        enter[k % n] = k == n ? one.enter - period_ : one.enter;
+        stay = one.from;
+    }
+}
+
+}  // namespace rightofway

@@ -1,0 +1,207 @@
+"""The timetable of one group: many first ones, the best improved, none below its rival."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import count, islice
+from typing import Literal
+
+import numpy as np
+
+from rightofway.errors import GaveUp
+from rightofway.laps.building import build
+from rightofway.laps.endless import Endless
+from rightofway.laps.improving import improve
+from rightofway.laps.jointly import jointly
+from rightofway.laps.outcome import GroupRun
+from rightofway.laps.run import run_group
+from rightofway.laps.shift import Choice, Shift, Work
+from rightofway.model import Scenario, Tick
+from rightofway.planners import Task
+from rightofway.precedence import PeriodicTimetable, unrolled
+
+__all__ = ["GroupTimetable", "choose"]
+
+RIVAL_SHARE = 0.2
+"""The part of its time that a group may take to see what first come first served does."""
+
+BUILDING_SHARE = 0.4
+"""The part of what is left then that goes into first timetables."""
+
+TRYING_SHARE = 0.5
+"""The part of what is left then that shows which of those kept is worth going on with."""
+
+LONGEST_PERIOD = 5
+"""First timetables have periods of at most so many of the longest laps."""
+
+KEPT = 4
+"""How many first timetables are improved a little, before one of them is gone on with."""
+
+MOST_VISITS = 20_000
+"""A cycle time that is a fraction becomes whole in more periods, up to so many visits."""
+
+
+FirstComeEnds = Literal["repeats", "starves", "deadlock", "open"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GroupTimetable:
+    """The timetable chosen for a group of robots that have to do with each other.
+
+    Attributes
+    ----------
+    timetable
+        Laps, how many each robot makes in a period, and when.
+    worth
+        What the laps of a period are worth in all; without weights: how many there are.
+    fairness
+        The least part of its laps alone that any robot makes, 0 to 1.
+    first_come_ends
+        How first come first served ends on the usual ways: as in `GroupRun`, or ``starves`` if it
+        repeats for ever while a robot stands still.
+    first_come
+        What its laps are worth per tick: of its pattern, or of the laps that were seen; 0 in a
+        deadlock.
+    """
+
+    timetable: PeriodicTimetable
+    worth: Fraction
+    fairness: Fraction
+    first_come_ends: FirstComeEnds
+    first_come: Fraction
+
+    @property
+    def throughput(self) -> Fraction:
+        """What its laps are worth per tick."""
+        return self.worth / int(self.timetable.period)
+
+
+def choose(
+    scenario: Scenario, group: Sequence[Endless], shift: Shift, *, rounds: int | None = None
+) -> GroupTimetable:
+    """Choose the timetable of a group.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    group
+        The usual round trips of its robots.
+    shift
+        What there is to choose from, and what for.
+    rounds
+        How many first timetables to build, and in how many steps to improve each that is kept.
+
+    Raises
+    ------
+    GaveUp
+        If none was found in which all robots have a place and nobody starves.
+    """
+    if len(group) == 1:
+        alone = _alone(shift)
+        return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
+    rival = _rival(scenario, group, shift)
+    worth, pattern = _worth(shift, rival), rival.timetable
+    starves = rival.ends == "repeats" and pattern is None
+    ends: FirstComeEnds = "starves" if starves else rival.ends
+    is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
+    starts = list(_first_timetables(shift, rounds))
+    if pattern is not None and is_fair:
+        starts.append(shift.tightened(pattern))
+    if not starts and (together := jointly(scenario, shift)):
+        shift = shift.also(together.timetable.laps)
+        starts = [together]
+    if not starts or not shift.is_fair(starts[0].timetable.counts, starts[0].cycle_time):
+        raise GaveUp(_nothing(shift))
+    whole = _whole(shift, _improved(shift, starts, rounds))
+    if pattern is not None and is_fair and worth > _value(shift, whole):
+        whole = pattern
+    return _told(shift, whole, ends, worth)
+
+
+def _nothing(shift: Shift) -> str:
+    who = f"{len(shift.robots)} robots that have to do with each other"
+    if shift.least_fairness:
+        return f"no timetable was found for {who} that is fair enough (ask for less, or give time)"
+    return f"no timetable was found for {who} (give more time)"
+
+
+def _alone(shift: Shift) -> PeriodicTimetable:
+    """Return the timetable of a robot that meets nobody."""
+    lap = min(shift.ways[0], key=lambda lap: lap.duration)
+    enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
+    return shift.timetable([Work(lap, 1, enter)], int(lap.duration))
+
+
+def _rival(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> GroupRun:
+    """Let the group go on by first come first served."""
+    task = Task(
+        scenario=scenario,
+        options={"swaps": "resolve"},
+        deadline=shift.deadline.sooner(RIVAL_SHARE),
+    )
+    return run_group(task, group, "first-come")
+
+
+def _worth(shift: Shift, run: GroupRun) -> Fraction:
+    """Return what the laps of a run are worth per tick."""
+    if run.ends == "deadlock":
+        return Fraction(0)
+    means = zip(shift.weights, run.mean_laps(), strict=True)
+    return sum((weight / mean for weight, mean in means if mean), Fraction(0))
+
+
+def _value(shift: Shift, timetable: PeriodicTimetable) -> Fraction:
+    return shift.worth(timetable.counts) / int(timetable.period)
+
+
+def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
+    """Yield the best of many timetables, built for periods of all kinds."""
+    building = shift.until(shift.deadline.sooner(BUILDING_SHARE))
+    built: list[Choice] = []
+    for number in islice(count(), rounds):
+        longest = max(shift.alone)
+        times = shift.draw.uniform(1, LONGEST_PERIOD) if number else 1.2
+        try:
+            placing = building if built else shift
+            built.append(build(placing, int(longest * times), filling=building))
+        except GaveUp:
+            break
+    fair = [one for one in built if shift.is_fair(one.timetable.counts, one.cycle_time)]
+    yield from sorted(fair, key=shift.value, reverse=True)[:KEPT]
+
+
+def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Choice:
+    """Improve all a little, and go on with the best."""
+    trying = shift.deadline.sooner(TRYING_SHARE)
+    tried = []
+    for index, start in enumerate(starts):
+        share = shift.until(trying.sooner(1 / (len(starts) - index)))
+        tried.append(improve(share, start, steps=rounds))
+    return improve(shift, max(tried, key=shift.value), steps=rounds)
+
+
+def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:
+    """Return the timetable as tight as it can be in whole ticks."""
+    timetable, parts = choice.timetable, choice.cycle_time.denominator
+    if parts * sum(map(len, timetable.enter)) <= MOST_VISITS:
+        timetable = unrolled(timetable, parts)
+        return shift.graph(timetable).earliest(Tick(choice.cycle_time.numerator))
+    return shift.graph(timetable).earliest(Tick(choice.period))
+
+
+def _told(
+    shift: Shift,
+    timetable: PeriodicTimetable,
+    ends: FirstComeEnds,
+    first_come: Fraction,
+) -> GroupTimetable:
+    return GroupTimetable(
+        timetable=timetable,
+        worth=shift.worth(timetable.counts),
+        fairness=shift.fairness(timetable.counts, int(timetable.period)),
+        first_come_ends=ends,
+        first_come=first_come,
+    )

@@ -1,0 +1,167 @@
+"""A group whose timetable is to be chosen: ways, what a lap is worth, what is fair."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.model import Lap, Tick
+from rightofway.planners import Deadline
+from rightofway.precedence import EventGraph, PeriodicTimetable
+from rightofway.search import Circle
+
+__all__ = ["Choice", "Shift", "Work"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Work:
+    """What one robot does in a period.
+
+    Attributes
+    ----------
+    lap
+        The way it takes.
+    count
+        How many laps it makes.
+    enter
+        When its visits begin [ticks]; int64.
+    """
+
+    lap: Lap
+    count: int
+    enter: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Choice:
+    """A timetable of a group, and its exact cycle time [ticks]."""
+
+    timetable: PeriodicTimetable
+    cycle_time: Fraction
+
+    @property
+    def period(self) -> int:
+        """The least whole number of ticks that the period can be."""
+        return -(-self.cycle_time.numerator // self.cycle_time.denominator)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shift:
+    """A group of robots and by which rules they are to work.
+
+    Attributes
+    ----------
+    n_vertices
+        How many vertices the roadmap has.
+    headway, books_ahead
+        What a visit books.
+    robots
+        The numbers of the robots.
+    ways
+        For each of them the laps to choose from; the first is the usual one.
+    forbidden
+        Vertices of other groups.
+    weights
+        What a lap of each is worth, above 0.
+    least_fairness
+        Which part of its laps alone every robot must make at least.
+    deadline
+        When to stop.
+    draw
+        The source of randomness.
+    """
+
+    n_vertices: int
+    headway: Tick
+    books_ahead: bool
+    robots: tuple[int, ...]
+    ways: tuple[tuple[Lap, ...], ...]
+    forbidden: frozenset[int]
+    weights: tuple[Fraction, ...]
+    least_fairness: Fraction
+    deadline: Deadline
+    draw: random.Random
+
+    @cached_property
+    def alone(self) -> tuple[Tick, ...]:
+        """How long the shortest lap of each robot takes that nobody holds up [ticks]."""
+        return tuple(min(lap.duration for lap in ways) for ways in self.ways)
+
+    def until(self, deadline: Deadline) -> Self:
+        """Return the same with another deadline."""
+        return replace(self, deadline=deadline)
+
+    def also(self, laps: Sequence[Lap]) -> Self:
+        """Return the same with one more way for each robot."""
+        ways = zip(self.ways, laps, strict=True)
+        return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
+
+    def has_ways(self, place: int) -> bool:
+        """Tell whether a robot has more than one way to choose from."""
+        return len(self.ways[place]) > 1
+
+    def worth(self, counts: Sequence[int]) -> Fraction:
+        """Return what the laps of a period are worth."""
+        return sum(
+            (weight * count for weight, count in zip(self.weights, counts, strict=True)),
+            Fraction(0),
+        )
+
+    def value(self, choice: Choice) -> Fraction:
+        """Return what the laps are worth per tick: what is to be made large."""
+        return self.worth(choice.timetable.counts) / choice.cycle_time
+
+    def fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
+        """Return the least part of its laps alone that any robot makes."""
+        return min(
+            Fraction(count * alone) / period
+            for count, alone in zip(counts, self.alone, strict=True)
+        )
+
+    def is_fair(self, counts: Sequence[int], period: Fraction | int) -> bool:
+        """Tell whether nobody starves."""
+        return self.fairness(counts, period) >= self.least_fairness
+
+    def circle(self, period: int) -> Circle:
+        """Return an empty circle of that period."""
+        return Circle(
+            self.n_vertices, Tick(period), headway=self.headway, books_ahead=self.books_ahead
+        )
+
+    def graph(self, timetable: PeriodicTimetable) -> EventGraph:
+        """Return the event graph of a timetable under these rules."""
+        return EventGraph(timetable, headway=self.headway, books_ahead=self.books_ahead)
+
+    def timetable(self, works: Sequence[Work], period: int) -> PeriodicTimetable:
+        """Join what all robots do to a timetable."""
+        return PeriodicTimetable(
+            robots=self.robots,
+            laps=tuple(work.lap for work in works),
+            counts=tuple(work.count for work in works),
+            period=Tick(period),
+            enter=tuple(work.enter for work in works),
+        )
+
+    def tightened(self, timetable: PeriodicTimetable) -> Choice:
+        """Return the timetable with its cycle time: how short its orders let the period be."""
+        return Choice(timetable, self.graph(timetable).critical_circuit().cycle_time)
+
+    def place(
+        self, circle: Circle, place: int, count: int, *, lap: Lap | None = None, tries: int = 3
+    ) -> Work | None:
+        """Return a way round the circle for a robot, on one of its laps; None if none is found."""
+        ways = [lap] if lap else self.draw.sample(self.ways[place], len(self.ways[place]))
+        for way in ways:
+            for _ in range(tries):
+                phase = self.draw.randrange(int(circle.period))
+                enter = circle.search(way, count, phase, time_limit=self.deadline.seconds_left())
+                if enter is not None:
+                    return Work(way, count, enter)
+        return None

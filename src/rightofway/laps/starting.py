@@ -1,0 +1,107 @@
+"""A timetable, begun: all robots wait at home until their first lap of it is due.
+
+Then the fleet follows the timetable from the first lap on, and what holds for a run holds for it:
+its report, its plan. Where others pass a robot's home while it would still wait there, another
+tick is a better beginning; the one with the fewest of these is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rightofway.laps.choosing import GroupTimetable
+from rightofway.laps.endless import Endless
+from rightofway.laps.outcome import GroupRun, LapsRun
+from rightofway.laps.pattern import Pattern
+from rightofway.model import Scenario, Tick
+from rightofway.precedence import PeriodicTimetable
+
+__all__ = ["run_of"]
+
+MOST_BEGINNINGS = 200
+"""How many beginnings are looked at; in large groups not all."""
+
+PERIODS = 3
+"""How many periods of visits a run is told with."""
+
+
+def run_of(scenario: Scenario, chosen: Sequence[GroupTimetable]) -> LapsRun:
+    """Let a fleet begin its timetables and go on with them for ever."""
+    return LapsRun(
+        scenario=scenario,
+        rule="timetable",
+        routes="clear",
+        groups=tuple(_group_run(scenario, one.timetable) for one in chosen),
+    )
+
+
+def _group_run(scenario: Scenario, timetable: PeriodicTimetable) -> GroupRun:
+    begins = min(_beginnings(timetable), key=lambda tick: (_in_the_way(timetable, tick), tick))
+    history = tuple(_history(timetable, robot, begins) for robot in range(len(timetable.laps)))
+    counts, lengths = timetable.counts, tuple(map(len, timetable.laps))
+    pattern = Pattern(
+        transient=Tick(max(past[1] for past in history)),
+        period=timetable.period,
+        counts=counts,
+        history=history,
+        lengths=lengths,
+        regular=(1,) * len(history),
+    )
+    group = tuple(_endless(scenario, timetable, robot) for robot in range(len(history)))
+    return GroupRun(ends="repeats", why="", group=group, history=history, pattern=pattern)
+
+
+def _endless(scenario: Scenario, timetable: PeriodicTimetable, place: int) -> Endless:
+    robot, lap = timetable.robots[place], timetable.laps[place]
+    turn = scenario.timing.itineraries[robot].stages[-1].turn
+    return Endless(robot=robot, lap=lap, first_least=Tick(lap.least(0) - turn))
+
+
+def _beginnings(timetable: PeriodicTimetable) -> list[int]:
+    """Return the ticks at which a robot comes home."""
+    homes = [
+        enter[:: len(lap)] % int(timetable.period)
+        for lap, enter in zip(timetable.laps, timetable.enter, strict=True)
+    ]
+    ticks: list[int] = np.unique(np.concatenate(homes)).tolist()
+    return ticks[:: -(-len(ticks) // MOST_BEGINNINGS)]
+
+
+def _first_home(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, int]:
+    """Return the visit and the tick at which a robot is first at home from a tick on."""
+    period, length = int(timetable.period), len(timetable.laps[robot])
+    enter = timetable.enter[robot].tolist()
+    return min(
+        ((tick - begins) % period + begins, visit)
+        for visit, tick in enumerate(enter)
+        if visit % length == 0
+    )[::-1]
+
+
+def _in_the_way(timetable: PeriodicTimetable, begins: int) -> int:
+    """Return how many visits others make to homes whose robots still wait there."""
+    until = {
+        lap.vertices[0]: (robot, _first_home(timetable, robot, begins)[1])
+        for robot, lap in enumerate(timetable.laps)
+    }
+    period, visits = int(timetable.period), 0
+    for robot, (lap, count, enter) in enumerate(
+        zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
+    ):
+        for vertex, tick in zip(lap.vertices * count, enter.tolist(), strict=True):
+            owner, waits = until.get(vertex, (robot, 0))
+            when = (tick - begins) % period + begins
+            visits += owner != robot and when < waits
+    return visits
+
+
+def _history(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, ...]:
+    """Return when visits begin, counted from the beginning; at home from then on."""
+    period, enter = int(timetable.period), timetable.enter[robot]
+    visit, tick = _first_home(timetable, robot, begins)
+    turn = np.arange(PERIODS + 1)[:, None] * period
+    times = (enter + turn).ravel()[visit : visit + PERIODS * len(enter) + 1]
+    shifted = times - times[0] + tick - begins
+    return (0, *shifted[1:].tolist())

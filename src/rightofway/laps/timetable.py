@@ -1,0 +1,123 @@
+"""A timetable that repeats, chosen well: as many laps per tick as can be, and nobody starves."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+from rightofway.errors import InputError
+from rightofway.laps.choosing import GroupTimetable, choose
+from rightofway.laps.endless import endless_routes
+from rightofway.laps.groups import independent_groups
+from rightofway.laps.shift import Shift
+from rightofway.model import Lap, Scenario, VertexId
+from rightofway.planners import Deadline, planning_headway
+
+__all__ = ["best_timetable"]
+
+
+def best_timetable(
+    scenario: Scenario,
+    *,
+    weights: Sequence[Fraction] | None = None,
+    least_fairness: Fraction = Fraction(0),
+    time_limit: float | None = 10,
+    rounds: int | None = None,
+    seed: int = 0,
+    report: Callable[[str], None] | None = None,
+) -> list[GroupTimetable]:
+    """Choose ways, laps per period and rights of way so that the laps are worth most per tick.
+
+    Parameters
+    ----------
+    scenario
+        The problem; its number of laps plays no part.
+    weights
+        What a lap of each robot is worth, above 0; one each if None.
+    least_fairness
+        Which part of its laps alone each robot must make at least, 0 to 1.
+    time_limit
+        When to stop [s]; None for no limit. Groups get shares of it by their size.
+    rounds
+        How many first timetables to build for each group, and in how many steps to improve each
+        that is kept; None for as many as there is time for.
+    seed
+        For what is drawn at random.
+    report
+        Takes sentences on the progress.
+
+    Returns
+    -------
+    list of GroupTimetable
+        One for each independent group, by their first robots.
+
+    Raises
+    ------
+    InputError
+        For weights that do not fit, or a robot that has no lap to repeat.
+    NoPlanExists
+        If a robot has no way to a place.
+    GaveUp
+        If a group has no timetable in which all robots have a place and nobody starves.
+
+    Notes
+    -----
+    Never below the pattern of first come first served, where it has one in its share of the time
+    and that is fair enough. Deterministic for a seed where rounds end before time does. Not
+    optimal.
+    """
+    _refuse(scenario, weights, least_fairness, time_limit, rounds)
+    deadline = Deadline.after(time_limit)
+    groups = independent_groups(endless_routes(scenario))
+    others = [one.lap for one in endless_routes(scenario, "shortest")]
+    taken = {vertex for group in groups for one in group for vertex in one.lap.vertices}
+    found: dict[int, GroupTimetable] = {}
+    left = len(scenario.robots)
+    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
+        group = groups[index]
+        if report:
+            report(f"{len(found)} of {len(groups)} groups done, next one of {len(group)} robots")
+        taken -= {vertex for one in group for vertex in one.lap.vertices}
+        shift = Shift(
+            n_vertices=scenario.roadmap.n_vertices,
+            headway=planning_headway(scenario),
+            books_ahead=scenario.rules.books_ahead,
+            robots=tuple(one.robot for one in group),
+            ways=tuple(_ways(one.lap, others[one.robot], taken) for one in group),
+            forbidden=frozenset(taken),
+            weights=tuple(weights[one.robot] if weights else Fraction(1) for one in group),
+            least_fairness=least_fairness,
+            deadline=deadline.sooner(len(group) / left),
+            draw=random.Random(f"{seed} {index}"),  # noqa: S311 (no secret depends on it)
+        )
+        left -= len(group)
+        found[index] = choose(scenario, group, shift, rounds=rounds)
+        taken |= {v for lap in found[index].timetable.laps for v in lap.vertices}
+    return [found[index] for index in range(len(groups))]
+
+
+def _refuse(
+    scenario: Scenario,
+    weights: Sequence[Fraction] | None,
+    least_fairness: Fraction,
+    time_limit: float | None,
+    rounds: int | None,
+) -> None:
+    robots = len(scenario.robots)
+    if weights is not None and len(weights) != robots:
+        raise InputError.at("weights", f"{len(weights)} for {robots} robots (give one for each)")
+    for index, weight in enumerate(weights or ()):
+        if weight <= 0:
+            raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
+    if not 0 <= least_fairness <= 1:
+        raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
+    if time_limit is None and rounds is None:
+        raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
+
+
+def _ways(usual: Lap, other: Lap, taken: set[VertexId]) -> tuple[Lap, ...]:
+    """Return the laps a robot may take: not through places of other groups."""
+    if other == usual or taken.intersection(other.vertices):
+        return (usual,)
+    return usual, other

@@ -1,0 +1,107 @@
+"""``rightofway laps``: what it prints, for people and for programs, and how it ends."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import EXAMPLES, Cli
+
+SLOWER = """
+format: rightofway-scenario/1
+map: {grid: ["...", "@.@", "..."]}
+robots:
+  - {name: R1, home: N0, target: N6, speed: 1/2}
+  - {name: R2, home: N2, target: N8, speed: 1/3}
+"""
+"""The second door of the paper: one robot needs two units of time for a cell, the other three."""
+
+
+@pytest.fixture
+def slower(tmp_path: Path) -> Path:
+    path = tmp_path / "slower.yaml"
+    path.write_text(SLOWER, encoding="utf-8")
+    return path
+
+
+def test_the_report_sets_the_first_lap_against_the_later_ones(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower)
+    assert ended.code == 0
+    assert max(map(len, ended.out.splitlines())) <= 80
+    assert "2 robots: from time 8 on, all repeats every 30" in ended.out
+    assert "R1               1        30        20    33.3%" in ended.out
+    assert "  N7: R1 waits for R2, first lap at 12; each period at 19" in ended.out
+    assert "  N1: R2 waits for R1, first lap at 3\n" in ended.out
+    assert "bottleneck: R2's own lap: it waits for nobody" in ended.out
+
+
+def test_the_report_for_programs_has_exact_times(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower, "--json")
+    [group] = json.loads(ended.out)["groups"]
+    assert group["robots"] == ["R1", "R2"]
+    assert (group["transient"], group["period"]) == ("8", "30")
+    assert group["laps_per_period"] == {"R1": 1, "R2": 1}
+    assert group["mean_lap"] == {"R1": "30", "R2": "30"}
+    assert group["waiting_share"] == {"R1": "1/3", "R2": "0"}
+    assert group["conflicts"] == [
+        {"vertex": "N1", "robots": ["R1", "R2"], "waits": "R1", "offset": "4", "for": "5"},
+        {"vertex": "N7", "robots": ["R1", "R2"], "waits": "R1", "offset": "19", "for": "5"},
+    ]
+    assert {piece["robot"] for piece in group["bottleneck"]} == {"R2"}
+
+
+def test_a_robot_that_waits_for_ever_is_told(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower, "--rule", "fixed-order")
+    assert "R2               0     never        30\n" in ended.out
+
+
+def test_a_run_becomes_a_plan_that_check_accepts(cli: Cli, slower: Path) -> None:
+    assert cli("laps", slower, "-o", "plan.json").code == 0
+    assert cli("check", "plan.json").code == 0
+    alone = cli("laps", slower, "-o", "-")
+    assert json.loads(alone.out)["format"] == "rightofway-plan/1"
+
+
+@pytest.mark.parametrize("rule", ["first-come", "fixed-order", "two-level"])
+@pytest.mark.parametrize("example", ["door", "crossroad"])
+def test_the_cases_of_the_paper_repeat_under_every_rule(cli: Cli, example: str, rule: str) -> None:
+    assert cli("laps", EXAMPLES / f"{example}.yaml", "--rule", rule).code == 0
+
+
+def test_a_standstill_ends_with_1_and_says_who(cli: Cli, tmp_path: Path) -> None:
+    scenario = tmp_path / "corridor.yaml"
+    scenario.write_text(
+        'format: rightofway-scenario/1\nmap: {grid: ["...."]}\nrobots:\n'
+        "  - {name: R1, home: N0, target: N3}\n  - {name: R2, home: N3, target: N0}\n",
+        encoding="utf-8",
+    )
+    ended = cli("laps", scenario)
+    assert ended.code == 1
+    assert "waiting cannot keep R1 and R2 apart at N" in ended.out
+
+
+def test_time_that_runs_out_ends_with_3_and_says_what_was_seen(cli: Cli) -> None:
+    ended = cli("laps", EXAMPLES / "warehouse.yaml", "--time-limit", "0.5")
+    assert ended.code == 3
+    assert "no state came again within the time limit. Their laps so far:" in ended.out
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["--rule", "last-come"], "'last-come' is not one of"),
+        (["--time-limit", "0"], "0 is not positive"),
+        (["-o", "-", "--json"], "both go to standard output"),
+    ],
+)
+def test_bad_use_ends_with_2(cli: Cli, door: Path, args: list[str], message: str) -> None:
+    ended = cli("laps", door, *args)
+    assert ended.code == 2
+    assert message in ended.err
+
+
+def test_trips_without_a_way_back_are_refused_with_their_place(cli: Cli, slower: Path) -> None:
+    slower.write_text(SLOWER + "rules: {return: none}\n", encoding="utf-8")
+    ended = cli("laps", slower)
+    assert ended.code == 2
+    assert "robots[0].return: 'none' leaves nothing to repeat (set return: home)" in ended.err

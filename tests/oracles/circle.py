@@ -1,0 +1,137 @@
+"""A robot's way round the circle, tick by tick; and whether a timetable keeps every rule."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+
+from rightofway.model import Lap
+from rightofway.precedence import PeriodicTimetable
+
+
+def bookings(
+    lap: Lap, enter: Sequence[int], period: int, *, headway: int, books_ahead: bool
+) -> list[tuple[int, int, int]]:
+    """Return (vertex, start, end) of all visits of one period."""
+    times = [*enter, enter[0] + period]
+    return [
+        (
+            lap.vertices[k % len(lap)],
+            times[k] - (lap.drive[k % len(lap)] if books_ahead else 0),
+            times[k + 1] + headway,
+        )
+        for k in range(len(enter))
+    ]
+
+
+def faults(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool) -> list[str]:
+    """Return what is wrong in a timetable: drives too fast, overlaps, swaps; over three periods."""
+    period = int(timetable.period)
+    found = []
+    for lap, count, enter in zip(timetable.laps, timetable.counts, timetable.enter, strict=True):
+        times = [*enter.tolist(), int(enter[0]) + period]
+        if len(enter) != count * len(lap) or not 0 <= times[0] < period:
+            found.append("visits do not fit the laps")
+        found += [
+            f"too fast at visit {k}"
+            for k in range(len(enter))
+            if times[k + 1] - times[k] < lap.least(k % len(lap))
+        ]
+    for one, other in combinations(range(len(timetable.laps)), 2):
+        found += _meetings(timetable, one, other, headway=headway, books_ahead=books_ahead)
+    return found
+
+
+def _meetings(
+    timetable: PeriodicTimetable, one: int, other: int, *, headway: int, books_ahead: bool
+) -> list[str]:
+    period = int(timetable.period)
+    own, others = (
+        bookings(
+            timetable.laps[robot],
+            timetable.enter[robot].tolist(),
+            period,
+            headway=headway,
+            books_ahead=books_ahead,
+        )
+        for robot in (one, other)
+    )
+    found = []
+    for shift in range(-3 * period, 4 * period, period):
+        for vertex, start, end in own:
+            found += [
+                f"{one} and {other} at {vertex}"
+                for where, begins, ends in others
+                if where == vertex and begins + shift < end and start < ends + shift
+            ]
+        found += _swaps(timetable, one, other, shift)
+    return found
+
+
+def _swaps(timetable: PeriodicTimetable, one: int, other: int, shift: int) -> list[str]:
+    moves = [_moves(timetable, robot) for robot in (one, other)]
+    there = {(tick + shift, head, tail) for tick, tail, head in moves[1]}
+    return [f"{one} and {other} swap at {move[0]}" for move in moves[0] if move in there]
+
+
+def _moves(timetable: PeriodicTimetable, robot: int) -> list[tuple[int, int, int]]:
+    lap, enter = timetable.laps[robot], timetable.enter[robot].tolist()
+    return [
+        (tick, lap.vertices[(k - 1) % len(lap)], lap.vertices[k % len(lap)])
+        for k, tick in enumerate(enter)
+    ]
+
+
+def can_go_round(lap: Lap, others: PeriodicTimetable, *, headway: int, books_ahead: bool) -> bool:
+    """Tell whether one lap fits in among others, by trying all starts and all waits, tick by tick.
+
+    The robot's state is (visit, ticks since it entered it, up to what it needs there); it must be
+    home again, in its first visit, when the period is over.
+    """
+    period = int(others.period)
+    booked: dict[int, set[int]] = {}
+    comes: set[tuple[int, int, int]] = set()
+    for robot, one in enumerate(others.laps):
+        enter = others.enter[robot].tolist()
+        for vertex, start, end in bookings(
+            one, enter, period, headway=headway, books_ahead=books_ahead
+        ):
+            booked.setdefault(vertex, set()).update(t % period for t in range(start, end))
+        comes.update((t % period, a, b) for t, a, b in _moves(others, robot))
+
+    def free(vertex: int, first: int, end: int) -> bool:
+        return not any(t % period in booked.get(vertex, ()) for t in range(first, end))
+
+    return any(
+        _closes(lap, start, period, free, comes, headway=headway, books_ahead=books_ahead)
+        for start in range(period)
+    )
+
+
+def _closes(
+    lap: Lap,
+    start: int,
+    period: int,
+    free: Callable[[int, int, int], bool],
+    comes: set[tuple[int, int, int]],
+    *,
+    headway: int,
+    books_ahead: bool,
+) -> bool:
+    """Tell whether a robot that enters its home at this tick can do so again a period later."""
+    n = len(lap)
+    drives = [lap.drive[k] if books_ahead else 0 for k in range(n)]
+    at = {start} if free(lap.vertices[0], start - drives[0], start + 1 + headway) else set()
+    for k in range(n):
+        here, then = lap.vertices[k], (k + 1) % n
+        later = set()
+        for enter in at:
+            for leave in range(enter + lap.least(k), start + period + 1):
+                if not free(here, enter, leave + headway):
+                    break
+                fits = free(lap.vertices[then], leave - drives[then], leave + 1 + headway)
+                swaps = (leave % period, lap.vertices[then], here) in comes
+                if fits and not (swaps and not headway and not books_ahead):
+                    later.add(leave)
+        at = later
+    return start + period in at
