@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.laps.shift import Choice, Shift, Work
-from rightofway.model import Lap, Plan, Scenario, Track, VertexId, lap_along
+from rightofway.model import Lap, Plan, Scenario, Track, lap_of, route_of
 from rightofway.precedence import PeriodicTimetable
 from rightofway.solve import solve
 
@@ -60,15 +60,17 @@ def _repeated(scenario: Scenario, shift: Shift, plan: Plan) -> PeriodicTimetable
     factor = plan.scenario.timing.clock.tick / scenario.timing.clock.tick
     if factor.denominator != 1 or shift.forbidden.intersection(_places(plan)):
         return None
-    laps = [
-        _lap(scenario, robot, track) for robot, track in zip(shift.robots, plan.tracks, strict=True)
+    tracks = [
+        Track(vertices=track.vertices, enter=track.enter * factor.numerator)
+        for track in plan.tracks
     ]
-    ends = [int(track.enter[-1]) * factor.numerator for track in plan.tracks]
+    laps = [_lap(scenario, *one) for one in zip(shift.robots, tracks, strict=True)]
+    ends = [int(track.enter[-1]) for track in tracks]
     apart = int(shift.headway) + max(max(lap.drive) + lap.dwell[0] for lap in laps)
     period = max(ends) + apart
     works = []
-    for lap, track, end in zip(laps, plan.tracks, ends, strict=True):
-        enter = track.enter[:-1] * factor.numerator
+    for lap, track, end in zip(laps, tracks, ends, strict=True):
+        enter = track.enter[:-1].copy()
         enter[0] = end - period
         works.append(Work(lap, 1, enter + (period if enter[0] < 0 else 0)))
     return shift.timetable(works, period)
@@ -81,6 +83,4 @@ def _places(plan: Plan) -> set[int]:
 def _lap(scenario: Scenario, robot: int, track: Track) -> Lap:
     itinerary = scenario.timing.itineraries[robot]
     once = replace(itinerary, stages=itinerary.stages[: len(scenario.robots[robot].stops) + 1])
-    return lap_along(
-        scenario.roadmap, once, [VertexId(vertex) for vertex in track.vertices.tolist()]
-    )
+    return lap_of(once, route_of(scenario.roadmap, once, track))

@@ -37,13 +37,14 @@ def shown(run: LapsRun, periods: int = PERIODS) -> tuple[Plan, tuple[Steady, ...
     -------
     plan, steady
         Each robot makes whole laps beyond the last of these periods, so nobody stays at home before
-        it is over. After that robots may be in each other's way: the plan is for the eye only. And
-        for each group that repeats itself: from when on, and its bottleneck.
+        it is over; one that comes to a standstill gets no further. After that robots may be in each
+        other's way: the plan is for the eye only. And for each group that repeats itself: from when
+        on, and its bottleneck.
 
     Raises
     ------
     GaveUp
-        If robots come to a standstill, or none completed a lap.
+        If a robot was not followed for a whole lap.
     """
     until = _until(run, periods)
     robots, tracks = list(run.scenario.robots), {}
@@ -79,16 +80,21 @@ def _until(run: LapsRun, periods: int) -> int:
     return min(worth, int(MOST_VISITS / visits_a_tick))
 
 
+def _stands(group: GroupRun, index: int) -> bool:
+    """Whether a robot comes to a standstill."""
+    return group.ends == "deadlock" or bool(group.pattern and not group.pattern.counts[index])
+
+
 def _laps(run: LapsRun, group: GroupRun, index: int, until: int) -> int:
     """Return how many laps a robot makes by then and one more, or as many as are known."""
-    name = run.scenario.robots[group.robots[index]].name
-    if group.ends == "deadlock" or (group.pattern and not group.pattern.counts[index]):
-        raise GaveUp(f"{name} comes to a standstill, so there is nothing to play (see --json)")
-    made = group.laps_made()[index] if group.pattern is None else 2**62
-    if not made:
+    made = group.laps_made()[index]
+    if _stands(group, index):
+        return made + 1
+    if group.pattern is None and not made:
+        name = run.scenario.robots[group.robots[index]].name
         raise GaveUp(f"{name} was not followed for a whole lap (allow more time)")
     length, laps = len(group.group[index].lap), 1
-    while laps < made and _enter(group, index, laps * length) <= until:
+    while (group.pattern or laps < made) and _enter(group, index, laps * length) <= until:
         laps += 1
     return laps
 
@@ -100,8 +106,8 @@ def _enter(group: GroupRun, index: int, visit: int) -> int:
 
 
 def _track(group: GroupRun, index: int, laps: int) -> Track:
-    endless = group.group[index]
-    visits = range(laps * len(endless.lap) + 1)
+    endless, past = group.group[index], group.history[index]
+    visits = range(len(past) if _stands(group, index) else laps * len(endless.lap) + 1)
     return Track.of(
         [endless.vertex(visit) for visit in visits],
         [_enter(group, index, visit) for visit in visits],
@@ -111,7 +117,9 @@ def _track(group: GroupRun, index: int, laps: int) -> Track:
 def _steady(run: LapsRun, group: GroupRun, pattern: Pattern, tracks: Sequence[Track]) -> Steady:
     critical = _critical(run, group, pattern)
     return Steady(
-        robots=group.robots,
+        robots=tuple(
+            robot for robot, laps in zip(group.robots, pattern.counts, strict=True) if laps
+        ),
         start=pattern.transient,
         period=pattern.period,
         critical=critical if all(index < len(tracks[robot]) for robot, index in critical) else (),

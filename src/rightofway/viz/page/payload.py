@@ -53,7 +53,7 @@ def payload_of(
         payload["steady"] = steady_of(plan, steady, trips)
         payload["laps"] = laps_of(plan)
     if steady and actual is None:
-        payload["end"] = last_tick_of_all(plan, payload["steady"])
+        payload["end"] = last_tick_of_all(trips, payload["steady"])
     if actual is not None:
         payload["floor"] = floor_of(plan, actual, trips)
     return payload
@@ -111,6 +111,7 @@ def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[st
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
             **_trip(trips[index], itineraries[index]),
+            **({} if min(trips[index].served) >= 0 else {"stands": True}),
         }
         for index, robot in enumerate(plan.scenario.robots)
     ]

@@ -51,12 +51,17 @@ def laps_of(plan: Plan) -> list[int]:
     return [robot.laps or plan.scenario.rules.laps for robot in plan.scenario.robots]
 
 
-def last_tick_of_all(plan: Plan, groups: Sequence[dict[str, Any]]) -> int:
-    """Return until when all robots are out on laps: what comes later is not what they repeat."""
-    untils: dict[int, int] = {
-        robot: group["until"] for group in groups for robot in group["robots"]
-    }
-    ends = (untils.get(robot, int(track.enter[-1])) for robot, track in enumerate(plan.tracks))
+def last_tick_of_all(trips: Sequence[Trip], groups: Sequence[dict[str, Any]]) -> int:
+    """Return until when all robots are out on laps, but those that stand still for ever.
+
+    What comes later is not what they repeat.
+    """
+    untils = {robot: group["until"] for group in groups for robot in group["robots"]}
+    ends: list[int] = [
+        untils.get(robot, trip.enter[-1])
+        for robot, trip in enumerate(trips)
+        if robot in untils or min(trip.served) >= 0
+    ]
     return max(1, min(ends))
 
 

@@ -80,7 +80,7 @@ class Robot {
     this.alone = raw.alone;
     this.waits = [];
     this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
-    this.ending = raw.ending ?? DONE;
+    this.ending = raw.ending ?? (raw.stands ? WAIT : DONE); // what it does for ever after its last visit
     this.phases = phasesOf(this);
   }
 

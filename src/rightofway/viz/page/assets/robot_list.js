@@ -53,7 +53,8 @@ class RobotList {
   /** Whether it waits for ever, and already longer than planned. */
   #isStuck(robot) {
     const phase = this.motion.phase[robot.index];
-    return robot.ending === WAIT && phase === robot.phases.begin.length - 1 && this.clock.tick >= robot.unplannedFrom(phase);
+    if (robot.ending !== WAIT || phase < robot.phases.begin.length - 1) return false;
+    return !robot.planned || this.clock.tick >= robot.unplannedFrom(phase);
   }
 
   #make(row, robot) {

@@ -90,7 +90,8 @@ function circuitOf({ critical, period }, robots) {
 /** When each lap of a robot ends. */
 function lapEnds(robot, laps) {
   const perLap = robot.stages.length / laps;
-  return robot.stages.filter((_, stage) => (stage + 1) % perLap === 0).map(({ visit }) => robot.enter[visit]);
+  const lasts = robot.stages.filter((stage, index) => (index + 1) % perLap === 0 && stage.visit >= 0);
+  return lasts.map(({ visit }) => robot.enter[visit]);
 }
 
 /** How many of these increasing numbers are at most `limit`. */

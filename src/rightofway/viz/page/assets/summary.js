@@ -13,7 +13,7 @@ function showSummary(plan, words) {
 }
 
 /** What matters most of a plan, of one that repeats itself, and of what became of one. */
-function outcome({ happened, steady, metrics }, words) {
+function outcome({ happened, steady, robots, metrics }, words) {
   const planned = words.time(metrics.makespan);
   if (happened) {
     const failed = happened.filter(({ ending }) => ending !== DONE).length;
@@ -21,6 +21,8 @@ function outcome({ happened, steady, metrics }, words) {
     const done = Math.max(...happened.map(({ completion }) => completion));
     return done === metrics.makespan ? `done at ${planned} as planned` : `done at ${words.time(done)} instead of ${planned}`;
   }
+  const stuck = robots.filter(({ ending }) => ending === WAIT).length;
+  if (stuck) return `${stuck} of them stuck for ever`;
   return steady ? repetition(steady, words) : `done at ${planned}`;
 }
 
