@@ -24,7 +24,9 @@ class Steady:
         After how many ticks.
     critical
         The bottleneck: visits (robot, index in its track) that wait for each other in a circle, in
-        the order of that circle, each as it is in any one period. None where that is not known.
+        the order of that circle, each as it is in any one period. Of a visit before one of another
+        robot only the beginning counts: by it, the vertex is left that the other waits for. None
+        where that is not known.
 
     Raises
     ------

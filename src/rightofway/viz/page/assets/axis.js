@@ -19,7 +19,7 @@ class Area {
   }
 
   x(tick) {
-    return this.left + (Math.min(tick, this.end) / this.end) * (this.right - this.left);
+    return this.left + ((tick === Infinity ? this.end : tick) / this.end) * (this.right - this.left);
   }
 
   tick(x) {

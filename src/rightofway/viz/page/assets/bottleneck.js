@@ -87,7 +87,7 @@ class Bottleneck {
   }
 
   #cell(context, area, row, { begin, ticks }, shift) {
-    if (!row || !this.#repeats(begin + shift)) return;
+    if (!row || !ticks || !this.#repeats(begin + shift)) return;
     const { top, height } = row;
     const left = area.x(begin + shift);
     const width = Math.max(area.x(Math.min(begin + shift + ticks, this.group.until)) - left, 1.5);

@@ -44,8 +44,13 @@ class Diagram {
     const area = this.#areaOf({ width, height });
     this.band.paint(context, area);
     paintAxis(context, area, this.plan, this.theme, this.words);
+    context.save();
+    context.beginPath();
+    context.rect(0, 0, area.right + 1, height); // laps go on beyond the end
+    context.clip();
     this.view.paint(context, area);
     this.#decisions(context, area);
+    context.restore();
   }
 
   /** A small triangle at the top wherever somebody was given the right of way. */

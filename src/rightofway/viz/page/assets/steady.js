@@ -73,12 +73,14 @@ class Group {
 
 /**
  * The critical visits in the order of their circle: when each begins, if none begins before the last
- * one, how long it lasts, and when the `next` one begins. Once round is a whole number of periods.
+ * one, and when the `next` one begins. Once round is a whole number of periods. Where another robot
+ * comes next, that waits for this visit to begin only: it lasts no `ticks` on the circle.
  */
 function circuitOf({ critical, period }, robots) {
-  const steps = critical.map(([index, visit]) => {
+  const steps = critical.map(([index, visit], i) => {
     const robot = robots[index];
-    const ticks = Math.min(robot.leave(visit) - robot.enter[visit], period);
+    const goesOn = critical[(i + 1) % critical.length][0] === index;
+    const ticks = goesOn ? Math.min(robot.leave(visit) - robot.enter[visit], period) : 0;
     return { robot, visit, vertex: robot.vertices[visit], begin: robot.enter[visit], ticks };
   });
   const notBefore = (tick, now) => tick + Math.max(Math.ceil((now - tick) / period), 0) * period;
