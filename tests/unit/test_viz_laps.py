@@ -23,16 +23,16 @@ def test_a_group_is_told_with_its_circuit() -> None:
             "robots": [0, 1],
             "start": 6,
             "period": 10,
-            "until": 40,
+            "until": 36,
             "critical": [[0, 3], [0, 2], [1, 1], [1, 2]],
         }
     ]
 
 
-def test_the_repetition_ends_when_a_robot_does_not_set_out_again() -> None:
-    """R1 enters N1 at 1, 11, 21, 31 and would at 41, so it would leave at 40; R2 5 later."""
+def test_the_repetition_ends_with_the_last_lap() -> None:
+    """R1 comes home at 6, 16, 26, 36 and then stays; R2 5 ticks later."""
     one, two = (Steady(robots=(robot,), start=Tick(6), period=Tick(10)) for robot in (0, 1))
-    assert [group["until"] for group in told(one, two)["steady"]] == [40, 45]
+    assert [group["until"] for group in told(one, two)["steady"]] == [36, 41]
 
 
 def test_a_wrong_period_repeats_nothing() -> None:
@@ -49,12 +49,12 @@ def test_a_plan_that_ends_before_the_start_repeats_nothing() -> None:
 def test_home_at_tick_0_is_not_the_first_of_a_period() -> None:
     """R1 is home from 6 for turning, waiting and the drive, but at 0 it need not turn."""
     group = Steady(robots=(0,), start=Tick(0), period=Tick(10))
-    assert told(group)["steady"][0]["until"] == 40
+    assert told(group)["steady"][0]["until"] == 36
 
 
 def test_laps_are_told_and_the_page_ends_with_them() -> None:
     payload = told(counter_steady())
-    assert (payload["laps"], payload["end"]) == ([4, 4], 40)
+    assert (payload["laps"], payload["end"]) == ([4, 4], 36)
 
 
 def test_a_page_without_them_is_told_nothing() -> None:

@@ -50,7 +50,7 @@ def payload_of(
     trips = trips_of(plan)
     payload = _plan(plan, trips)
     if steady:
-        payload["steady"] = steady_of(plan, steady, trips)
+        payload["steady"] = steady_of(plan, steady)
         payload["laps"] = laps_of(plan)
     if steady and actual is None:
         payload["end"] = last_tick_of_all(trips, payload["steady"])

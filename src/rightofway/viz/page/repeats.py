@@ -14,7 +14,7 @@ from rightofway.viz.motion import Trip
 __all__ = ["laps_of", "last_tick_of_all", "steady_of"]
 
 
-def steady_of(plan: Plan, steady: Sequence[Steady], trips: Sequence[Trip]) -> list[dict[str, Any]]:
+def steady_of(plan: Plan, steady: Sequence[Steady]) -> list[dict[str, Any]]:
     """Return the steady periods of a plan, as plain data for JSON.
 
     Parameters
@@ -23,8 +23,6 @@ def steady_of(plan: Plan, steady: Sequence[Steady], trips: Sequence[Trip]) -> li
         The plan.
     steady
         Groups of its robots.
-    trips
-        The trip of each robot.
 
     Raises
     ------
@@ -37,9 +35,7 @@ def steady_of(plan: Plan, steady: Sequence[Steady], trips: Sequence[Trip]) -> li
             "robots": list(group.robots),
             "start": group.start,
             "period": group.period,
-            "until": min(
-                _until(group, plan.tracks[robot], trips[robot].drive) for robot in group.robots
-            ),
+            "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
             "critical": [list(visit) for visit in group.critical],
         }
         for group in steady
@@ -79,20 +75,19 @@ def _refuse_strangers(plan: Plan, steady: Sequence[Steady]) -> None:
                 raise InputError.at(f"steady[{index}].critical[{place}]", message)
 
 
-def _until(group: Steady, track: Track, drive: Sequence[int]) -> int:
+def _until(group: Steady, track: Track) -> int:
     """Return the tick up to which a robot does what it did a period before.
 
     A plan ends, so the first visit that is missing or comes at another tick ends the repetition:
-    when the robot would have had to set out for it.
+    it is sure up to the visit before.
     """
     first, again = np.searchsorted(track.enter, (group.start, group.start + group.period), "right")
     shift = int(again - first)
     if shift == 0 or track.vertices[again - 1] != track.vertices[first - 1]:
         return group.start
-    before = slice(first, len(track) - shift)
-    after = slice(first + shift, None)
+    before, after = slice(first, len(track) - shift), slice(again, None)
     same = (track.enter[after] - track.enter[before] == group.period) & (
         track.vertices[after] == track.vertices[before]
     )
-    last = int(first) + (len(same) if same.all() else int(np.argmin(same)))
-    return int(track.enter[last]) + group.period - drive[last]
+    repeated = len(same) if same.all() else int(np.argmin(same))
+    return int(track.enter[again - 1 + repeated])
