@@ -3,9 +3,11 @@
 #include <nanobind/stl/optional.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bindings.hpp"
+#include "rightofway/reject.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -33,7 +35,12 @@ fixed : int32[F, 2]
 Returns
 -------
 int64[M, 3] or None
-    The moves: robot, vertex, arrival [ticks]; None where that does not work out.)";
+    The moves: robot, vertex, arrival [ticks]; None where that does not work out.
+
+Raises
+------
+ValueError
+    If a robot is busy, or told to go where no edge leads.)";
 
 class Instants {
   public:
@@ -69,6 +76,12 @@ class Instants {
     ArrayOut<RobotId> undecided() const { return to_numpy(state_.undecided()); }
 
     std::optional<MovesOut> choose(const ArrayIn<RobotId>& order, const PairsIn& fixed) {
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            require_free("order", k, order.data()[k]);
+        }
+        for (std::size_t k = 0; k < fixed.shape(0); ++k) {
+            require_fixed(k, fixed.data()[2 * k], fixed.data()[2 * k + 1]);
+        }
         for (std::size_t k = 0; k < fixed.shape(0); ++k) {
             pibt_.fix(fixed.data()[2 * k], fixed.data()[2 * k + 1]);
         }
@@ -91,6 +104,21 @@ class Instants {
     }
 
   private:
+    void require_free(const std::string& array, std::size_t k, RobotId robot) const {
+        require_id(array + "[" + std::to_string(k) + "]", robot, trips_.n_robots());
+        if (state_.is_busy(robot)) {
+            reject_entry(array, k, robot, "is busy");
+        }
+    }
+
+    void require_fixed(std::size_t k, RobotId robot, VertexId vertex) const {
+        require_free("fixed", k, robot);
+        const VertexId here = state_.at(robot);
+        if (vertex != here && trips_.graph.edge(here, vertex) < 0) {
+            reject_entry("fixed", k, vertex, "is not next to the robot");
+        }
+    }
+
     const Trips trips_;
     StepTables tables_;
     SpreadPaths paths_;

@@ -312,6 +312,11 @@ class Instants:
         -------
         int64[M, 3] or None
             The moves: robot, vertex, arrival [ticks]; None where that does not work out.
+
+        Raises
+        ------
+        ValueError
+            If a robot is busy, or told to go where no edge leads.
         """
 
     def go_on(self) -> bool:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from itertools import accumulate, chain
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -127,3 +128,18 @@ def test_a_ring_turns_at_the_pace_of_its_slowest() -> None:
     slowest = max(trip.edge_ticks[0] for trip in trips)
     assert sorted(moves.tolist()) == [[robot, vertex, slowest] for robot, vertex in fixed]
     assert sorted(oracle.choose([0, 1, 2, 3], fixed) or []) == sorted(map(tuple, moves.tolist()))
+
+
+def test_who_is_busy_or_told_to_jump_is_refused() -> None:
+    """The first robot drives from N0 to N1, which takes it two ticks; then the second chooses."""
+    speeds = [Fraction(1, 2), Fraction(1)]
+    rules = Rules(ends="none")
+    pair = grid_fleet(["......"], [("N0", "N5"), ("N3", "N4")], rules=rules, speeds=speeds)
+    kernel, _ = both(pair, seed=0)
+    nobody = np.zeros((0, 2), np.int32)
+    with pytest.raises(ValueError, match=r"fixed\[1\]: 5 is not next to the robot"):
+        kernel.choose(np.array([0], np.int32), np.array([[0, 1], [1, 5]], np.int32))
+    assert kernel.choose(np.array([0, 1], np.int32), nobody) is not None
+    assert kernel.go_on()
+    with pytest.raises(ValueError, match=r"order\[0\]: 0 is busy"):
+        kernel.choose(np.array([0], np.int32), nobody)

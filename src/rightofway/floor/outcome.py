@@ -202,6 +202,11 @@ class Outcome:
         ------
         IndexError
             If there was no such run.
+
+        Notes
+        -----
+        The judge reckons with planned durations: robots that are early are too fast for it, and
+        where they book ahead it thinks that they book sooner than they do. Else it finds no fault.
         """
         return self.happened(run).tracks
 

@@ -24,6 +24,9 @@ __all__ = ["plan_jointly", "timetable_in_order"]
 SHARE_OF_TIME = 0.9
 """How much of its time the search with clocks may take, if it does not give up before."""
 
+MANY = 5000
+"""For more robots the search without clocks would take far longer, so nothing is left for it."""
+
 LEAST_EFFORT = 2_000_000
 EFFORT_PER_PLACE = 8
 """How patient the search with clocks is: choices per robot and vertex, but at least so many."""
@@ -76,12 +79,17 @@ def _by_events(task: Task, *, spreads: bool) -> list[Track] | None:
             headway=planning_headway(task.scenario),
             seed=task.seed,
             most_effort=_patience(task.scenario),
-            time_limit=task.deadline.sooner(SHARE_OF_TIME).seconds_left(),
+            time_limit=_limit(task),
             spreads=spreads,
         )
     except NoPlanExists:
         refuse_the_impossible(task.scenario, Distances(task.scenario.roadmap))
         raise
+
+
+def _limit(task: Task) -> float | None:
+    share = SHARE_OF_TIME if len(task.scenario.robots) <= MANY else 1
+    return task.deadline.sooner(share).seconds_left()
 
 
 def _patience(scenario: Scenario) -> int:
