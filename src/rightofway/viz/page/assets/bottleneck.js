@@ -97,7 +97,7 @@ class Bottleneck {
     context.beginPath();
     context.roundRect(left, top, width, height, Math.min(3, height / 3, width / 3));
     context.fill();
-    context.stroke();
+    if (width >= 4) context.stroke();
   }
 
   /** From a visit to that of another robot, which waits for it. */
