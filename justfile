@@ -71,6 +71,14 @@ right-of-way:
 gaps:
     MPLBACKEND=agg python -m benchmarks.compare_fixed_routes
 
+# How long transients and periods are on random fleets: figures, tables and plots of docs/laps.md (minutes)
+laps *args:
+    python -m benchmarks.laps_study {{ args }}
+
+# How much a chosen timetable wins over rules: the table of benchmarks/README.md (minutes)
+timetables:
+    python -m benchmarks.timetables
+
 # Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
 priorities *args:
     python -m benchmarks.compare_priorities {{ args }}

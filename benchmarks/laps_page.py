@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -72,8 +73,9 @@ def _paper() -> Iterator[str]:
 
 def _told(run: LapsRun, conflicts: Sequence[Conflict]) -> str:
     name, robots = run.scenario.roadmap.name, run.scenario.robots
-    told = (f"{robots[one.waits].name} for {name(one.vertex)}" for one in conflicts)
-    return ", ".join(told) or "none"
+    told = Counter(f"{robots[one.waits].name} for {name(one.vertex)}" for one in conflicts)
+    times = (f"{wait}, {n} times" if n > 1 else wait for wait, n in told.items())
+    return "; ".join(times) or "none"
 
 
 def _means(run: LapsRun) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count, takewhile
 from pathlib import Path
 
 import matplotlib as mpl
@@ -10,24 +11,26 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import rightofway
 from benchmarks.laps_page import RULES, in_laps, repeats
 from benchmarks.laps_rows import FLEETS, Row
+from rightofway.laps import run_laps
+from tests.fleets import PAPER, paper_scenario
 
-ROOT = Path(__file__).parents[1]
-IMAGES = ROOT / "docs" / "images"
+IMAGES = Path(__file__).parents[1] / "docs" / "images"
 
 COLOURS = dict(zip(RULES, ("#0072b2", "#d55e00", "#009e73"), strict=True))
 """Told apart by everybody (Okabe and Ito)."""
 
-PAPER = ("door", "crossroad")
-LAPS = 3
+CASES = ("door-2", "cross-2")
+
+LEAST = 0.1
+"""Where shorter times are drawn, nothing too."""
 
 
 def draw_all(rows: Sequence[Row], folder: Path = IMAGES) -> None:
     """Write all plots."""
     mpl.rcParams.update({"font.size": 9, "svg.hashsalt": "rightofway", "axes.axisbelow": True})
-    for name in PAPER:
+    for name in CASES:
         _save(_first_laps(name), folder / f"laps-{name}.png")
     _save(_how_long(rows), folder / "laps-how-long.png")
 
@@ -38,25 +41,28 @@ def _save(figure: Figure, path: Path) -> None:
 
 def _first_laps(name: str) -> Figure:
     """Return how far each robot is on its lap, over time, and where it waits."""
-    run = rightofway.run_laps(rightofway.load(ROOT / "examples" / f"{name}.yaml"))
+    case = next(case for case in PAPER if case["name"] == name)
+    run = run_laps(paper_scenario(case), routes="shortest")
     group = run.groups[0]
     pattern = group.pattern
-    assert pattern is not None, "both cases repeat"
+    assert pattern is not None, "every case of the paper repeats"
     figure = Figure(figsize=(8, 2.6), layout="constrained")
     axes = figure.subplots()
+    until = pattern.begins + 2 * pattern.period
     for robot, endless in enumerate(group.group):
-        length = len(endless.lap)
-        enter = [pattern.enter(robot, visit) for visit in range(LAPS * length + 1)]
-        done = [visit % length for visit in range(LAPS * length + 1)]
-        label = run.scenario.robots[endless.robot].name
-        axes.step(enter, done, where="post", label=label, color=list(COLOURS.values())[robot])
-    for tick in range(
-        int(pattern.begins), int(pattern.begins) + 2 * pattern.period, pattern.period
-    ):
+        visits = list(takewhile(lambda v: pattern.enter(robot, v) <= until, count()))  # noqa: B023
+        enter = [pattern.enter(robot, visit) for visit in visits]
+        places = [endless.place(visit) for visit in visits]
+        label, colour = run.scenario.robots[endless.robot].name, list(COLOURS.values())[robot]
+        axes.step(enter, places, where="post", label=label, color=colour)
+        for visit, begins, leaves in zip(visits, enter, enter[1:], strict=False):
+            ready = begins + endless.least(visit)
+            axes.plot([ready, leaves], [endless.place(visit)] * 2, color=colour, linewidth=4)
+    for tick in (pattern.begins, pattern.begins + pattern.period, until):
         axes.axvline(tick, color="#888888", linestyle=":")
-    axes.set_xlabel("time [ticks]; dotted: periods begin")
+    axes.set_xlabel("time [ticks]; thick: waits; dotted: a period begins")
     axes.set_ylabel("visits since home")
-    axes.legend(frameon=False, loc="upper right")
+    figure.legend(frameon=False, loc="outside upper center", ncols=2)
     axes.spines[["top", "right"]].set_visible(False)
     return figure
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.laps import RULES, GroupRun, LapsRun, run_laps
-from rightofway.model import Robot, Scenario, Stop, roadmap_of_grid
+from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.fleets import largest_part, random_grid
 
 ROWS = Path(__file__).parent / "laps.csv"
@@ -21,7 +21,7 @@ FLEETS = ((8, 3), (8, 6), (16, 12))
 """Sides of the grid, and how many robots."""
 
 SPEEDS = {"equal": ("1",), "own": ("1", "1/2", "1/3")}
-SEEDS = 60
+SEEDS = 40
 SECONDS = 1
 
 
@@ -56,8 +56,10 @@ def fleet(size: int, robots: int, speeds: str, seed: int) -> Scenario:
         robots=tuple(
             Robot(
                 name=f"R{robot + 1}",
-                home=places[2 * robot],
-                stops=(Stop(at=places[2 * robot + 1], work=Fraction(draw.randint(0, 5))),),
+                home=VertexId(places[2 * robot]),
+                stops=(
+                    Stop(at=VertexId(places[2 * robot + 1]), work=Fraction(draw.randint(0, 5))),
+                ),
                 speed=Fraction(SPEEDS[speeds][draw.randrange(3) % len(SPEEDS[speeds])]),
             )
             for robot in range(robots)

@@ -35,6 +35,11 @@ SMALL: dict[str, Scenario] = {
         f"random {seed}, {name}": random_fleet(seed, rules=rules)
         for seed, (name, rules) in enumerate(RULES.items())
     },
+    **{
+        f"{case['name']}, four laps": replace(paper_scenario(case), rules=Rules(laps=4))
+        for case in PAPER
+        if case["name"] in {"door-2", "door-5", "cross-2"}
+    },
     "stays at home": grid_fleet(["..."], [("N0", "N0"), ("N2", "N2")], work=[3]),
 }
 

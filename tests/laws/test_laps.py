@@ -7,11 +7,16 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.errors import InputError, NoPlanExists
-from rightofway.laps import RULES, LapsRun, run_laps
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.laps import RULES, Endless, LapsRun, endless_routes, run_laps
+from rightofway.laps.giving import Deadlock
+from rightofway.laps.groups import independent_groups
+from rightofway.laps.pattern import pattern_of
 from rightofway.laps.plan import whole_laps
-from rightofway.model import Rules
-from rightofway.planners import planning_headway
+from rightofway.laps.rolling import Rolling
+from rightofway.laps.window import Ground
+from rightofway.model import Rules, Scenario
+from rightofway.planners import Deadline, Task, planning_headway
 from tests.fleets import fleet_on, random_grid
 from tests.oracles.laps import largest_mean_cycle_is, replay
 
@@ -31,15 +36,34 @@ SLOW = 400
 """Visits in a period that the slow oracle is not asked for."""
 
 
-def small_run(seed: int, rule: str, rules: Rules) -> LapsRun | None:
-    """Run a random fleet; None if it has no laps."""
+def small_fleet(seed: int, rules: Rules) -> Scenario | None:
+    """Return a random fleet; None if a robot has nowhere to go."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     grid = random_grid(draw, size=draw.randint(4, 7), walls=0.15)
     try:
         scenario = fleet_on(grid, draw, robots=draw.randint(2, 5), rules=rules)
-        return run_laps(scenario, rule, time_limit=2)
+        endless_routes(scenario)
     except (InputError, NoPlanExists, ValueError):
         return None
+    return scenario
+
+
+def small_run(seed: int, rule: str, rules: Rules) -> LapsRun | None:
+    """Run a random fleet; None if it has no laps."""
+    scenario = small_fleet(seed, rules)
+    return None if scenario is None else run_laps(scenario, rule, time_limit=2)
+
+
+def rolling_on(scenario: Scenario, group: list[Endless], rule: str) -> Rolling:
+    """Return a group at the beginning."""
+    task = Task(scenario=scenario, options={"swaps": "resolve"}, deadline=Deadline.after(2))
+    ground = Ground(
+        task=task,
+        group=group,
+        headway=planning_headway(scenario),
+        books_ahead=scenario.rules.books_ahead,
+    )
+    return Rolling(ground, rule)
 
 
 @every_rule
@@ -105,3 +129,32 @@ def test_the_period_by_theory_is_that_of_the_simulation(rule: str, seed: int, ru
         assert bottleneck is None or (
             group.pattern is not None and bottleneck.cycle_time == group.pattern.period
         )
+
+
+@every_rule
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32), rules=some_rules)
+def test_what_comes_after_is_what_was_foretold(rule: str, seed: int, rules: Rules) -> None:
+    """The rule goes on deciding, without knowing that a state has come again."""
+    scenario = small_fleet(seed, rules)
+    assume(scenario is not None)
+    assert scenario is not None
+    for group in independent_groups(endless_routes(scenario)):
+        rolling = rolling_on(scenario, group, rule)
+        try:
+            known = rolling.until_it_repeats()
+            pattern = pattern_of(
+                rolling.cut.history, [len(endless.lap) for endless in group], known
+            )
+            rolling._seen.clear()
+            rolling.until_it_repeats()
+        except (Deadlock, GaveUp):
+            continue
+        for robot, past in enumerate(rolling.cut.history):
+            known_visits = len(pattern.history[robot])
+            if pattern.counts[robot]:
+                assert past[known_visits:] == [
+                    pattern.enter(robot, visit) for visit in range(known_visits, len(past))
+                ]
+            else:
+                assert len(past) == known_visits

@@ -97,6 +97,14 @@ def test_robots_that_live_in_each_others_corridor_come_to_a_standstill() -> None
     assert group.pattern is None
 
 
+def test_neighbours_that_set_out_through_each_others_homes_are_sent_round() -> None:
+    """R1 and R2 live next to each other, each on the other one's shortest way."""
+    trips = [("N5", "N7"), ("N6", "N4")]
+    scenario = grid_fleet(["....", "....", "...."], trips)
+    assert [group.ends for group in run_laps(scenario, routes="shortest").groups] == ["deadlock"]
+    assert {group.ends for group in run_laps(scenario).groups} == {"repeats"}
+
+
 def test_work_and_turn_at_home_are_part_of_a_lap() -> None:
     """Out and back 2 + 2 cells, a turn at the stop, at home work 3 and two turns: 10 ticks."""
     roadmap = roadmap_of_grid(["..."])

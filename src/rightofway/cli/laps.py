@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
@@ -14,24 +15,43 @@ if TYPE_CHECKING:
 
 __all__ = ["laps"]
 
+RULES = ["first-come", "fixed-order", "two-level", "timetable"]
+
 EXAMPLE = """\b
 Examples:
   rightofway laps examples/door.yaml
   rightofway laps examples/crossroad.yaml --rule two-level --json
-  rightofway laps examples/door.yaml -o plan.json
-  rightofway laps examples/crossroad.yaml --page laps.html
+  rightofway laps examples/door.yaml --rule timetable -o plan.json
+  rightofway laps examples/bay.yaml --page laps.html
 """
+
+
+def part(_context: click.Context, _parameter: click.Parameter, given: str) -> Fraction:
+    """Take a part of a whole: 0.5, 1/2."""
+    try:
+        return Fraction(given)
+    except (ValueError, ZeroDivisionError):
+        raise click.BadParameter(f"{given!r} is not a number (for example 0.5 or 1/2)") from None
 
 
 @click.command(epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
-@click.option("--rule", type=click.Choice(["first-come", "fixed-order", "two-level"]),
-              default="first-come", show_default=True,
-              help="Who goes first where two robots meet.")  # fmt: skip
+@click.option("--rule", type=click.Choice(RULES), default="first-come", show_default=True,
+              help="Who goes first where two robots meet; timetable: most laps.")  # fmt: skip
 @click.option("--routes", type=click.Choice(["clear", "shortest"]), default="clear",
               show_default=True, help="How round trips are chosen.")  # fmt: skip
 @click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
               metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
+@click.option(
+    "--least-fairness",
+    metavar="PART",
+    default="0",
+    show_default=True,
+    callback=part,
+    help="With timetable: the part of its laps alone that each robot makes at least.",
+)
+@click.option("--seed", type=int, default=0, show_default=True,
+              help="With timetable: for what is drawn at random.")  # fmt: skip
 @click.option("-o", "--output", metavar="PLAN", callback=writable(),
               help="Write the run as a plan of whole laps; - for standard output.")  # fmt: skip
 @click.option("--page", metavar="FILE", callback=writable(".html"),
@@ -43,6 +63,8 @@ def laps(
     rule: str,
     routes: str,
     time_limit: float | None,
+    least_fairness: Fraction,
+    seed: int,
     output: str | None,
     page: str | None,
     as_json: bool,
@@ -54,21 +76,31 @@ def laps(
     Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.laps import plan_of, run_laps
+    from rightofway.laps import best_timetable, plan_of, run_laps, run_of
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
-    problem = read_scenario(scenario)
+    problem, chosen = read_scenario(scenario), []
     with progress() as report:
-        run = run_laps(problem, rule, routes=routes, time_limit=time_limit, report=report)
+        if rule == "timetable":
+            chosen = best_timetable(
+                problem,
+                least_fairness=least_fairness,
+                time_limit=time_limit,
+                seed=seed,
+                report=report,
+            )
+            run = run_of(problem, chosen)
+        else:
+            run = run_laps(problem, rule, routes=routes, time_limit=time_limit, report=report)
     if output != "-":
         if as_json:
-            put_json(laps_data(run))
+            put_json(laps_data(run, chosen))
         else:
-            put(laps_report(run))
-    if output:
-        write(plan_of(run), output)
+            put(laps_report(run, chosen))
     if page:
         _write_page(run, page)
+    if output:
+        write(plan_of(run), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
 

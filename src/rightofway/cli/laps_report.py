@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from rightofway.cli.laps_theory import (
+    rival_data,
+    rival_lines,
+    sensitivity_data,
+    sensitivity_lines,
+)
 from rightofway.cli.words import wrapped
-from rightofway.laps import Bottleneck, Conflict, GroupRun, LapsRun, in_words
+from rightofway.laps import Bottleneck, Conflict, GroupRun, GroupTimetable, LapsRun, in_words
 
 __all__ = ["laps_data", "laps_report"]
 
@@ -21,8 +27,8 @@ MOST_GROUPS = 3
 MOST_LINES = 12
 """Longer lists end with how many more there are."""
 
-MOST_OF_NUMBER = 8
-"""Columns that a number may take; longer fractions are rounded for people."""
+MOST_OF_DENOMINATOR = 12
+"""Fractions of smaller parts are rounded for people."""
 
 MOST_TIMES = 4
 """How often a conflict is told within one period; more times are counted."""
@@ -31,13 +37,19 @@ Sights = dict[tuple[int, int, int], list[Fraction]]
 """By place, who waits and for whom: when [time unit]."""
 
 
-def laps_data(run: LapsRun) -> dict[str, Any]:
-    """Return a run for programs; times are exact fractions of the scenario's unit."""
+def laps_data(run: LapsRun, chosen: Sequence[GroupTimetable] = ()) -> dict[str, Any]:
+    """Return a run for programs; times are exact fractions of the scenario's unit.
+
+    Of timetables that were chosen, also how they compare.
+    """
+    groups = [_group_data(run, group) for group in run.groups]
+    for data, one in zip(groups, chosen, strict=False):
+        data.update(rival_data(run.scenario, one))
     return {
         "rule": run.rule,
         "routes": run.routes,
         "throughput_per_hour": str(HOUR * run.throughput()),
-        "groups": [_group_data(run, group) for group in run.groups],
+        "groups": groups,
     }
 
 
@@ -60,6 +72,7 @@ def _group_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
         "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
         "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
         "bottleneck": _bottleneck_data(run, run.bottleneck(group)),
+        "sensitivity": sensitivity_data(run, group),
     }
 
 
@@ -87,12 +100,12 @@ def _bottleneck_data(run: LapsRun, bottleneck: Bottleneck | None) -> list[dict[s
     ]
 
 
-def laps_report(run: LapsRun) -> str:
-    """Return a run for people."""
-    return "\n".join(_lines(run))
+def laps_report(run: LapsRun, chosen: Sequence[GroupTimetable] = ()) -> str:
+    """Return a run for people; of timetables that were chosen, also how they compare."""
+    return "\n".join(_lines(run, {one.timetable.robots: one for one in chosen}))
 
 
-def _lines(run: LapsRun) -> Iterator[str]:
+def _lines(run: LapsRun, chosen: Mapping[tuple[int, ...], GroupTimetable]) -> Iterator[str]:
     together = [group for group in run.groups if len(group.robots) > 1]
     yield f"rule        {run.rule}, on {run.routes} routes"
     yield f"groups      {_groups(run, together)}"
@@ -101,6 +114,8 @@ def _lines(run: LapsRun) -> Iterator[str]:
     for group in largest[:MOST_GROUPS]:
         yield ""
         yield from _group_lines(run, group)
+        if group.robots in chosen:
+            yield from rival_lines(chosen[group.robots])
     if len(largest) > MOST_GROUPS:
         yield ""
         yield f"… and {len(largest) - MOST_GROUPS} more groups, none larger (--json has them all)"
@@ -133,6 +148,7 @@ def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     bottleneck = run.bottleneck(group)
     if bottleneck:
         yield from wrapped(f"bottleneck: {in_words(bottleneck, run.scenario)}")
+        yield from sensitivity_lines(run, group)
 
 
 def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
@@ -154,7 +170,7 @@ def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
 
 
 def _short(number: Fraction) -> str:
-    return str(number) if len(str(number)) <= MOST_OF_NUMBER else f"{float(number):.5g}"
+    return str(number) if number.denominator <= MOST_OF_DENOMINATOR else f"{float(number):.2f}"
 
 
 def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:

@@ -19,8 +19,8 @@ __all__ = ["build", "filled"]
 MOST_ROUNDS = 6
 """How often each robot is placed, on average, before a period is found too short."""
 
-LONGEST = 64
-"""How many times as long as the longest lap the period may become."""
+GROWS = 5, 4
+"""By which fraction a period grows that is found too short."""
 
 
 def build(shift: Shift, period: int, *, filling: Shift | None = None) -> Choice:
@@ -42,11 +42,12 @@ def build(shift: Shift, period: int, *, filling: Shift | None = None) -> Choice:
     """
     longest = max(shift.alone)
     period = max(period, longest)
-    while period <= LONGEST * max(longest, len(shift.robots)):
+    one_by_one = 2 * sum(shift.alone)
+    while period <= one_by_one:
         placed = _placed(shift, period)
         if placed is not None:
             return filled(filling or shift, *placed)
-        period = period * 5 // 4 + 1
+        period = period * GROWS[0] // GROWS[1] + 1
     raise GaveUp("no timetable was found in which all robots have a place")
 
 

@@ -30,6 +30,12 @@ RIVAL_SHARE = 0.2
 BUILDING_SHARE = 0.4
 """The part of what is left then that goes into first timetables."""
 
+MANY, FILLING_SHARE = 300, 0.6
+"""Groups of more robots are built once and filled; there is hardly time to improve them."""
+
+PLACING_SHARE = 0.7
+"""The part of what is left that the very first one may take to find every robot a place."""
+
 TRYING_SHARE = 0.5
 """The part of what is left then that shows which of those kept is worth going on with."""
 
@@ -159,15 +165,19 @@ def _value(shift: Shift, timetable: PeriodicTimetable) -> Fraction:
 
 def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
     """Yield the best of many timetables, built for periods of all kinds."""
-    building = shift.until(shift.deadline.sooner(BUILDING_SHARE))
+    few = len(shift.robots) <= MANY
+    building = shift.until(shift.deadline.sooner(BUILDING_SHARE if few else FILLING_SHARE))
+    first = shift.until(shift.deadline.sooner(PLACING_SHARE))
     built: list[Choice] = []
     for number in islice(count(), rounds):
         longest = max(shift.alone)
         times = shift.draw.uniform(1, LONGEST_PERIOD) if number else 1.2
         try:
-            placing = building if built else shift
+            placing = building if built else first
             built.append(build(placing, int(longest * times), filling=building))
         except GaveUp:
+            break
+        if shift.value(built[-1]) == shift.bound:
             break
     fair = [one for one in built if shift.is_fair(one.timetable.counts, one.cycle_time)]
     yield from sorted(fair, key=shift.value, reverse=True)[:KEPT]

@@ -95,12 +95,13 @@ class Bookings:
             for visit in asked[robot]:
                 could = enter(robot, visit) + endless.least(visit)
                 enters, vertex = enter(robot, visit + 1), endless.vertex(visit + 1)
-                if could < enters:
-                    approach = endless.drive(visit + 1) if self.books_ahead else 0
+                approach = endless.drive(visit + 1) if self.books_ahead else 0
+                other = frees.get((vertex, (enters - approach) % period))
+                if could < enters and other:  # without: it waits for its time in a timetable
                     conflict = Conflict(
                         vertex=vertex,
                         waits=endless.robot,
-                        for_robot=frees[vertex, (enters - approach) % period].robot,
+                        for_robot=other.robot,
                         tick=Tick((could - begins) % period),
                         ticks=Tick(enters - could),
                     )

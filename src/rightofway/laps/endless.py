@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
 from rightofway.errors import InputError, Problem
+from rightofway.laps.homes import keep_off_homes
 from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_of
 from rightofway.planners.routing import clear_routes, shortest_routes
 from rightofway.search import Distances
@@ -80,7 +81,8 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
     scenario
         The problem; how many laps it asks for plays no part.
     routes
-        ``clear`` or ``shortest``, as planners choose them.
+        ``clear`` or ``shortest``, as planners choose them; clear ones past no other home, where
+        that would bar two robots' way for good.
 
     Raises
     ------
@@ -90,8 +92,11 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
         If a robot cannot get to a place.
     """
     once = _one_lap_each(scenario)
-    choose = clear_routes if routes == "clear" else shortest_routes
-    found = choose(once, Distances(once.roadmap))
+    distances = Distances(once.roadmap)
+    if routes == "clear":
+        found = keep_off_homes(once, clear_routes(once, distances))
+    else:
+        found = shortest_routes(once, distances)
     return [
         Endless(
             robot=robot,

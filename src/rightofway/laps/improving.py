@@ -38,12 +38,17 @@ PATIENCE = 60
 MOST_VISITS = 20_000
 """No period gets more visits than this by becoming two."""
 
+TOO_MANY_VISITS = 60_000
+"""A step on a period of more visits takes too long to be worth it."""
+
 
 def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice:
     """Make what the laps of a group are worth per tick as large as steps and time allow."""
     best, in_vain, step = choice, 0, 0
+    if sum(map(len, choice.timetable.enter)) > TOO_MANY_VISITS:
+        return choice
     try:
-        while steps is None or step < steps:
+        while (steps is None or step < steps) and shift.value(best) < shift.bound:
             shift.deadline.check("improving a timetable")
             step += 1
             found = _step(shift, choice)

@@ -114,6 +114,12 @@ class Shift:
             Fraction(0),
         )
 
+    @cached_property
+    def bound(self) -> Fraction:
+        """What no timetable exceeds: as if nobody ever waited for another."""
+        alone = zip(self.weights, self.alone, strict=True)
+        return sum((weight / ticks for weight, ticks in alone), Fraction(0))
+
     def value(self, choice: Choice) -> Fraction:
         """Return what the laps are worth per tick: what is to be made large."""
         return self.worth(choice.timetable.counts) / choice.cycle_time

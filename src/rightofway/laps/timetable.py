@@ -16,6 +16,9 @@ from rightofway.planners import Deadline, planning_headway
 
 __all__ = ["best_timetable"]
 
+MOST_WITH_WAYS = 200
+"""Larger fleets have no time to choose between clear and shortest routes: they take the clear."""
+
 
 def best_timetable(
     scenario: Scenario,
@@ -69,8 +72,10 @@ def best_timetable(
     """
     _refuse(scenario, weights, least_fairness, time_limit, rounds)
     deadline = Deadline.after(time_limit)
-    groups = independent_groups(endless_routes(scenario))
-    others = [one.lap for one in endless_routes(scenario, "shortest")]
+    usual = endless_routes(scenario)
+    large = len(usual) > MOST_WITH_WAYS
+    groups = independent_groups(usual)
+    others = [one.lap for one in (usual if large else endless_routes(scenario, "shortest"))]
     taken = {vertex for group in groups for one in group for vertex in one.lap.vertices}
     found: dict[int, GroupTimetable] = {}
     left = len(scenario.robots)

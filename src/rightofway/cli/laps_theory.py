@@ -1,0 +1,119 @@
+"""What would help a fleet that repeats its work, and how a chosen timetable compares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from rightofway.cli.words import wrapped
+from rightofway.laps import (
+    GroupRun,
+    GroupTimetable,
+    LapsRun,
+    Lever,
+    levers_of,
+)
+from rightofway.model import Scenario
+from rightofway.planners import planning_headway
+from rightofway.precedence import EventGraph
+
+__all__ = ["rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
+
+MOST_LEVERS = 3
+"""How many things that would help a person is told; --json has more."""
+
+
+def _graph(run: LapsRun, group: GroupRun) -> EventGraph | None:
+    """Return the event graph of a group that repeats and in which all move."""
+    if group.timetable is None:
+        return None
+    return EventGraph(
+        group.timetable,
+        headway=planning_headway(run.scenario),
+        books_ahead=run.scenario.rules.books_ahead,
+    )
+
+
+def sensitivity_data(run: LapsRun, group: GroupRun) -> list[dict[str, Any]]:
+    """Return what would help, for programs; times are exact fractions of the unit."""
+    graph = _graph(run, group)
+    if graph is None:
+        return []
+    return [_lever_data(run.scenario, lever) for lever in levers_of(run.scenario, graph)]
+
+
+def _lever_data(scenario: Scenario, lever: Lever) -> dict[str, Any]:
+    time, effect = scenario.timing.clock.tick, lever.effect
+    return {
+        "kind": lever.kind,
+        "robot": None if lever.robot is None else scenario.robots[lever.robot].name,
+        "stop": lever.stop,
+        "gain": str(effect.gain * time),
+        "loss": str(effect.loss * time),
+        "until": str(effect.until),
+        "at_best": str(effect.at_best * time),
+        "ten_per_cent": str(lever.ten_per_cent * time),
+    }
+
+
+def sensitivity_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
+    """Say what would make a period shorter."""
+    graph = _graph(run, group)
+    if graph is None:
+        return
+    levers = levers_of(run.scenario, graph, most=MOST_LEVERS)
+    helps = [lever for lever in levers if lever.ten_per_cent < lever.effect.cycle_time]
+    for lever in helps:
+        yield f"  {_said(run.scenario, lever)}"
+    if not helps:
+        yield "  nothing helps alone: other circuits are as long"
+
+
+def _said(scenario: Scenario, lever: Lever) -> str:
+    saved = 1 - lever.ten_per_cent / lever.effect.cycle_time
+    return f"{_what(scenario, lever)}: the period gets {float(saved):.2%} shorter"
+
+
+def _what(scenario: Scenario, lever: Lever) -> str:
+    if lever.robot is None:
+        return "10% less headway"
+    robot = scenario.robots[lever.robot]
+    if lever.kind == "speed":
+        return f"{robot.name} 10% faster"
+    if lever.stop is None:
+        return f"{robot.name} 10% less turning"
+    return f"{robot.name} 10% less work at {scenario.roadmap.name(robot.stops[lever.stop].at)}"
+
+
+def rival_data(scenario: Scenario, chosen: GroupTimetable) -> dict[str, Any]:
+    """Return how a chosen timetable compares with first come first served, for programs."""
+    hour = 3600 / scenario.timing.clock.tick
+    return {
+        "throughput_per_hour": str(chosen.throughput * hour),
+        "fairness": str(chosen.fairness),
+        "first_come": {
+            "ends": chosen.first_come_ends,
+            "throughput_per_hour": str(chosen.first_come * hour),
+        },
+    }
+
+
+def rival_lines(chosen: GroupTimetable) -> Iterator[str]:
+    """Say how a chosen timetable compares with first come first served."""
+    rival = {
+        "repeats": "first come first served",
+        "open": "first come first served as far as it was seen",
+        "starves": "first come first served, where a robot stands still for ever",
+        "deadlock": "",
+    }[chosen.first_come_ends]
+    if chosen.first_come:
+        more = chosen.throughput / chosen.first_come - 1
+        yield from wrapped(f"throughput: {_signed(more)} against {rival}")
+    else:
+        yield "throughput: first come first served comes to a standstill"
+    yield f"fairness: every robot makes at least {float(chosen.fairness):.0%} of its laps alone"
+
+
+def _signed(part: Fraction) -> str:
+    return f"{float(part):+.1%}"
