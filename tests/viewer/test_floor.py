@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from rightofway.model import Actual, Tick, Track
 from tests.viewer.conftest import Opener, Viewer
-from tests.viewer.plans import counter, counter_late, counter_steady, crowd, delayed
+from tests.viewer.plans import counter, counter_late, counter_steady, crowd, delayed, door
 from tests.viewer.test_laps import pixel
 
 
@@ -81,6 +83,27 @@ def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Viewer) ->
     late.page.click("#robot-list .row:has-text('R2')")
     assert "at 22" in late.text("#card")
     assert late.text("#headline") == "2 robots, 2 of them never done"
+
+
+def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
+    """R2 of the door breaks down in N4 at 3; R1 turns back in N1 and is home at 6."""
+    actual = Actual(
+        tracks=(Track.of([0, 1, 0], [0, 2, 6]), Track.of([2, 1, 3], [0, 1, 2])),
+        dwell=(np.zeros(3, np.int64), np.zeros(3, np.int64)),
+        drive=(np.array([0, 1, 1]), np.array([0, 1, 1])),
+        completion=(None, None),
+        standstills=((), ((Tick(3), None),)),
+    )
+    viewer = show(door(), "#tick=2", actual=actual)
+    first = viewer.page.locator("#robot-list .late").first
+    assert first.inner_text() == "on time"
+    viewer.ask("clock.seek(5)")
+    viewer.wait_for("frames.told === 5")
+    assert first.inner_text() == "2 late"  # by plan it leaves N1 at 3
+    viewer.ask("clock.seek(6)")
+    viewer.wait_for("frames.told === 6")
+    assert viewer.ask("plan.robots[0].lateness(6, 2)") is None
+    assert viewer.complaints == []
 
 
 def test_what_holds_a_robot_up_interrupts_its_work(late: Viewer) -> None:

@@ -10,9 +10,7 @@ from math import ceil
 from rightofway.errors import GaveUp
 from rightofway.laps.outcome import GroupRun, LapsRun
 from rightofway.laps.pattern import Pattern
-from rightofway.model import Plan, PlannerRun, Steady, Tick, Track
-from rightofway.planners import planning_headway
-from rightofway.precedence import event_graph
+from rightofway.model import Plan, PlannerRun, Steady, Track
 
 __all__ = ["shown"]
 
@@ -128,13 +126,9 @@ def _steady(run: LapsRun, group: GroupRun, pattern: Pattern, tracks: Sequence[Tr
 
 def _critical(run: LapsRun, group: GroupRun, pattern: Pattern) -> tuple[tuple[int, int], ...]:
     """Return the visits of the critical circuit; none where the rule wastes more time than that."""
-    timetable = pattern.timetable(group.group)
-    if timetable is None:
+    graph = run.graph(group)
+    if graph is None:
         return ()
-    rules = run.scenario.rules
-    graph = event_graph(
-        timetable, headway=Tick(planning_headway(run.scenario)), books_ahead=rules.books_ahead
-    )
     circuit = graph.critical_circuit()
     if circuit.cycle_time != pattern.period:
         return ()
