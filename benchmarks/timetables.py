@@ -34,7 +34,7 @@ HEADING = (
 RULES = ("first-come", "two-level", "fixed-order")
 SIDE = {4: 6, 8: 8, 16: 12}
 FLEETS = 12
-CHOOSING, RUNNING = 2.0, 1.0
+CHOOSING, RUNNING = 5.0, 1.0
 """Seconds for a timetable, and for each rule."""
 
 

@@ -1,6 +1,7 @@
 """``rightofway laps``: what it prints, for people and for programs, and how it ends."""
 
 import json
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -105,3 +106,30 @@ def test_trips_without_a_way_back_are_refused_with_their_place(cli: Cli, slower:
     ended = cli("laps", slower)
     assert ended.code == 2
     assert "robots[0].return: 'none' leaves nothing to repeat (set return: home)" in ended.err
+
+
+def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
+    cli: Cli, slower: Path
+) -> None:
+    ended = cli("laps", slower, "--rule", "timetable", "--time-limit", "2", "-o", "plan.json")
+    assert ended.code == 0
+    assert "against first come first served\n" in ended.out
+    assert "fairness: every robot makes at least " in ended.out
+    assert cli("check", "plan.json").code == 0
+
+
+def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower, "--json")
+    [group] = json.loads(ended.out)["groups"]
+    # R2's own lap decides: 24 of its 30 are driving, 6 are turning at home and away.
+    assert [(lever["kind"], lever["gain"]) for lever in group["sensitivity"]] == [
+        ("speed", "24"),
+        ("turn", "6"),
+    ]
+    assert group["sensitivity"][0]["ten_per_cent"] == str(Fraction(30) - Fraction(24, 11))
+
+
+def test_a_part_that_is_no_number_is_refused(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower, "--rule", "timetable", "--least-fairness", "half")
+    assert ended.code == 2
+    assert "'half' is not a number (for example 0.5 or 1/2)" in ended.err

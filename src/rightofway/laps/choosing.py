@@ -18,6 +18,7 @@ from rightofway.laps.jointly import jointly
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.run import run_group
 from rightofway.laps.shift import Choice, Shift, Work
+from rightofway.laps.windows import windows
 from rightofway.model import Scenario, Tick
 from rightofway.planners import Task
 from rightofway.precedence import PeriodicTimetable, unrolled
@@ -27,7 +28,13 @@ __all__ = ["GroupTimetable", "choose"]
 RIVAL_SHARE = 0.2
 """The part of its time that a group may take to see what first come first served does."""
 
-BUILDING_SHARE = 0.4
+OTHERS_SHARE = 0.05
+"""The part of what is left that each other rule may take."""
+
+CUTTING_SHARE, CUT = 0.25, 2
+"""The part of what is left that goes into timetables cut out of that run; how many are kept."""
+
+BUILDING_SHARE = 0.3
 """The part of what is left then that goes into first timetables."""
 
 MANY, FILLING_SHARE = 300, 0.6
@@ -42,7 +49,7 @@ TRYING_SHARE = 0.5
 LONGEST_PERIOD = 5
 """First timetables have periods of at most so many of the longest laps."""
 
-KEPT = 4
+KEPT = 3
 """How many first timetables are improved a little, before one of them is gone on with."""
 
 MOST_VISITS = 20_000
@@ -108,12 +115,13 @@ def choose(
     if len(group) == 1:
         alone = _alone(shift)
         return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
-    rival = _rival(scenario, group, shift)
+    rival = _run(scenario, group, shift, "first-come", RIVAL_SHARE)
     worth, pattern = _worth(shift, rival), rival.timetable
     starves = rival.ends == "repeats" and pattern is None
     ends: FirstComeEnds = "starves" if starves else rival.ends
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
-    starts = list(_first_timetables(shift, rounds))
+    others = _by_other_rules(scenario, group, shift)
+    starts = [*others, *_cut(shift, rival), *_first_timetables(shift, rounds)]
     if pattern is not None and is_fair:
         starts.append(shift.tightened(pattern))
     if not starts and (together := jointly(scenario, shift)):
@@ -141,14 +149,38 @@ def _alone(shift: Shift) -> PeriodicTimetable:
     return shift.timetable([Work(lap, 1, enter)], int(lap.duration))
 
 
-def _rival(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> GroupRun:
-    """Let the group go on by first come first served."""
+def _run(
+    scenario: Scenario, group: Sequence[Endless], shift: Shift, rule: str, share: float
+) -> GroupRun:
+    """Let the group go on by a rule."""
     task = Task(
         scenario=scenario,
         options={"swaps": "resolve"},
-        deadline=shift.deadline.sooner(RIVAL_SHARE),
+        deadline=shift.deadline.sooner(share),
     )
-    return run_group(task, group, "first-come")
+    return run_group(task, group, rule)
+
+
+def _by_other_rules(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> Iterator[Choice]:
+    """Yield the patterns of the other rules that are soon found; where time is not limited, none.
+
+    Nothing says that a pattern is found at all, and these are no rivals but one more chance.
+    """
+    if shift.deadline.at is None or len(group) > MANY:
+        return
+    for rule in ("two-level", "fixed-order"):
+        found = _run(scenario, group, shift, rule, OTHERS_SHARE).timetable
+        if found is not None and shift.is_fair(found.counts, int(found.period)):
+            yield shift.tightened(found)
+
+
+def _cut(shift: Shift, run: GroupRun) -> list[Choice]:
+    """Return the best timetables cut out of a run."""
+    if not all(run.mean_laps()):
+        return []
+    part = shift.until(shift.deadline.sooner(CUTTING_SHARE))
+    fair = [w for w in windows(part, run) if shift.is_fair(w.timetable.counts, w.cycle_time)]
+    return sorted(fair, key=shift.value, reverse=True)[:CUT]
 
 
 def _worth(shift: Shift, run: GroupRun) -> Fraction:

@@ -23,6 +23,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
+from rightofway.laps.crowding import crowded
 from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.model import Tick
 from rightofway.precedence import PeriodicTimetable, unrolled
@@ -31,6 +32,9 @@ __all__ = ["improve"]
 
 MOST_TAKEN = 6
 """How many robots at most a step takes off the circle."""
+
+CROWDS_AFTER = 10
+"""Every so many steps, laps are added on the circle as it is."""
 
 PATIENCE = 60
 """After so many steps in vain a period becomes two, so that laps can be shared out more finely."""
@@ -51,9 +55,9 @@ def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice
         while (steps is None or step < steps) and shift.value(best) < shift.bound:
             shift.deadline.check("improving a timetable")
             step += 1
-            found = _step(shift, choice)
+            found = _step(shift, choice) if step % CROWDS_AFTER else crowded(shift, choice)
             in_vain += 1
-            if found is None:
+            if found is None or not shift.is_fair(found.timetable.counts, found.cycle_time):
                 pass
             elif shift.value(found) > shift.value(choice):
                 best, choice, in_vain = found, found, 0

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
-from rightofway.errors import InputError
+from rightofway.errors import GaveUp, InputError
 from rightofway.laps.choosing import GroupTimetable, choose
-from rightofway.laps.endless import endless_routes
+from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.groups import independent_groups
 from rightofway.laps.shift import Shift
 from rightofway.model import Lap, Scenario, VertexId
@@ -53,7 +54,8 @@ def best_timetable(
     Returns
     -------
     list of GroupTimetable
-        One for each independent group, by their first robots.
+        One for each independent group, by their first robots; or one for all, where a group has to
+        take the places of others to get out of a deadlock.
 
     Raises
     ------
@@ -71,33 +73,72 @@ def best_timetable(
     optimal.
     """
     _refuse(scenario, weights, least_fairness, time_limit, rounds)
-    deadline = Deadline.after(time_limit)
+    wish = _Wish(
+        scenario=scenario,
+        weights=weights or [Fraction(1)] * len(scenario.robots),
+        least_fairness=least_fairness,
+        deadline=Deadline.after(time_limit),
+        rounds=rounds,
+        seed=seed,
+        report=report or (lambda _: None),
+    )
     usual = endless_routes(scenario)
     large = len(usual) > MOST_WITH_WAYS
-    groups = independent_groups(usual)
     others = [one.lap for one in (usual if large else endless_routes(scenario, "shortest"))]
-    taken = {vertex for group in groups for one in group for vertex in one.lap.vertices}
-    found: dict[int, GroupTimetable] = {}
-    left = len(scenario.robots)
-    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
-        group = groups[index]
-        if report:
-            report(f"{len(found)} of {len(groups)} groups done, next one of {len(group)} robots")
-        taken -= {vertex for one in group for vertex in one.lap.vertices}
-        shift = Shift(
-            n_vertices=scenario.roadmap.n_vertices,
-            headway=planning_headway(scenario),
-            books_ahead=scenario.rules.books_ahead,
+    groups = independent_groups(usual)
+    try:
+        return _by_groups(wish, groups, others)
+    except GaveUp:
+        if len(groups) == 1:
+            raise
+    return _by_groups(wish, [usual], others)  # it takes the places of other groups as well
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Wish:
+    """What a timetable is asked for."""
+
+    scenario: Scenario
+    weights: Sequence[Fraction]
+    least_fairness: Fraction
+    deadline: Deadline
+    rounds: int | None
+    seed: int
+    report: Callable[[str], None]
+
+    def shift(
+        self, index: int, group: Sequence[Endless], others: Sequence[Lap], taken: set[VertexId]
+    ) -> Shift:
+        """Return what there is to choose for a group, where others take some vertices."""
+        return Shift(
+            n_vertices=self.scenario.roadmap.n_vertices,
+            headway=planning_headway(self.scenario),
+            books_ahead=self.scenario.rules.books_ahead,
             robots=tuple(one.robot for one in group),
             ways=tuple(_ways(one.lap, others[one.robot], taken) for one in group),
             forbidden=frozenset(taken),
-            weights=tuple(weights[one.robot] if weights else Fraction(1) for one in group),
-            least_fairness=least_fairness,
-            deadline=deadline.sooner(len(group) / left),
-            draw=random.Random(f"{seed} {index}"),  # noqa: S311 (no secret depends on it)
+            weights=tuple(self.weights[one.robot] for one in group),
+            least_fairness=self.least_fairness,
+            deadline=self.deadline,
+            draw=random.Random(f"{self.seed} {index}"),  # noqa: S311 (no secret depends on it)
         )
+
+
+def _by_groups(
+    wish: _Wish, groups: Sequence[Sequence[Endless]], others: Sequence[Lap]
+) -> list[GroupTimetable]:
+    """Choose a timetable for each group, small ones first, none through places of another."""
+    taken = {vertex for group in groups for one in group for vertex in one.lap.vertices}
+    found: dict[int, GroupTimetable] = {}
+    left = sum(map(len, groups))
+    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
+        group = groups[index]
+        wish.report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
+        taken -= {vertex for one in group for vertex in one.lap.vertices}
+        shift = wish.shift(index, group, others, taken)
+        share = shift.until(wish.deadline.sooner(len(group) / left))
         left -= len(group)
-        found[index] = choose(scenario, group, shift, rounds=rounds)
+        found[index] = choose(wish.scenario, group, share, rounds=wish.rounds)
         taken |= {v for lap in found[index].timetable.laps for v in lap.vertices}
     return [found[index] for index in range(len(groups))]
 
