@@ -9,10 +9,6 @@ namespace {
 // time it has lost its track.
 constexpr Tick hold_edges = 16;
 
-// Searches look for a way around as long as that is cheaper than to take tracks away. So that this
-// comes to an end where the floor is full, all prices rise by a quarter each time so many states
-// have been expanded.
-constexpr std::int64_t states_between_raises = 1'000'000;
 constexpr Tick highest_price = Tick{1} << 32;
 
 // See Errand.
@@ -28,7 +24,7 @@ Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices&
       reader_(fleet),
       prices_(static_cast<std::size_t>(fleet.n_robots())),
       holds_(prices_.size()),
-      next_raise_(states_between_raises) {
+      next_raise_(prices.states_between_raises) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
         prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
         holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
@@ -77,7 +73,8 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
 }
 
 void Prioritized::raise_prices() {
-    for (; search_.n_expanded() >= next_raise_; next_raise_ += states_between_raises) {
+    for (; search_.n_expanded() >= next_raise_;
+         next_raise_ += track_prices_.states_between_raises) {
         for (Tick& price : prices_) {
             price = std::min(price + price / 4, highest_price);
         }

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from docutils import nodes
+from docutils.parsers.rst import directives
 from sphinx.util.docutils import SphinxDirective
 
 import rightofway
+from rightofway.floor import simulate
+from rightofway.laps import run_laps, shown
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -18,19 +21,32 @@ ROOT = Path(__file__).parents[2]
 
 
 class PlanPage(SphinxDirective):
-    """An example of the repository, planned and played."""
+    """An example of the repository, planned and played: a plan, laps, or what became of a plan."""
 
     required_arguments = 1
+    option_spec: ClassVar = {"delays": directives.unchanged_required, "laps": directives.flag}
 
     def run(self) -> list[nodes.Node]:
         """Write the page beside the others and return a frame that shows it."""
         scenario = ROOT / self.arguments[0]
-        page = Path("plans") / f"{scenario.stem}.html"
+        kind = next((f"{kind}-" for kind in ("laps", "delays") if kind in self.options), "")
+        page = Path("plans") / f"{kind}{scenario.stem}.html"
         target = Path(self.env.app.outdir) / page
         target.parent.mkdir(parents=True, exist_ok=True)
-        rightofway.write_page(rightofway.solve(rightofway.load(scenario)), target)
+        self.write(rightofway.load(scenario), target)
         self.env.note_dependency(str(scenario))
         return [nodes.raw("", self.frame(scenario.name, page), format="html")]
+
+    def write(self, scenario: rightofway.Scenario, target: Path) -> None:
+        """Write the page."""
+        if "laps" in self.options:
+            plan, steady = shown(run_laps(scenario))
+            rightofway.write_page(plan, target, steady=steady)
+            return
+        plan, actual = rightofway.solve(scenario), None
+        if "delays" in self.options:
+            actual = simulate(plan, self.options["delays"], runs=1).happened()
+        rightofway.write_page(plan, target, actual=actual)
 
     def frame(self, name: str, page: Path) -> str:
         """Return the frame, and a link to see the page alone."""

@@ -36,7 +36,8 @@ class Block:
     @property
     def file_name(self) -> str | None:
         """The second word of ``python in_turn.py``: the reader saves the block under it."""
-        return self.info[1] if len(self.info) > 1 and "." in self.info[1] else None
+        is_file = len(self.info) > 1 and "." in self.info[1] and not self.language.startswith("{")
+        return self.info[1] if is_file else None
 
 
 def blocks(page: Path) -> Iterator[Block]:

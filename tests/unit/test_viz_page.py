@@ -12,7 +12,15 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.viz import frame_of, page_of, payload_of, write_page
-from tests.viewer.plans import crowd, door, hostile, loop
+from tests.viewer.plans import (
+    counter,
+    counter_late,
+    counter_steady,
+    crowd,
+    door,
+    hostile,
+    loop,
+)
 
 EVIL = "</script><script>hacked=1</script><!--<img src=x onerror=hacked=1>\u2028&amp;'\"{{title}}"
 
@@ -46,7 +54,7 @@ def test_the_page_carries_the_payload() -> None:
 
 
 def test_a_small_plan_makes_a_small_page() -> None:
-    assert len(page_of(door()).encode()) < 150_000
+    assert len(page_of(door()).encode()) < 170_000
 
 
 def test_names_bring_no_element_and_no_attribute_with_them() -> None:
@@ -137,6 +145,12 @@ def test_a_page_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="there is no directory"):
         write_page(door(), tmp_path / "nowhere" / "page.html")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_notebook_shows_laps_and_late_runs_too() -> None:
+    extras: Any = {"steady": [counter_steady()], "actual": counter_late()}
+    frame = Elements(frame_of(counter(), **extras))
+    assert dict(frame.attributes)["srcdoc"] == page_of(counter(), **extras)
 
 
 def test_a_notebook_shows_the_page_in_a_sandbox() -> None:

@@ -32,6 +32,18 @@ def test_text_is_readable_on_every_ground(theme: Theme) -> None:
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
+def test_the_bottleneck_stands_out_and_names_in_it_can_be_read(theme: Theme) -> None:
+    assert min(contrast(theme.lit_edge, ground) for ground in (theme.paper, theme.floor)) >= 3
+    assert contrast(theme.ink, theme.lit) >= 4.5
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
+def test_what_goes_wrong_on_the_floor_stands_out(theme: Theme) -> None:
+    marks = (theme.held, theme.broken)
+    assert min(contrast(mark, theme.paper) for mark in marks) >= 4.5
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_every_robot_shows_on_the_floor(theme: Theme) -> None:
     # WCAG asks 3 to 1 of graphical objects; the lightest hues come close to it, none vanishes.
     assert min(contrast(colour, theme.floor) for colour in robot_colours(1000)) > 2.4

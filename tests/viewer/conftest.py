@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rightofway.model import Plan
+from rightofway.model import Actual, Plan, Steady
 from rightofway.viz import write_page
 
 if TYPE_CHECKING:
@@ -92,9 +92,16 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
     """Yield a function that opens the page of a plan, still unless ``reduced_motion`` says no."""
     contexts = []
 
-    def open_page(plan: Plan, fragment: str = "", **context: Any) -> Viewer:
+    def open_page(
+        plan: Plan,
+        fragment: str = "",
+        *,
+        steady: Sequence[Steady] = (),
+        actual: Actual | None = None,
+        **context: Any,
+    ) -> Viewer:
         path = directory / "plan.html"
-        write_page(plan, path)
+        write_page(plan, path, steady=steady, actual=actual)
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

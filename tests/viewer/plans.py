@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
+
+from rightofway.metrics.stays import stays_of
 from rightofway.model import (
+    Actual,
     Decision,
     Edge,
     Plan,
@@ -13,6 +17,7 @@ from rightofway.model import (
     Robot,
     Rules,
     Scenario,
+    Steady,
     Stop,
     Tick,
     Track,
@@ -21,7 +26,17 @@ from rightofway.model import (
     roadmap_of_grid,
 )
 
-__all__ = ["DOOR", "crowd", "door", "hostile", "loop"]
+__all__ = [
+    "DOOR",
+    "counter",
+    "counter_late",
+    "counter_steady",
+    "crowd",
+    "delayed",
+    "door",
+    "hostile",
+    "loop",
+]
 
 DOOR = ("...", "@.@", "...")
 """Vertices 0 to 6 are named N0, N1, N2, N4, N6, N7, N8."""
@@ -154,4 +169,81 @@ def _decision(index: int, vertex: VertexId) -> Decision:
         ticks=Tick(1),
         level="node",
         conflicts_left=(3, 5),
+    )
+
+
+def counter(laps: int = 4) -> Plan:
+    """Return two robots that take turns at one counter, four laps each, in the grid ``...``.
+
+    R1 has its home in N0, R2 in N2; both work 3 ticks in N1 and turn for 1, and an edge takes 1. So
+    N1 is held for 5 ticks by one and then by the other: everything comes again after 10.
+    """
+    roadmap = roadmap_of_grid(["..."])
+    robots = tuple(
+        Robot(name=name, home=VertexId(home), stops=(Stop(at=VertexId(1), work=Fraction(3)),))
+        for name, home in (("R1", 0), ("R2", 2))
+    )
+    tracks = tuple(
+        Track.of(
+            [home, *[1, home] * laps],
+            [0, *(tick + 10 * lap for lap in range(laps) for tick in (first, first + 5))],
+        )
+        for home, first in ((0, 1), (2, 6))
+    )
+    scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(laps=laps))
+    return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
+
+
+def counter_steady() -> Steady:
+    """Return the steady period of `counter`.
+
+    From tick 6 on, when R2 comes to the counter and R1 is home, everything comes again. The circle:
+    R1 comes to N1 and goes home, so R2 comes to N1 and goes home, so R1 comes to N1, 10 ticks on.
+    """
+    critical = ((0, 3), (0, 2), (1, 1), (1, 2))  # at ticks 11, 6 (so 16), 6 (so 16) and 11 (so 21)
+    return Steady(robots=(0, 1), start=Tick(6), period=Tick(10), critical=critical)
+
+
+def counter_late() -> Actual:
+    """Return a run of `counter`: R1 is held up for 4 ticks at its first work, R2 breaks down.
+
+    R1 stands still from 3 to 7 and leaves N1 at 10 instead of 6; all that follows is 4 late. R2
+    comes to N1 at 20 instead of 16 and breaks down there at 22; R1, home since 20, waits for ever.
+    """
+    return Actual(
+        tracks=(
+            Track.of([0, 1, 0, 1, 0], [0, 1, 10, 15, 20]),
+            Track.of([2, 1, 2, 1], [0, 10, 15, 20]),
+        ),
+        dwell=(np.array([0, 4, 1, 4, 1]), np.array([0, 4, 1, 4])),
+        drive=(np.array([0, 1, 1, 1, 1]), np.array([0, 1, 1, 1])),
+        completion=(None, None),
+        standstills=(((Tick(3), Tick(4)),), ((Tick(22), None),)),
+    )
+
+
+def delayed(plan: Plan, every: int = 9) -> Actual:
+    """Return a run of a plan in which each robot loses ticks by itself, and heeds nobody.
+
+    Each drive into every ninth visit takes a tick longer, and each robot stands still for 12 ticks.
+    """
+    tracks, dwells, drives, standstills = [], [], [], []
+    for robot, (track, stay) in enumerate(
+        zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True)
+    ):
+        slow = (np.arange(len(track)) + robot) % every == 0
+        slow[0] = False
+        begin = 20 + 7 * robot % 60
+        enter = track.enter + np.cumsum(slow)
+        enter[enter > begin] += 12
+        tracks.append(Track.of(track.vertices.tolist(), enter.tolist()))
+        dwells.append(stay.dwell)
+        drives.append(np.append(0, stay.drive[:-1]) + slow)
+        standstills.append(((Tick(begin), Tick(12)),) if begin < enter[-1] else ())
+    return Actual(
+        tracks=tuple(tracks),
+        dwell=tuple(dwells),
+        drive=tuple(drives),
+        completion=tuple(Tick(int(track.enter[-1])) for track in tracks),
+        standstills=tuple(standstills),
     )

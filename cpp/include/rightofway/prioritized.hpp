@@ -24,14 +24,16 @@
 namespace rightofway {
 
 // What it costs to take a robot's track away, in first holds of its home: at first, and how much
-// more each time. The dearer, the sooner a search is content with a way around, and the longer
-// that.
+// more each time. All prices rise by a quarter each time so many states have been expanded, so that
+// planning comes to an end where the floor is full. The dearer, the sooner a search is content with
+// a way around, and the longer that.
 struct TrackPrices {
     Tick first;
     Tick dearer;
+    std::int64_t states_between_raises;
 };
-constexpr TrackPrices patient{3, 2};
-constexpr TrackPrices hasty{100, 50};
+constexpr TrackPrices patient{3, 2, 1'000'000};
+constexpr TrackPrices hasty{100, 50, 100'000};
 
 class Prioritized {
   public:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import click
 
 from rightofway.cli.planning import refuse_bad_outputs, seconds, write
-from rightofway.cli.terminal import progress, put, put_json, read_scenario, writable
+from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
+
+if TYPE_CHECKING:
+    from rightofway.laps import LapsRun
 
 __all__ = ["laps"]
 
@@ -18,6 +22,7 @@ Examples:
   rightofway laps examples/door.yaml
   rightofway laps examples/crossroad.yaml --rule two-level --json
   rightofway laps examples/door.yaml --rule timetable -o plan.json
+  rightofway laps examples/bay.yaml --page laps.html
 """
 
 
@@ -49,6 +54,8 @@ def part(_context: click.Context, _parameter: click.Parameter, given: str) -> Fr
               help="With timetable: for what is drawn at random.")  # fmt: skip
 @click.option("-o", "--output", metavar="PLAN", callback=writable(),
               help="Write the run as a plan of whole laps; - for standard output.")  # fmt: skip
+@click.option("--page", metavar="FILE", callback=writable(".html"),
+              help="Write a page that plays the laps.")  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 def laps(
     *,
@@ -59,6 +66,7 @@ def laps(
     least_fairness: Fraction,
     seed: int,
     output: str | None,
+    page: str | None,
     as_json: bool,
 ) -> int:
     """Let every robot of a SCENARIO repeat its round trip until the pattern repeats.
@@ -89,7 +97,18 @@ def laps(
             put_json(laps_data(run, chosen))
         else:
             put(laps_report(run, chosen))
+    if page:
+        _write_page(run, page)
     if output:
         write(plan_of(run), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
+
+
+def _write_page(run: LapsRun, page: str) -> None:
+    from rightofway.laps import shown
+    from rightofway.viz import write_page
+
+    plan, steady = shown(run)
+    write_page(plan, page, steady=steady)
+    say(f"wrote {page}")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_plan
+from rightofway.cli.terminal import put, put_json, read_plan, say, writable
 
 if TYPE_CHECKING:
     from rightofway.floor import Outcome
@@ -31,6 +31,7 @@ Examples:
   rightofway simulate plan.json
   rightofway simulate plan.json --delays exponential:0.1,stop:R1@5+20
   rightofway simulate plan.json --delays late.yaml --runs 100000 --json
+  rightofway simulate plan.json --page late.html
 """
 
 
@@ -66,6 +67,18 @@ Examples:
 @click.option(
     "--replan", is_flag=True, help="Plan what is left anew when a robot breaks down for ever."
 )
+@click.option(
+    "--page",
+    metavar="FILE",
+    callback=writable(".html"),
+    help="Write a page that plays one run against the plan.",
+)
+@click.option(
+    "--run",
+    type=click.IntRange(0),
+    metavar="K",
+    help="Which run to play, from 0; without, the one in the middle by lateness.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON.")  # fmt: skip
 def simulate(
     *,
@@ -75,6 +88,8 @@ def simulate(
     seed: int,
     switch: bool,
     replan: bool,
+    page: str | None,
+    run: int | None,
     as_json: bool,
 ) -> int:
     """Run a PLAN on a floor where robots are late.
@@ -83,6 +98,8 @@ def simulate(
     never collide nor deadlock, and exit code 1 says if they did. By the clock, to compare, each
     robot keeps its planned times as well as it can. A PLAN of - is standard input.
     """
+    if run is not None and not 0 <= run < runs:
+        raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.floor import DEFAULT
     from rightofway.floor import simulate as run_on_the_floor
 
@@ -95,7 +112,16 @@ def simulate(
         from rightofway.cli.lateness import report
 
         put(report(outcome))
+    if page:
+        _write_page(outcome, page, outcome.typical() if run is None else run)
     return _end(outcome)
+
+
+def _write_page(outcome: Outcome, page: str, run: int) -> None:
+    from rightofway.viz import write_page
+
+    write_page(outcome.plan, page, actual=outcome.happened(run))
+    say(f"wrote {page}: run {run} of {outcome.runs}")
 
 
 def _end(outcome: Outcome) -> int:

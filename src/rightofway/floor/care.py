@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rightofway.floor.happened import as_planned_but_late, planned_anew
 from rightofway.floor.phases import Ended, run_in_phases
 from rightofway.floor.switching import switched
 from rightofway.floor.tally import Tally
-from rightofway.model import Track
+from rightofway.model import Actual
 from rightofway.precedence import DelayedPlan, Runs
 
 __all__ = ["Care"]
@@ -50,14 +51,16 @@ class Care:
             floor, switches = switched(floor, floor.setbacks(seed, run))
         tally.add(floor.runs(seed, run, 1), switches=switches)
 
-    def tracks(self, floor: DelayedPlan, seed: int, run: int) -> tuple[Track, ...]:
+    def actual(self, floor: DelayedPlan, seed: int, run: int) -> Actual:
         """Return what happens in one run."""
-        if self.replan:
-            return run_in_phases(floor, seed, run, switch=self.switch).tracks
         setbacks = floor.setbacks(seed, run)
+        if self.replan:
+            ended = run_in_phases(floor, seed, run, switch=self.switch)
+            if ended.replans:
+                return planned_anew(floor, setbacks, ended)
         if self.switch:
             floor, _ = switched(floor, setbacks)
-        return floor.split(floor.execute(setbacks).enter)
+        return as_planned_but_late(floor, setbacks)
 
 
 def _out_of_action(ended: Ended) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Plan, Track, VertexId
+from rightofway.model import Actual, Plan, Track, VertexId
 
 __all__ = ["Collisions", "Lateness", "Outcome", "RobotLateness", "Source", "Spread"]
 
@@ -182,7 +182,7 @@ class Outcome:
     replans: int = 0
     lateness: Lateness
     completion: NDArray[np.int64]
-    _actual: Callable[[int], tuple[Track, ...]] = field(repr=False)
+    _actual: Callable[[int], Actual] = field(repr=False)
 
     @property
     def collisions(self) -> int:
@@ -208,9 +208,25 @@ class Outcome:
         The judge reckons with planned durations: robots that are early are too fast for it, and
         where they book ahead it thinks that they book sooner than they do. Else it finds no fault.
         """
+        return self.happened(run).tracks
+
+    def happened(self, run: int = 0) -> Actual:
+        """Return the same with what took how long, as pages show it.
+
+        Raises
+        ------
+        IndexError
+            If there was no such run.
+        """
         if not 0 <= run < self.runs:
             raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")
         return self._actual(run)
+
+    def typical(self) -> int:
+        """Return the run in the middle of all, by who never completed, then by flowtime."""
+        never = (self.completion < 0).sum(axis=1)
+        flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
+        return int(np.lexsort((flowtime, never))[(self.runs - 1) // 2])
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything but the single runs, by name; times in ticks."""

@@ -103,7 +103,7 @@ def simulate(
         replans=tally.replans,
         lateness=tally.lateness(),
         completion=np.where(unfinished, -1, tally.completion),
-        _actual=lambda run: care.tracks(floor, seed, run),
+        _actual=lambda run: care.actual(floor, seed, run),
     )
 
 

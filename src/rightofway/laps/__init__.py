@@ -10,6 +10,7 @@ from rightofway.laps.pattern import Pattern
 from rightofway.laps.plan import plan_of
 from rightofway.laps.rules import RULES
 from rightofway.laps.run import ROUTES, run_laps
+from rightofway.laps.shown import shown
 from rightofway.laps.starting import run_of
 from rightofway.laps.timetable import best_timetable
 
@@ -33,4 +34,5 @@ __all__ = [
     "plan_of",
     "run_laps",
     "run_of",
+    "shown",
 ]

@@ -12,7 +12,7 @@ from rightofway.laps.endless import Endless
 from rightofway.laps.pattern import Pattern
 from rightofway.model import Scenario
 from rightofway.planners import planning_headway
-from rightofway.precedence import PeriodicTimetable, event_graph
+from rightofway.precedence import EventGraph, PeriodicTimetable, event_graph
 
 __all__ = ["GroupRun", "LapsRun"]
 
@@ -112,12 +112,16 @@ class LapsRun:
 
     def bottleneck(self, group: GroupRun) -> Bottleneck | None:
         """Return what a group's period is made of; None if nothing repeats, or a robot stands."""
+        graph = self.graph(group)
+        return None if graph is None else bottleneck_of(graph)
+
+    def graph(self, group: GroupRun) -> EventGraph | None:
+        """Return the event graph of what a group repeats; None if nothing, or a robot stands."""
         timetable = group.timetable
         if timetable is None:
             return None
         how = self._bookings(group)
-        graph = event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
-        return bottleneck_of(graph)
+        return event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
 
     def throughput(self) -> Fraction:
         """Return how many laps all robots complete in a time unit of the scenario."""

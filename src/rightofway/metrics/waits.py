@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rightofway.metrics.bookings import bookings_of
 from rightofway.metrics.stays import Stays, stays_of
-from rightofway.model import Plan, Tick, VertexId
+from rightofway.model import Plan, Scenario, Tick, Track, VertexId
 
-__all__ = ["Wait", "waits"]
+__all__ = ["Wait", "waits", "waits_in"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,22 +45,41 @@ class Wait:
 
 def waits(plan: Plan) -> tuple[Wait, ...]:
     """Return all waits of a plan that keeps the rules, by tick, then by robot."""
-    scenario, tracks = plan.scenario, plan.tracks
-    stays = stays_of(scenario, tracks)
+    return waits_in(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
+
+
+def waits_in(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> tuple[Wait, ...]:
+    """Return all waits of tracks that keep the rules, where it is known what their visits are for.
+
+    Parameters
+    ----------
+    scenario
+        The fleet.
+    tracks, stays
+        One of both for each robot.
+    """
     bookings = bookings_of(scenario, tracks, stays)
     places = zip(bookings.vertex.tolist(), bookings.end.tolist(), strict=True)
     frees = dict(zip(places, bookings.robot.tolist(), strict=True))
+    books_both = scenario.rules.occupancy == "both"
     found = (
-        wait for robot in range(len(tracks)) for wait in _waits(plan, robot, stays[robot], frees)
+        wait
+        for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True))
+        for wait in _waits(robot, track, stay, frees, books_both=books_both)
     )
     return tuple(sorted(found, key=lambda wait: (wait.tick, wait.robot)))
 
 
 def _waits(
-    plan: Plan, robot: int, stay: Stays, frees: Mapping[tuple[int, int], int]
+    robot: int,
+    track: Track,
+    stay: Stays,
+    frees: Mapping[tuple[int, int], int],
+    *,
+    books_both: bool,
 ) -> Iterator[Wait]:
-    track = plan.tracks[robot]
-    books_both = plan.scenario.rules.occupancy == "both"
     for visit in np.flatnonzero(stay.waits > 0).tolist():
         vertex, towards = map(VertexId, track.vertices[visit : visit + 2].tolist())
         approach = stay.drive[visit] if books_both else 0

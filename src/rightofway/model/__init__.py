@@ -1,5 +1,6 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
+from rightofway.model.actual import Actual
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
 from rightofway.model.lap import Lap, lap_of
@@ -9,9 +10,11 @@ from rightofway.model.robot import Robot, Stop, TripEnd, Turn
 from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
+from rightofway.model.steady import Steady
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
 __all__ = [
+    "Actual",
     "Clock",
     "Decision",
     "Edge",
@@ -30,6 +33,7 @@ __all__ = [
     "Rules",
     "Scenario",
     "Stage",
+    "Steady",
     "Stop",
     "Tick",
     "Timing",

@@ -28,7 +28,7 @@ from rightofway.search import Distances, FleetSearch
 
 __all__ = ["ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
 
-SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.25, 0.4, 0.8
+SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.2, 0.5, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
 
 SEARCHES, SEARCHES_AT_ONE_PACE = 3, 20

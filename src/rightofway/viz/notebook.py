@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Sequence
 
-from rightofway.model import Plan
+from rightofway.model import Actual, Plan, Steady
 from rightofway.viz.page import page_of
 
 __all__ = ["frame_of"]
@@ -13,7 +14,13 @@ HEIGHT = 680
 """Enough for map and diagram [pixels]."""
 
 
-def frame_of(plan: Plan, *, height: int = HEIGHT) -> str:
+def frame_of(
+    plan: Plan,
+    *,
+    height: int = HEIGHT,
+    steady: Sequence[Steady] = (),
+    actual: Actual | None = None,
+) -> str:
     """Return HTML that shows a plan in a notebook; what ``_repr_html_`` is to return.
 
     Parameters
@@ -22,11 +29,15 @@ def frame_of(plan: Plan, *, height: int = HEIGHT) -> str:
         The plan.
     height
         Height of the frame [pixels].
+    steady
+        Where it repeats itself.
+    actual
+        What became of it on the floor.
 
     Notes
     -----
     The frame is sandboxed: whatever the names in a plan are, they cannot reach the notebook.
     """
-    document = html.escape(page_of(plan))
+    document = html.escape(page_of(plan, steady=steady, actual=actual))
     style = f"width:100%;height:{height}px;border:0;border-radius:8px"
     return f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{style}"></iframe>'

@@ -47,6 +47,10 @@ class Theme:
         The ends of the heat map.
     drive, wait, work, turn
         What robots do, where they are counted.
+    held, broken
+        What befalls them on the floor.
+    lit, lit_edge
+        The bottleneck, and the line round it.
     """
 
     paper: str
@@ -63,6 +67,10 @@ class Theme:
     wait: str
     work: str
     turn: str
+    held: str
+    broken: str
+    lit: str
+    lit_edge: str
 
     def css(self) -> str:
         """Return the colours as CSS custom properties."""
@@ -75,6 +83,7 @@ LIGHT = Theme(
     ink="#1c2025", muted="#5d646c", focus="#1f62c9",
     heat_low="#f7ead0", heat_high="#a4480d",
     drive="#9db4cf", wait="#d9922e", work="#3d5a80", turn="#6c8cb4",
+    held="#a3324e", broken="#1c2025", lit="#ffdf6b", lit_edge="#8a6400",
 )  # fmt: skip
 
 DARK = Theme(
@@ -82,6 +91,7 @@ DARK = Theme(
     ink="#e9e6df", muted="#a0a8b1", focus="#7db2ff",
     heat_low="#2b2724", heat_high="#e08a3c",
     drive="#4a6484", wait="#e0a045", work="#a9c6ea", turn="#7193bd",
+    held="#ee7f97", broken="#e9e6df", lit="#6e5600", lit_edge="#f0c948",
 )  # fmt: skip
 
 

@@ -12,24 +12,26 @@ import html
 import json
 import os
 import re
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
 from rightofway.files import write_whole
-from rightofway.model import Plan
+from rightofway.model import Actual, Plan, Steady
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
 __all__ = ["page_of", "write_page"]
 
 SCRIPTS = (
-    "observable", "phases", "plan", "motion", "clock", "choice", "use", "words",
+    "observable", "phases", "plan", "floor", "steady", "fleet_memo",
+    "motion", "clock", "choice", "use", "words",
     "dom", "theme", "canvas", "shapes",
-    "viewport", "map_base", "map_route", "map_robots", "map_view",
-    "axis", "space_time", "robot_rows", "census", "diagram",
+    "viewport", "bottleneck", "map_base", "map_route", "map_robots", "map_view",
+    "axis", "steady_band", "space_time", "robot_rows", "census", "diagram",
     "virtual_list", "robot_list", "decision_list", "card", "summary", "states", "tabs",
-    "transport", "deep_link", "keys", "main",
+    "transport", "loop", "mode_switch", "deep_link", "keys", "main",
 )  # fmt: skip
 """In the order they run; each may use those before it at once, and all others later."""
 
@@ -37,18 +39,27 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 """Escapes that mean the same in JSON, and nothing in HTML."""
 
 
-def page_of(plan: Plan) -> str:
+def page_of(plan: Plan, *, steady: Sequence[Steady] = (), actual: Actual | None = None) -> str:
     """Return a page that plays a plan, as one HTML document.
 
     Parameters
     ----------
     plan
         The plan.
+    steady
+        Where it repeats itself: the page marks the periods and plays one for ever.
+    actual
+        What became of it on the floor: the page shows it against the plan.
 
     Returns
     -------
     str
         HTML. Its content security policy forbids any connection, and any script but our own.
+
+    Raises
+    ------
+    InputError
+        If ``steady`` or ``actual`` are not of this plan.
     """
     style, scripts = _style(), [_asset(f"{name}.js") for name in SCRIPTS]
     return _filled(
@@ -56,12 +67,18 @@ def page_of(plan: Plan) -> str:
         title=_title(plan),
         policy=_policy(style, scripts),
         style=style,
-        payload=_json(payload_of(plan)),
+        payload=_json(payload_of(plan, steady=steady, actual=actual)),
         scripts="\n".join(f"<script>{script}</script>" for script in scripts),
     )
 
 
-def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_page(
+    plan: Plan,
+    path: str | os.PathLike[str],
+    *,
+    steady: Sequence[Steady] = (),
+    actual: Actual | None = None,
+) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
@@ -70,13 +87,17 @@ def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
         The plan.
     path
         Where, usually ``….html``.
+    steady
+        Where it repeats itself: the page marks the periods and plays one for ever.
+    actual
+        What became of it on the floor: the page shows it against the plan.
 
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the file cannot be written, or ``steady`` or ``actual`` are not of this plan.
     """
-    write_whole(path, page_of(plan))
+    write_whole(path, page_of(plan, steady=steady, actual=actual))
 
 
 def _title(plan: Plan) -> str:

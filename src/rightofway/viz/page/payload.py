@@ -6,16 +6,19 @@ route these are small and repeat, so the file is a fraction of the size. ``plan.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from rightofway.metrics import Metrics, Wait, measure, waits
-from rightofway.model import Decision, Itinerary, Plan, Reroute, Roadmap
+from rightofway.metrics import Metrics, measure, waits
+from rightofway.model import Actual, Decision, Itinerary, Plan, Reroute, Roadmap, Steady
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.ordering import vertices_in_line
+from rightofway.viz.page.figures import differences, wait_row
+from rightofway.viz.page.on_floor import floor_of
+from rightofway.viz.page.repeats import laps_of, last_tick_of_all, steady_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.plane import plane_of
 
@@ -25,16 +28,39 @@ DECIMALS = 3
 """Places kept of a position; a thousandth of a cell cannot be seen."""
 
 
-def payload_of(plan: Plan) -> dict[str, Any]:
+def payload_of(
+    plan: Plan, *, steady: Sequence[Steady] = (), actual: Actual | None = None
+) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
     plan
         The plan; times in the result are ticks.
+    steady
+        Where it repeats itself.
+    actual
+        What became of it on the floor.
+
+    Raises
+    ------
+    InputError
+        If ``steady`` or ``actual`` are not of this plan.
     """
-    trips, metrics = trips_of(plan), measure(plan)
-    scenario, run = plan.scenario, plan.run
+    trips = trips_of(plan)
+    payload = _plan(plan, trips)
+    if steady:
+        payload["steady"] = steady_of(plan, steady)
+        payload["laps"] = laps_of(plan)
+    if steady and actual is None:
+        payload["end"] = last_tick_of_all(trips, payload["steady"])
+    if actual is not None:
+        payload["floor"] = floor_of(plan, actual, trips)
+    return payload
+
+
+def _plan(plan: Plan, trips: Sequence[Trip]) -> dict[str, Any]:
+    scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     return {
         "tick": _pair(scenario.timing.clock.tick),
         "end": max(end_of(trips), 1),
@@ -43,7 +69,7 @@ def payload_of(plan: Plan) -> dict[str, Any]:
         "map": _map(scenario.roadmap),
         "line": vertices_in_line([trip.vertices for trip in trips]),
         "robots": _robots(plan, trips, metrics),
-        "waits": [_wait(wait) for wait in waits(plan)],
+        "waits": [wait_row(wait) for wait in waits(plan)],
         "planner": {"name": run.name, "status": run.status},
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [_reroute(reroute) for reroute in run.reroutes],
@@ -69,8 +95,8 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
         **size,
         "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
         "points": np.round(plane.points, DECIMALS).ravel().tolist(),
-        "tails": _differences(tails.tolist()),
-        "heads": _differences(roadmap.heads.tolist()),
+        "tails": differences(tails.tolist()),
+        "heads": differences(roadmap.heads.tolist()),
     }
 
 
@@ -85,6 +111,7 @@ def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[st
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
             **_trip(trips[index], itineraries[index]),
+            **({} if min(trips[index].served) >= 0 else {"stands": True}),
         }
         for index, robot in enumerate(plan.scenario.robots)
     ]
@@ -92,8 +119,8 @@ def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[st
 
 def _trip(trip: Trip, itinerary: Itinerary) -> dict[str, Any]:
     return {
-        "vertices": _differences(trip.vertices),
-        "enter": _differences(trip.enter),
+        "vertices": differences(trip.vertices),
+        "enter": differences(trip.enter),
         "drive": _drive(trip, itinerary),
         "stages": _stages(trip),
     }
@@ -109,10 +136,6 @@ def _stages(trip: Trip) -> list[list[int]]:
         [stage.vertex, stage.work, stage.turn, visit]
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
-
-
-def _wait(wait: Wait) -> list[int | None]:
-    return [wait.robot, wait.vertex, wait.tick, wait.ticks, wait.towards, wait.for_robot]
 
 
 def _decision(decision: Decision) -> dict[str, Any]:
@@ -136,8 +159,3 @@ def _reroute(reroute: Reroute) -> dict[str, Any]:
 
 def _pair(fraction: Fraction) -> list[int]:
     return [fraction.numerator, fraction.denominator]
-
-
-def _differences(numbers: Iterable[int]) -> list[int]:
-    differences: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
-    return differences

@@ -5,11 +5,11 @@ const LABEL_GAP = 62; // pixels between two labelled moments, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
 class Area {
-  constructor(width, height, end) {
+  constructor(width, height, end, above = 0) {
     const style = getComputedStyle(document.documentElement);
     this.left = Number.parseFloat(style.getPropertyValue("--gutter"));
     this.right = width - Number.parseFloat(style.getPropertyValue("--pad"));
-    this.top = 8;
+    this.top = 8 + above;
     this.bottom = height - AXIS_HEIGHT;
     this.end = end;
   }
@@ -19,7 +19,7 @@ class Area {
   }
 
   x(tick) {
-    return this.left + (Math.min(tick, this.end) / this.end) * (this.right - this.left);
+    return this.left + ((tick === Infinity ? this.end : tick) / this.end) * (this.right - this.left);
   }
 
   tick(x) {

@@ -8,6 +8,7 @@ class Card {
     Object.assign(this, { plan, clock, choice, words });
     this.box = document.getElementById("card");
     choice.on("choice", () => this.#show());
+    choice.on("mode", () => this.#show());
   }
 
   #show() {
@@ -27,15 +28,13 @@ class Card {
 
   #robot(robot) {
     const { words } = this;
-    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
-    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
-    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
+    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
       facts([
-        ["Done at", `${words.time(robot.completion)}${lost}`],
-        ["Alone", words.time(robot.alone)],
+        ...this.#times(robot),
+        ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
         ["Waits", waited ? `${words.time(waited)} in all` : "never"],
         ["Speed", robot.speed],
         ["Home", words.vertex(robot.home)],
@@ -45,6 +44,34 @@ class Card {
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
       ...this.#waits(robot),
     ];
+  }
+
+  #times(robot) {
+    if (robot.planned) return this.#floorTimes(robot);
+    return this.plan.steady ? this.#lapTimes(robot) : this.#planTimes(robot);
+  }
+
+  #planTimes(robot) {
+    const { words } = this;
+    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
+    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
+    return [["Done at", `${words.time(robot.completion)}${lost}`], ["Alone", words.time(robot.alone)]];
+  }
+
+  #floorTimes(robot) {
+    const { words } = this;
+    const planned = ["Planned", words.time(robot.planned.completion)];
+    if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], planned];
+    if (robot.ending === WAIT) return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], planned];
+    return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], planned];
+  }
+
+  /** From when on it repeats itself, and how often. */
+  #lapTimes(robot) {
+    const group = this.plan.steady.groupOf[robot.index];
+    if (!group?.whole) return [["Repeats", "not within what is shown"]];
+    const every = `${counted(this.plan.steady.lapsInPeriod(robot.index), "lap")} every ${this.words.time(group.period)}`;
+    return [["Repeats", `${every}, from ${this.words.time(group.start)} on`]];
   }
 
   #stage(robot, stage) {
@@ -58,7 +85,7 @@ class Card {
 
   #waits(robot) {
     if (!robot.waits.length) return [];
-    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait)));
+    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait, robot)));
     return [element("h3", {}, "Waits"), lines];
   }
 

@@ -1,36 +1,67 @@
 "use strict";
 
 const MOST_SAMPLES = 1200;
-const STACK = [WORK, TURN, DRIVE, WAIT]; // from the bottom up; who is done, is the empty space above
+const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; who is done, is the empty space above
 
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
 class Census {
-  #counts = null;
+  #counts;
+  #planned;
 
-  constructor(plan, theme) {
-    Object.assign(this, { plan, theme });
-    this.title = `What the ${plan.robots.length} robots do over time`;
+  constructor(plan, theme, choice) {
+    Object.assign(this, { plan, theme, choice });
+    this.#counts = new FleetMemo(plan, () => this.#count(plan.robots));
+    this.#planned = new FleetMemo(plan, () => this.#out(this.#count(plan.planned)));
     this.samples = Math.min(plan.end, MOST_SAMPLES);
   }
 
+  get title() {
+    const what = `What the ${this.plan.robots.length} robots do over time`;
+    return this.choice.ghosts ? `${what}; the line: how many are out by plan` : what;
+  }
+
   paint(context, area) {
-    const counts = (this.#counts ??= this.#count());
+    const counts = this.#counts.value;
     const below = new Float64Array(this.samples);
-    const { work, turn, drive, wait } = this.theme;
-    const colours = { [WORK]: work, [TURN]: turn, [DRIVE]: drive, [WAIT]: wait };
-    for (const activity of STACK) {
+    const { work, turn, drive, wait, held, broken } = this.theme;
+    const colours = { [WORK]: work, [TURN]: turn, [DRIVE]: drive, [WAIT]: wait, [HELD]: held, [BROKEN]: broken };
+    for (const activity of this.#stack) {
       context.fillStyle = colours[activity];
       this.#band(context, area, below, counts[activity]);
     }
+    if (this.choice.ghosts) this.#outline(context, area, this.#planned.value);
     this.#legend(context, area, colours);
   }
 
+  get #stack() {
+    return STACK.filter((activity) => activity < DONE || this.#counts.value[activity].some(Boolean));
+  }
+
+  /** How many robots are not done yet, in each sample. */
+  #out(counts) {
+    return counts[DONE].map((done) => this.plan.robots.length - done);
+  }
+
+  /** A line at the height of these numbers of robots. */
+  #outline(context, area, robots) {
+    const x = (sample) => area.x((sample / this.samples) * area.end);
+    const y = (count) => area.bottom - (count / this.plan.robots.length) * area.height;
+    context.strokeStyle = this.theme.ink;
+    context.lineWidth = 1.25;
+    context.beginPath();
+    for (let i = 0; i < this.samples; i++) {
+      context.lineTo(x(i), y(robots[i]));
+      context.lineTo(x(i + 1), y(robots[i]));
+    }
+    context.stroke();
+  }
+
   /** Robots by activity, in the middle of each sample. */
-  #count() {
+  #count(robots) {
     const counts = ACTIVITY_WORDS.map(() => new Int32Array(this.samples + 1));
     const sample = (tick) =>
       Math.min(Math.max(Math.ceil((tick / this.plan.end) * this.samples - 0.5), 0), this.samples);
-    for (const { phases } of this.plan.robots) {
+    for (const { phases } of robots) {
       for (let i = 0; i < phases.begin.length; i++) {
         counts[phases.activity[i]][sample(phases.begin[i])]++;
         counts[phases.activity[i]][sample(phases.end(i))]--;
@@ -66,7 +97,7 @@ class Census {
     context.textBaseline = "middle";
     context.fillStyle = this.theme.muted;
     context.fillText(counted(this.plan.robots.length, "robot"), 28, area.top + 4);
-    STACK.forEach((activity, place) => {
+    this.#stack.forEach((activity, place) => {
       const y = area.bottom - 12 - place * 22;
       context.fillStyle = colours[activity];
       context.fillRect(28, y - 5, 10, 10);

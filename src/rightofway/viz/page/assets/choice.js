@@ -1,6 +1,9 @@
 "use strict";
 
-/** What the user looks at: a robot, a decision, the heat map. Tells `choice` and `heat`. */
+/**
+ * What the user looks at: a robot, a decision, the heat map, the plan or what became of it, the
+ * bottleneck. Tells `choice`, `heat`, `mode` and `bottleneck`.
+ */
 class Choice extends Observable {
   constructor(plan) {
     super();
@@ -8,6 +11,8 @@ class Choice extends Observable {
     this.robotIndex = -1;
     this.decisionIndex = -1;
     this.heat = false;
+    this.mode = plan.happened ? "both" : "plan";
+    this.bottleneck = true;
   }
 
   /** The robot, or null. */
@@ -36,6 +41,24 @@ class Choice extends Observable {
   toggleHeat() {
     this.heat = !this.heat;
     this.tell("heat");
+  }
+
+  toggleBottleneck() {
+    this.bottleneck = !this.bottleneck;
+    this.tell("bottleneck");
+  }
+
+  /** Show the plan, what became of it on the `floor`, or `both`. */
+  show(mode) {
+    if (mode === this.mode) return;
+    this.mode = mode;
+    this.plan.robots = mode === "plan" ? this.plan.planned : this.plan.happened;
+    this.tell("mode");
+  }
+
+  /** Whether the plan is shown beside what happened. */
+  get ghosts() {
+    return this.mode === "both";
   }
 
   /** Whether a robot is to stand out; all do while none is chosen. */

@@ -3,10 +3,13 @@
 /** How many time units pass in a second. */
 const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
 
-/** A whole plan plays in about this long [s], unless the user changes the speed. */
+/** A whole plan, or two periods, play in about this long [s], unless the user changes the speed. */
 const PLEASANT_SECONDS = 24;
 
-/** The moment shown. Tells `tick` when it changes, `playing` when it starts, stops, or changes pace. */
+/**
+ * The moment shown. Tells `tick` when it changes, `playing` when it starts, stops, or changes pace,
+ * `loop` when it begins or ends to play a stretch of time again and again.
+ */
 class Clock extends Observable {
   constructor(plan) {
     super();
@@ -14,22 +17,53 @@ class Clock extends Observable {
     this.tick = 0;
     this.playing = false;
     this.ticksPerUnit = plan.tick.denominator / plan.tick.numerator;
-    const pace = this.end / this.ticksPerUnit / PLEASANT_SECONDS;
+    const shown = plan.steady && !plan.happened ? Math.min(2 * plan.steady.largest.period, this.end) : this.end;
+    const pace = shown / this.ticksPerUnit / PLEASANT_SECONDS;
     this.rate = RATES.findLast((rate) => rate < 1.5 * pace) ?? RATES[0];
-    this.#plan = plan;
+    this.loop = null; // { from, to }
+    this.turns = 0; // how often it has gone back since it loops
+    this.#events = new FleetMemo(plan, () => eventsOf(plan));
   }
 
-  #events = null;
-  #plan;
+  #events;
 
   /** The moment, as a whole number of ticks. */
   get wholeTick() {
     return Math.floor(this.tick + 1e-9);
   }
 
+  /** The moment if time had gone on instead of back. */
+  get running() {
+    return this.loop ? this.tick + this.turns * (this.loop.to - this.loop.from) : this.tick;
+  }
+
+  /** Show a moment; one after the loop ends it. */
   seek(tick) {
+    if (this.loop && tick > this.loop.to) this.setLoop(null);
+    this.turns = 0;
+    this.#go(tick);
+  }
+
+  #go(tick) {
     this.tick = Math.min(Math.max(tick, 0), this.end);
     this.tell("tick");
+  }
+
+  /** Play from `from` to `to` again and again; null to go on. What comes before `from` is played once. */
+  setLoop(loop) {
+    const { running } = this;
+    this.loop = loop;
+    this.turns = 0;
+    this.#go(loop ? this.#wrapped(running) : this.tick);
+    this.tell("loop");
+  }
+
+  /** The moment of the loop that is like this one. */
+  #wrapped(tick) {
+    const { from, to } = this.loop;
+    const turns = Math.max(Math.floor((tick - from) / (to - from)), 0);
+    this.turns += turns;
+    return tick - turns * (to - from);
   }
 
   toggle() {
@@ -61,20 +95,22 @@ class Clock extends Observable {
 
   /** Let time run on. */
   advance(seconds) {
-    this.seek(this.tick + seconds * this.rate * this.ticksPerUnit);
-    if (this.tick >= this.end) this.pause();
+    const tick = this.tick + seconds * this.rate * this.ticksPerUnit;
+    this.#go(this.loop ? this.#wrapped(tick) : tick);
+    if (this.tick >= this.end && !this.loop) this.pause();
   }
 
   /** Go one whole tick back (-1) or on (1). */
   step(by) {
     this.pause();
-    this.seek(by < 0 ? Math.ceil(this.tick - 1e-9) - 1 : this.wholeTick + 1);
+    const tick = by < 0 ? Math.ceil(this.tick - 1e-9) - 1 : this.wholeTick + 1;
+    this.#go(this.loop ? this.#wrapped(tick) : tick);
   }
 
   /** Go to the last (-1) or next (1) instant at which `robot`, or any robot for null, does something new. */
   stepEvent(by, robot) {
     this.pause();
-    const events = robot ? robot.phases.begin : (this.#events ??= eventsOf(this.#plan));
+    const events = robot ? robot.phases.begin : this.#events.value;
     const index = lastAtMost(events, by < 0 ? this.tick - 1e-9 : this.tick + 1e-9);
     this.seek(by < 0 ? events[index] : events[index + 1] ?? this.end);
   }

@@ -12,6 +12,7 @@ class DeepLink {
     if (EMBEDDED) return;
     clock.on("tick", () => this.#soon());
     choice.on("choice", () => this.#soon());
+    choice.on("mode", () => this.#soon());
     window.addEventListener("hashchange", () => this.read());
   }
 
@@ -22,6 +23,7 @@ class DeepLink {
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
+    if (this.plan.happened && MODES.includes(asked.get("show"))) this.choice.show(asked.get("show"));
     const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
     this.clock.seek(Number.parseFloat(tick) || 0);
     return asked.size > 0;
@@ -38,6 +40,7 @@ class DeepLink {
     const state = new URLSearchParams({ tick: String(Math.round(this.clock.tick * 100) / 100) });
     if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
+    if (this.plan.happened) state.set("show", this.choice.mode);
     history.replaceState(null, "", `#${state}`);
   }
 }

@@ -2,14 +2,15 @@
 
 /** The diagram below the slider: of the views on the plan, the one that explains most. */
 class Diagram {
-  constructor(plan, clock, choice, theme, words, use) {
+  constructor(plan, clock, choice, theme, words, use, bottleneck) {
     Object.assign(this, { plan, clock, choice, theme, words });
     this.canvas = document.getElementById("diagram");
     this.needle = document.getElementById("needle");
     this.heading = document.getElementById("diagram-title");
-    this.spaceTime = new SpaceTime(plan, theme, words, use, choice);
-    this.rows = new RobotRows(plan, theme);
-    this.census = new Census(plan, theme);
+    this.spaceTime = new SpaceTime(plan, theme, words, use, choice, bottleneck);
+    this.rows = new RobotRows(plan, theme, choice, bottleneck);
+    this.census = new Census(plan, theme, choice);
+    this.band = new SteadyBand(plan, clock, choice, theme, words);
     this.layer = new Layer((context, width, height) => this.#paintView(context, width, height));
     this.#listen();
   }
@@ -24,7 +25,7 @@ class Diagram {
   paint() {
     const size = fitCanvas(this.canvas);
     if (size.changed || this.layer.stale) {
-      this.area = new Area(size.width, size.height, this.plan.end);
+      this.area = this.#areaOf(size);
       const context = this.canvas.getContext("2d");
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
@@ -35,11 +36,21 @@ class Diagram {
     this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;
   }
 
+  #areaOf({ width, height }) {
+    return new Area(width, height, this.plan.end, this.band.height);
+  }
+
   #paintView(context, width, height) {
-    const area = new Area(width, height, this.plan.end);
+    const area = this.#areaOf({ width, height });
+    this.band.paint(context, area);
     paintAxis(context, area, this.plan, this.theme, this.words);
+    context.save();
+    context.beginPath();
+    context.rect(0, 0, area.right + 1, height); // laps go on beyond the end
+    context.clip();
     this.view.paint(context, area);
     this.#decisions(context, area);
+    context.restore();
   }
 
   /** A small triangle at the top wherever somebody was given the right of way. */

@@ -1,7 +1,7 @@
 "use strict";
 
 /** What the keyboard does wherever no text is being written. */
-function listenToKeys(clock, choice, viewport) {
+function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
   const help = document.getElementById("help");
   const find = document.getElementById("find-robot");
   const actions = {
@@ -17,6 +17,9 @@ function listenToKeys(clock, choice, viewport) {
     "-": () => viewport.zoom(1 / 1.5),
     0: () => viewport.fit(),
     h: () => choice.toggleHeat(),
+    b: () => choice.toggleBottleneck(),
+    l: () => loop.toggle(),
+    f: () => modeSwitch.next(),
     "/": () => find.focus(),
     "?": () => help.showModal(),
     Escape: () => choice.chooseNothing(),
@@ -35,5 +38,6 @@ function isTaken(event) {
   const { target } = event;
   if (target.matches("input[type=search]")) return event.key !== "Escape";
   if (target.matches("select")) return true;
+  if (target.matches("input[type=radio]")) return event.key === " " || event.key.startsWith("Arrow");
   return target.matches("button, [role=tab]") && event.key === " ";
 }

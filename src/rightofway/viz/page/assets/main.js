@@ -6,14 +6,18 @@ const theme = new Theme();
 const clock = new Clock(plan);
 const choice = new Choice(plan);
 const motion = new Motion(plan);
+const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // as planned, whatever is shown
 const use = new Use(plan);
+const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
 
-const mapView = new MapView(document.getElementById("map"), plan, motion, clock, choice, theme, words, use);
-const diagram = new Diagram(plan, clock, choice, theme, words, use);
+const mapView = new MapView(document.getElementById("map"), plan, motion, ghosts, clock, choice, theme, words, use, bottleneck);
+const diagram = new Diagram(plan, clock, choice, theme, words, use, bottleneck);
 const transport = new Transport(plan, clock, words);
-const states = new States(motion);
+const loop = new Loop(plan, clock, choice);
+const modeSwitch = new ModeSwitch(plan, choice);
+const states = new States(motion, choice);
 const card = new Card(plan, clock, choice, words); // before the lists, whose height depends on it
-const robotList = new RobotList(plan, motion, choice, words);
+const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
 const tabs = new Tabs([plan.robots.length, decisionList.items.length], () => {
   robotList.refresh();
@@ -21,7 +25,10 @@ const tabs = new Tabs([plan.robots.length, decisionList.items.length], () => {
 });
 const deepLink = new DeepLink(plan, clock, choice);
 showSummary(plan, words);
-listenToKeys(clock, choice, mapView.viewport);
+document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
+for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
+for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
+listenToKeys(clock, choice, mapView.viewport, modeSwitch, loop);
 
 const frames = {
   count: 0,
@@ -39,13 +46,20 @@ const frames = {
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
     this.last = clock.playing ? now : 0;
-    motion.moveTo(clock.tick);
+    this.moveRobots();
     mapView.paint();
     diagram.paint();
     transport.refresh();
     this.refreshWords();
     this.count++;
     if (clock.playing) this.ask();
+  },
+
+  /** In a loop each group of robots has a period of its own. */
+  moveRobots() {
+    const { running } = clock;
+    motion.moveTo(clock.tick, clock.loop && ((index) => plan.steady.tickOf(index, running)));
+    if (choice.ghosts) ghosts.moveTo(clock.tick);
   },
 
   /** Words change only when a tick is over, or the choice is another one. */
@@ -68,6 +82,12 @@ clock.on("tick", () => frames.ask());
 clock.on("playing", () => frames.ask());
 choice.on("choice", repaintAll);
 choice.on("heat", repaintAll);
+choice.on("bottleneck", repaintAll);
+clock.on("loop", repaintAll);
+choice.on("mode", () => {
+  frames.told = NaN;
+  repaintAll();
+});
 theme.on("theme", repaintAll);
 mapView.viewport.on("view", () => {
   mapView.base.stale = true;

@@ -6,8 +6,8 @@ const MARKED = 0.84; // side of a home or stop, of a cell
 
 /** What does not move: floor, walls, edges, heat, homes, stops, names of vertices. */
 class MapBase {
-  constructor(plan, viewport, theme, choice, use) {
-    Object.assign(this, { plan, viewport, theme, choice, use });
+  constructor(plan, viewport, theme, choice, use, bottleneck) {
+    Object.assign(this, { plan, viewport, theme, choice, use, bottleneck });
   }
 
   /** Paint everything in map units: one unit is a cell. */
@@ -19,6 +19,7 @@ class MapBase {
     if (this.plan.roadmap.rows) this.#grid(context);
     else this.#network(context);
     if (this.choice.heat) this.#heat(context);
+    this.bottleneck.paintMap(context, scale);
     for (const robot of this.plan.robots) this.#marks(context, robot);
     context.restore();
     if (scale >= NAMED_CELL) this.#names(context);

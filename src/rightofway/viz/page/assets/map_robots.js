@@ -7,14 +7,15 @@ const FEW = 80; // up to here, waiting robots point to where they want to go
 
 /** The robots: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
 class MapRobots {
-  constructor(plan, motion, theme, choice) {
-    Object.assign(this, { plan, motion, theme, choice });
+  constructor(plan, motion, ghosts, theme, choice) {
+    Object.assign(this, { plan, motion, ghosts, theme, choice });
     this.inks = plan.robots.map((robot) => inkOn(robot.colour));
   }
 
   /** Paint all robots in map units; those that stand out come last, and so on top. */
   paint(context, scale) {
     const radius = Math.max(scale < SMALL_CELL ? SMALL_RADIUS : RADIUS, 1.6 / scale);
+    if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, radius, scale);
     if (this.choice.robotIndex < 0) {
       for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
     } else {
@@ -26,6 +27,35 @@ class MapRobots {
       const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
       for (const index of chosen) this.#chosen(context, this.plan.robots[index], radius, scale);
     }
+  }
+
+  /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */
+  get #haunted() {
+    if (this.choice.robot) return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
+    return this.plan.robots.length <= FEW ? this.plan.robots : [];
+  }
+
+  /** A dashed ring where the plan has a robot that is elsewhere, and a line to where it is. */
+  #ghost(context, robot, radius, scale) {
+    const i = robot.index;
+    const [x, y] = [this.ghosts.x[i], this.ghosts.y[i]];
+    const [right, down] = [this.motion.x[i] - x, this.motion.y[i] - y];
+    const apart = Math.hypot(right, down);
+    if (apart < 0.02) return;
+    context.strokeStyle = robot.colour;
+    context.lineWidth = Math.max(0.045, 1.25 / scale);
+    const outer = radius * 1.14; // seen round another robot, too
+    if (radius * scale >= 5) context.setLineDash([outer * 0.34, outer * 0.284]); // ten dashes
+    ring(context, x, y, outer);
+    context.setLineDash([]);
+    if (apart > outer + radius) {
+      const share = outer / apart;
+      context.globalAlpha = 0.6;
+      context.beginPath();
+      line(context, x + right * share, y + down * share, x + right * (1 - share), y + down * (1 - share));
+      context.stroke();
+    }
+    context.globalAlpha = 1;
   }
 
   #chosen(context, robot, radius, scale) {
@@ -42,6 +72,7 @@ class MapRobots {
     const [x, y, activity] = [this.motion.x[i], this.motion.y[i], this.motion.activity[i]];
     const alpha = context.globalAlpha;
     if (activity === WAIT) this.#waiting(context, robot, x, y, radius, scale);
+    else if (activity === HELD || activity === BROKEN) this.#trouble(context, robot, x, y, radius, scale);
     else {
       if (activity === DONE) context.globalAlpha = alpha * 0.38;
       context.fillStyle = robot.colour;
@@ -70,10 +101,34 @@ class MapRobots {
     ring(context, x, y, radius - width / 2);
   }
 
+  /** Held up: a ring, half of it filled. Broken down: a ring with a cross. */
+  #trouble(context, robot, x, y, radius, scale) {
+    const broken = this.motion.activity[robot.index] === BROKEN;
+    const width = Math.max(radius * 0.2, 1 / scale);
+    context.fillStyle = this.theme.floor;
+    disc(context, x, y, radius);
+    context.fillStyle = context.strokeStyle = robot.colour;
+    context.lineWidth = width;
+    ring(context, x, y, radius - width / 2);
+    context.beginPath();
+    if (!broken) {
+      context.arc(x, y, radius, Math.PI / 4, (5 * Math.PI) / 4);
+      context.fill();
+      return;
+    }
+    const reach = radius * 1.15;
+    context.strokeStyle = this.theme.broken;
+    context.lineWidth = Math.max(radius * 0.24, 1.5 / scale);
+    line(context, x - reach, y - reach, x + reach, y + reach);
+    line(context, x - reach, y + reach, x + reach, y - reach);
+    context.stroke();
+  }
+
   /** A dotted line to the vertex that a waiting robot is kept from. */
   #wish(context, robot, x, y, scale) {
     const visit = robot.phases.visit[this.motion.phase[robot.index]];
-    const next = robot.vertices[visit + 1];
+    const next = robot.vertices[visit + 1] ?? robot.planned?.vertices[visit + 1];
+    if (next === undefined) return;
     const { x: xs, y: ys } = this.plan.roadmap;
     context.strokeStyle = robot.colour;
     context.lineWidth = Math.max(0.06, 1.25 / scale);
@@ -109,7 +164,8 @@ class MapRobots {
   #label(context, robot, x, y, radius, scale) {
     const size = Math.min(radius * scale * 0.78, (radius * scale * 2.6) / Math.max(robot.name.length, 2));
     if (size < 6.5) return;
-    const hollow = this.motion.activity[robot.index] === WAIT || this.motion.activity[robot.index] === DONE;
+    const hollow = this.motion.activity[robot.index] !== DRIVE &&
+      this.motion.activity[robot.index] !== WORK && this.motion.activity[robot.index] !== TURN;
     context.save();
     context.translate(x, y);
     context.scale(1 / scale, 1 / scale);
@@ -117,7 +173,16 @@ class MapRobots {
     context.textAlign = "center";
     context.textBaseline = "middle";
     context.fillStyle = hollow ? this.theme.ink : this.inks[robot.index];
+    if (this.motion.activity[robot.index] === BROKEN) this.#halo(context, robot.name, size);
     context.fillText(robot.name, 0, size * 0.04);
     context.restore();
+  }
+
+  /** Keeps a name apart from the cross behind it. */
+  #halo(context, name, size) {
+    context.strokeStyle = this.theme.floor;
+    context.lineWidth = size * 0.3;
+    context.lineJoin = "round";
+    context.strokeText(name, 0, size * 0.04);
   }
 }

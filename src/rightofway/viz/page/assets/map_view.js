@@ -2,13 +2,13 @@
 
 /** The map: what does not move is painted once, robots at each frame. */
 class MapView {
-  constructor(canvas, plan, motion, clock, choice, theme, words, use) {
-    Object.assign(this, { canvas, plan, motion, clock, choice, words, use });
+  constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck) {
+    Object.assign(this, { canvas, plan, motion, clock, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.viewport = new Viewport(canvas, plan.roadmap);
-    const base = new MapBase(plan, this.viewport, theme, choice, use);
+    const base = new MapBase(plan, this.viewport, theme, choice, use, bottleneck);
     this.base = new Layer((context) => base.paint(context));
-    this.robots = new MapRobots(plan, motion, theme, choice);
+    this.robots = new MapRobots(plan, motion, ghosts, theme, choice);
     this.route = new MapRoute(plan, motion, theme, choice);
     this.hover = document.getElementById("hover");
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
@@ -31,6 +31,7 @@ class MapView {
     context.translate(left, top);
     context.scale(scale, scale);
     this.route.paint(context, scale);
+    this.bottleneck.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
   }
 
@@ -75,6 +76,7 @@ class MapView {
     press("fit", () => this.viewport.fit());
     press("heat", () => this.choice.toggleHeat());
     this.choice.on("heat", () => this.#showHeat());
+    this.choice.on("mode", () => this.#showHeat());
   }
 
   #showHeat() {

@@ -10,13 +10,18 @@ class Motion {
     this.activity = new Uint8Array(count);
     this.share = new Float32Array(count); // of the activity that is over, 0 to 1
     this.phase = new Int32Array(count);
-    this.counts = new Int32Array(5); // robots by activity
+    this.counts = new Int32Array(7); // robots by activity
     this.moveTo(0);
   }
 
-  moveTo(tick) {
+  #robots = null;
+
+  /** Go to a tick; `tickOf` may give robots ticks of their own. */
+  moveTo(tick, tickOf = null) {
+    if (this.#robots !== this.plan.robots) this.phase.fill(0);
+    this.#robots = this.plan.robots;
     this.counts.fill(0);
-    for (const robot of this.plan.robots) this.#move(robot, tick);
+    for (const robot of this.#robots) this.#move(robot, tickOf ? tickOf(robot.index) : tick);
   }
 
   /** While time runs on, a robot's next phase is this one or the next; else search. */
@@ -38,7 +43,8 @@ class Motion {
     const activity = (this.activity[i] = robot.phases.activity[phase]);
     this.counts[activity]++;
     const begin = robot.phases.begin[phase];
-    const share = activity === DONE ? 1 : (tick - begin) / (robot.phases.end(phase) - begin);
+    const end = robot.phases.end(phase);
+    const share = end === Infinity ? 1 : (tick - begin) / (end - begin);
     this.share[i] = Math.max(share, 0);
     const { x, y } = this.plan.roadmap;
     const visit = robot.phases.visit[phase];

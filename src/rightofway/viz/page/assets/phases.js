@@ -6,12 +6,15 @@ const WAIT = 1;
 const WORK = 2;
 const TURN = 3;
 const DONE = 4;
+const HELD = 5; // up, by itself: on the floor only
+const BROKEN = 6;
 
 /**
  * What a robot does when, one entry for each change: `begin[i]` to `begin[i + 1]`, during `visit[i]`.
  *
  * A robot stays at u for the edge's ticks and then, at one instant, is at w. For the eye it drives
- * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive.
+ * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive. On the
+ * floor a robot may stand still by itself; one that does so while it drives is shown to do so before.
  */
 function phasesOf(robot) {
   const phases = { begin: [], activity: [], visit: [] };
@@ -19,21 +22,21 @@ function phasesOf(robot) {
   let stage = 0;
   for (let visit = 0; visit <= last; visit++) {
     const leave = robot.leave(visit);
-    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : Infinity;
+    const go = visit < last ? Math.max(leave - robot.drive[visit + 1], robot.enter[visit]) : robot.broken;
     let now = robot.enter[visit];
     const add = (ticks, activity) => {
-      const end = Math.min(now + ticks, go);
-      if (end > now) push(phases, now, activity, visit);
+      const end = Math.min(now + ticks + robot.stillIn(now, ticks), go);
+      if (end > now) pushStill(phases, now, end, activity, visit, robot);
       now = end;
     };
     for (; stage < robot.stages.length && robot.stages[stage].visit <= visit; stage++) {
       if (robot.stages[stage].visit < visit) continue;
       add(robot.stages[stage].work, WORK);
-      if (visit < last) add(robot.stages[stage].turn, TURN);
+      if (visit < last || robot.ending !== DONE) add(robot.stages[stage].turn, TURN);
     }
-    if (visit === last) push(phases, now, DONE, visit);
+    if (visit === last) pushEnd(phases, now, robot);
     else {
-      if (go > now) push(phases, now, WAIT, visit);
+      if (go > now) pushStill(phases, now, go, WAIT, visit, robot);
       if (leave > go) push(phases, go, DRIVE, visit);
     }
   }
@@ -45,6 +48,28 @@ function phasesOf(robot) {
       return i + 1 < this.begin.length ? this.begin[i + 1] : Infinity;
     },
   };
+}
+
+/** An activity, but where the robot stands still by itself. */
+function pushStill(phases, begin, end, activity, visit, { still }) {
+  let now = begin;
+  for (const [from, to] of still) {
+    if (to <= now || from >= end) continue;
+    if (from > now) push(phases, now, activity, visit);
+    push(phases, Math.max(from, now), HELD, visit);
+    now = Math.min(to, end);
+  }
+  if (now < end) push(phases, now, activity, visit);
+}
+
+/** How it ends: with everything done, broken down, or waiting for ever behind a robot that is. */
+function pushEnd(phases, now, { ending, broken, vertices }) {
+  const visit = vertices.length - 1;
+  if (ending !== BROKEN) push(phases, now, ending, visit);
+  else {
+    if (now < broken) push(phases, now, WAIT, visit);
+    push(phases, Math.max(broken, now), BROKEN, visit);
+  }
 }
 
 function push(phases, begin, activity, visit) {

@@ -79,11 +79,27 @@ class Robot {
     this.completion = raw.completion;
     this.alone = raw.alone;
     this.waits = [];
+    this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
+    this.ending = raw.ending ?? (raw.stands ? WAIT : DONE); // what it does for ever after its last visit
     this.phases = phasesOf(this);
   }
 
   get home() {
     return this.vertices[0];
+  }
+
+  /** When it broke down. */
+  get broken() {
+    return this.still.find(([, to]) => to === Infinity)?.[0] ?? Infinity;
+  }
+
+  /** Ticks it stands still before so many ticks have been of use, from a tick on. */
+  stillIn(begin, ticks) {
+    let lost = 0;
+    for (const [from, to] of this.still) {
+      if (to > begin && from < begin + ticks + lost) lost += to - Math.max(from, begin);
+    }
+    return lost;
   }
 
   /** Ticks lost to the others. */
@@ -104,6 +120,10 @@ class Wait {
   }
 }
 
+function giveWaits(robots, rows) {
+  for (const wait of rows.map((row) => new Wait(row))) robots[wait.robot].waits.push(wait);
+}
+
 /** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
 function lastAtMost(numbers, limit) {
   let [low, high] = [0, numbers.length - 1];
@@ -119,14 +139,16 @@ function lastAtMost(numbers, limit) {
 class Plan {
   constructor(raw) {
     this.tick = { numerator: raw.tick[0], denominator: raw.tick[1] };
-    this.end = raw.end;
+    this.end = Math.max(raw.end, raw.floor?.end ?? 0);
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;
     this.roadmap = new Roadmap(raw.map);
     this.line = raw.line;
-    this.robots = raw.robots.map((robot, index) => new Robot(robot, index));
-    this.waits = raw.waits.map((wait) => new Wait(wait));
-    for (const wait of this.waits) this.robots[wait.robot].waits.push(wait);
+    this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
+    giveWaits(this.planned, raw.waits);
+    this.happened = raw.floor ? onTheFloor(raw, this.planned) : null;
+    this.robots = this.happened ?? this.planned; // those that are shown
+    this.steady = raw.steady ? new Steady(raw, this.planned) : null;
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;

@@ -2,8 +2,8 @@
 
 /** All robots: what they do now, when they are done, how much the others cost them. */
 class RobotList {
-  constructor(plan, motion, choice, words) {
-    Object.assign(this, { plan, motion, choice, words });
+  constructor(plan, motion, clock, choice, words) {
+    Object.assign(this, { plan, motion, clock, choice, words });
     this.find = document.getElementById("find-robot");
     this.sort = document.getElementById("sort");
     this.list = new VirtualList(document.getElementById("robot-list"), {
@@ -15,6 +15,8 @@ class RobotList {
     this.find.addEventListener("input", () => this.#select());
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
+    choice.on("mode", () => this.#select());
+    this.sort.hidden = plan.steady && !plan.happened; // robots make different numbers of laps
     this.#select();
   }
 
@@ -26,7 +28,7 @@ class RobotList {
   #select() {
     const part = this.find.value.trim().toLowerCase();
     const found = this.plan.robots.filter((robot) => robot.name.toLowerCase().includes(part));
-    if (this.sort.getAttribute("aria-pressed") === "true") found.sort((one, other) => other.delay - one.delay);
+    if (this.sort.getAttribute("aria-pressed") === "true") found.sort((one, other) => lost(other) - lost(one));
     this.list.setItems(found);
   }
 
@@ -37,16 +39,55 @@ class RobotList {
   }
 
   #fill(row, robot) {
-    const state = ACTIVITY_WORDS[this.motion.activity[robot.index]];
-    if (row.filled === robot) {
-      if (row.state.textContent !== state) row.state.textContent = state;
-      return;
-    }
+    const state = this.#state(robot);
+    if (row.filled !== robot) this.#make(row, robot);
+    if (row.state.textContent !== state) row.state.textContent = state;
+    const now = this.#now(robot);
+    if (now !== null && row.late.textContent !== now) row.late.textContent = now;
+  }
+
+  #state(robot) {
+    return this.#isStuck(robot) ? "stuck" : ACTIVITY_WORDS[this.motion.activity[robot.index]];
+  }
+
+  /** Whether it waits for ever, and already longer than planned. */
+  #isStuck(robot) {
+    const phase = this.motion.phase[robot.index];
+    if (robot.ending !== WAIT || phase < robot.phases.begin.length - 1) return false;
+    return !robot.planned || this.clock.tick >= robot.unplannedFrom(phase);
+  }
+
+  #make(row, robot) {
     row.filled = robot;
-    row.state = element("span", { className: "state" }, state);
-    const late = element("span", { className: "late" }, `${this.words.time(robot.completion)} `);
+    row.state = element("span", { className: "state" });
+    row.late = element("span", { className: "late" });
+    if (this.#now(robot) === null) this.#times(row.late, robot);
+    row.replaceChildren(swatch(robot), element("span", { className: "name" }, robot.name), row.state, row.late);
+  }
+
+  /** When it is done, and what of that it owes to the others. */
+  #times(late, robot) {
+    late.append(`${this.words.time(robot.completion)} `);
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
     late.title = `Done at ${this.words.time(robot.completion)}, alone ${this.words.time(robot.alone)}`;
-    row.replaceChildren(swatch(robot), element("span", { className: "name" }, robot.name), row.state, late);
   }
+
+  /** How late it is at this moment, or which lap it is on; null where there is no such thing. */
+  #now(robot) {
+    const { index } = robot;
+    if (robot.planned) {
+      if (this.motion.activity[index] === BROKEN || this.#isStuck(robot)) return "";
+      return this.words.lateness(robot.lateness(this.clock.wholeTick, robot.phases.visit[this.motion.phase[index]]));
+    }
+    const { steady } = this.plan;
+    if (!steady) return null;
+    const { loop, tick, running } = this.clock;
+    const made = loop ? steady.lapsForEver(index, running) : steady.laps(index, tick);
+    return `lap ${made + 1}`;
+  }
+}
+
+/** What a robot loses: to the others in a plan, against the plan on the floor. */
+function lost(robot) {
+  return robot.planned ? robot.delayInAll : robot.delay;
 }

@@ -1,12 +1,21 @@
 "use strict";
 
 const MOST_ROWS = 60;
+const ROW_WITH_GHOST = 9; // pixels; in lower rows only the end of the plan is marked
 
 /** A row for each robot: a line while it drives, a frame while it waits, a block while it works. */
 class RobotRows {
-  constructor(plan, theme) {
-    Object.assign(this, { plan, theme });
-    this.title = "Robots over time: a line is driving, a frame waiting, a block working or turning";
+  constructor(plan, theme, choice, bottleneck) {
+    Object.assign(this, { plan, theme, choice, bottleneck });
+  }
+
+  get title() {
+    if (this.choice.mode === "plan") {
+      return "Robots over time: a line is driving, a frame waiting, a block working or turning";
+    }
+    const signs = "Robots over time; red: held up, orange: waits for a late robot";
+    if (!this.choice.ghosts) return signs;
+    return `${signs}, grey: ${this.#hasGhosts ? "the plan" : "done by plan"}`;
   }
 
   paint(context, area) {
@@ -14,7 +23,36 @@ class RobotRows {
     this.rowHeight = Math.min(area.height / this.plan.robots.length, 24);
     const names = this.plan.robots.map((robot) => robot.name);
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
+    this.bottleneck.paintDiagram(context, area, ({ robot }) => this.#lane(robot));
     for (const robot of this.plan.robots) this.#row(context, robot);
+    if (this.choice.ghosts) for (const robot of this.plan.planned) this.#ghost(context, robot);
+  }
+
+  /** The row of a robot. */
+  #lane(robot) {
+    return { top: this.#middle(robot.index) - this.rowHeight / 2, height: this.rowHeight };
+  }
+
+  get #hasGhosts() {
+    return this.choice.ghosts && this.rowHeight >= ROW_WITH_GHOST;
+  }
+
+  /** The plan as a thin row at the upper edge: a line, with blocks where the robot works or turns. */
+  #ghost(context, robot) {
+    const { phases } = robot;
+    const thick = Math.max(this.rowHeight * 0.16, 1);
+    const top = this.#middle(robot.index) - this.rowHeight * 0.46;
+    context.fillStyle = this.theme.muted;
+    if (this.rowHeight < ROW_WITH_GHOST) {
+      context.fillRect(this.area.x(robot.completion) - 1, top, 2, this.rowHeight * 0.92);
+      return;
+    }
+    const bar = (from, to, height) =>
+      context.fillRect(this.area.x(from), top + (thick - height) / 2, this.area.x(to) - this.area.x(from), height);
+    bar(0, robot.completion, Math.max(thick * 0.3, 0.6));
+    phases.activity.forEach((activity, i) => {
+      if (activity === WORK || activity === TURN) bar(phases.begin[i], phases.end(i), thick);
+    });
   }
 
   /** The robot whose row is there, or -1. */
@@ -29,15 +67,28 @@ class RobotRows {
 
   #row(context, robot) {
     const { phases } = robot;
-    const middle = this.#middle(robot.index);
-    const full = Math.max(this.rowHeight * 0.68, 1.5);
+    const middle = this.#middle(robot.index) + (this.#hasGhosts ? this.rowHeight * 0.12 : 0);
+    const full = Math.max(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), 1.5);
     context.fillStyle = context.strokeStyle = robot.colour;
     const begin = this.area.x(0);
-    context.fillRect(begin, middle - full * 0.16, this.area.x(robot.completion) - begin, full * 0.32);
+    context.fillRect(begin, middle - full * 0.16, this.area.x(robot.completion ?? Infinity) - begin, full * 0.32);
     for (let i = 0; i < phases.begin.length; i++) {
       const left = this.area.x(phases.begin[i]);
-      this.#bar(context, phases.activity[i], left, this.area.x(phases.end(i)) - left, middle, full);
+      const right = this.area.x(phases.end(i));
+      this.#bar(context, phases.activity[i], left, right - left, middle, full);
+      if (robot.plannedWait && phases.activity[i] === WAIT) this.#late(context, robot, i, right, middle, full);
     }
+  }
+
+  /** The part of a wait that the plan did not have. */
+  #late(context, robot, phase, right, middle, full) {
+    const from = this.area.x(robot.unplannedFrom(phase));
+    if (from >= right) return;
+    const colour = context.fillStyle;
+    context.fillStyle = this.theme.wait;
+    context.fillRect(from, middle - full / 2, Math.max(right - from, 1), full);
+    if (full > 4) this.#frame(context, from, right - from, middle, full);
+    context.fillStyle = colour;
   }
 
   #bar(context, activity, left, width, middle, full) {
@@ -47,7 +98,12 @@ class RobotRows {
     context.fillRect(left, middle - full / 2, width, full);
     context.fillStyle = colour;
     context.globalAlpha = activity === TURN ? 0.55 : 1;
-    if (activity !== WAIT) context.fillRect(left, middle - full / 2, width, full);
+    if (activity === HELD || activity === BROKEN) {
+      context.fillStyle = activity === HELD ? this.theme.held : this.theme.broken;
+      if (activity === HELD) stripes(context, left, middle - full / 2, Math.max(width, 1.5), full);
+      else crossedOut(context, left, middle, width, full);
+      context.fillStyle = colour;
+    } else if (activity !== WAIT) context.fillRect(left, middle - full / 2, width, full);
     else if (full > 4) this.#frame(context, left, width, middle, full);
     context.globalAlpha = 1;
   }

@@ -55,6 +55,38 @@ function pointer(context, x, size) {
   context.fill();
 }
 
+/** A box with stripes in the present colour, and filled where it is too small for them. */
+function stripes(context, left, top, width, height) {
+  if (height < 5) {
+    context.fillRect(left, top, width, height);
+    return;
+  }
+  context.save();
+  context.beginPath();
+  context.rect(left, top, width, height);
+  context.clip();
+  context.strokeStyle = context.fillStyle;
+  context.lineWidth = 2;
+  context.beginPath();
+  for (let x = left - height; x < left + width; x += 5) line(context, x, top + height, x + height, top);
+  context.stroke();
+  context.restore();
+}
+
+/** A cross in the present colour at the left, and a line from there on. */
+function crossedOut(context, left, middle, width, height) {
+  const reach = Math.max(Math.min(height / 2, 6), 2);
+  context.fillRect(left, middle - 0.75, width, 1.5);
+  context.save();
+  context.strokeStyle = context.fillStyle;
+  context.lineWidth = Math.max(reach * 0.5, 1.5);
+  context.beginPath();
+  line(context, left - reach, middle - reach, left + reach, middle + reach);
+  line(context, left - reach, middle + reach, left + reach, middle - reach);
+  context.stroke();
+  context.restore();
+}
+
 /** A text cut to fit a width, with an ellipsis. */
 function shortened(context, text, width) {
   if (context.measureText(text).width <= width) return text;

@@ -7,11 +7,23 @@ const TALLEST_ROW = 46;
  * bookings; a line is level while its robot stays, dashed while it waits, and slopes while it drives.
  */
 class SpaceTime {
-  constructor(plan, theme, words, use, choice) {
-    Object.assign(this, { plan, theme, words, use, choice });
+  constructor(plan, theme, words, use, choice, bottleneck) {
+    Object.assign(this, { plan, theme, words, use, choice, bottleneck });
   }
 
   get title() {
+    return this.choice.mode === "plan" ? this.#titleOfPlan : `Place over time; ${this.#signsOfFloor}`;
+  }
+
+  get #signsOfFloor() {
+    const { robot, ghosts } = this.choice;
+    const signs = ["stripes: held up", "orange: waits for a late robot"];
+    if (ghosts) signs.push("thin lines: the plan");
+    if (robot) signs.unshift(`along the route of ${robot.name}`);
+    return signs.join(", ");
+  }
+
+  get #titleOfPlan() {
     const { robot, decision } = this.choice;
     if (decision) return "Place over time: lines are the two robots, fields what is booked";
     if (robot) return `Place over time along the route of ${robot.name}, and who else books it`;
@@ -27,6 +39,8 @@ class SpaceTime {
     const names = vertices.map((vertex) => this.words.vertex(vertex));
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
     for (const vertex of vertices) this.#bookings(context, vertex);
+    this.bottleneck.paintDiagram(context, area, ({ vertex }) => this.#lane(vertex));
+    if (this.choice.ghosts) for (const { planned } of this.#drawn()) this.#line(context, planned, true);
     for (const robot of this.#drawn()) this.#line(context, robot);
     if (this.choice.decision) this.#mark(context, this.choice.decision);
   }
@@ -47,6 +61,14 @@ class SpaceTime {
 
   #middle(row) {
     return this.area.bottom - (row + 0.5) * this.rowHeight;
+  }
+
+  /** The row of a vertex, or null. */
+  #lane(vertex) {
+    const row = this.rows.get(vertex);
+    if (row === undefined) return null;
+    const height = Math.min(Math.max(this.rowHeight * 0.5, 5), this.rowHeight);
+    return { top: this.#middle(row) - height / 2, height };
   }
 
   #rowLines(context, vertices) {
@@ -81,7 +103,7 @@ class SpaceTime {
     return robot === this.choice.robot ? 0.2 : this.choice.standsOut(robot.index) ? 0.6 : 0.4;
   }
 
-  #line(context, robot) {
+  #line(context, robot, ghost = false) {
     const { phases, vertices } = robot;
     context.strokeStyle = robot.colour;
     context.lineJoin = "round";
@@ -90,14 +112,40 @@ class SpaceTime {
       const from = this.rows.get(vertices[phases.visit[i]]);
       const to = activity === DRIVE ? this.rows.get(vertices[phases.visit[i] + 1]) : from;
       if (from === undefined || to === undefined) continue;
-      this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);
+      if (ghost) this.#thin(context, phases.begin[i], phases.end(i), from, to);
+      else {
+        if (robot.plannedWait && activity === WAIT) this.#late(context, robot, i, from);
+        this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);
+      }
     }
     context.setLineDash([]);
     context.lineCap = "butt";
     context.globalAlpha = 1;
   }
 
+  #thin(context, begin, end, from, to) {
+    context.lineWidth = 1;
+    context.globalAlpha = 0.75;
+    context.beginPath();
+    line(context, this.area.x(begin), this.#middle(from), this.area.x(end), this.#middle(to));
+    context.stroke();
+  }
+
+  /** Underlay the part of a wait that the plan did not have. */
+  #late(context, robot, phase, row) {
+    const [from, to] = [robot.unplannedFrom(phase), robot.phases.end(phase)];
+    if (from >= to) return;
+    const height = Math.max(this.rowHeight * 0.34, 3);
+    const left = this.area.x(from);
+    context.fillStyle = this.theme.wait;
+    context.fillRect(left, this.#middle(row) - height / 2, Math.max(this.area.x(to) - left, 1.5), height);
+  }
+
   #stroke(context, activity, begin, end, from, to) {
+    if (activity === HELD || activity === BROKEN) {
+      this.#trouble(context, activity, begin, end, from);
+      return;
+    }
     const thin = Math.min(Math.max(this.rowHeight * 0.12, 1.25), 2.5);
     const heavy = activity === WORK || activity === TURN;
     context.lineWidth = heavy ? thin * 2.2 : thin;
@@ -107,6 +155,15 @@ class SpaceTime {
     context.beginPath();
     line(context, this.area.x(begin), this.#middle(from), this.area.x(end), this.#middle(to));
     context.stroke();
+  }
+
+  #trouble(context, activity, begin, end, row) {
+    const height = Math.max(this.rowHeight * 0.4, 5);
+    const left = this.area.x(begin);
+    const width = Math.max(this.area.x(end) - left, 1.5);
+    context.fillStyle = activity === HELD ? this.theme.held : this.theme.broken;
+    if (activity === HELD) stripes(context, left, this.#middle(row) - height / 2, width, height);
+    else crossedOut(context, left, this.#middle(row), width, height);
   }
 
   #mark(context, decision) {

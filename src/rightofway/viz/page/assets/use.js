@@ -2,25 +2,41 @@
 
 /** How much each vertex is used, and by whom when. */
 class Use {
-  #byVertex = null;
+  #held;
+  #byVertex;
 
   constructor(plan) {
     this.plan = plan;
-    this.held = new Float64Array(plan.roadmap.size); // ticks, without resting at the end
-    for (const robot of plan.robots) {
-      for (let visit = 0; visit + 1 < robot.vertices.length; visit++) {
-        this.held[robot.vertices[visit]] += robot.leave(visit) - robot.enter[visit];
-      }
-    }
-    this.most = this.held.reduce((most, ticks) => Math.max(most, ticks), 1);
+    this.#held = new FleetMemo(plan, () => this.#sum());
+    this.#byVertex = new FleetMemo(plan, () => this.#sort());
+  }
+
+  /** How long each vertex is held, without resting at the end [ticks]. */
+  get held() {
+    return this.#held.value.held;
+  }
+
+  /** How long that one is held that is held longest. */
+  get most() {
+    return this.#held.value.most;
   }
 
   /** The visits at a vertex, as pairs of robot and visit. */
   visitsAt(vertex) {
-    const { first, robots, visits } = (this.#byVertex ??= this.#sort());
+    const { first, robots, visits } = this.#byVertex.value;
     const pairs = [];
     for (let i = first[vertex]; i < first[vertex + 1]; i++) pairs.push([this.plan.robots[robots[i]], visits[i]]);
     return pairs;
+  }
+
+  #sum() {
+    const held = new Float64Array(this.plan.roadmap.size);
+    for (const robot of this.plan.robots) {
+      for (let visit = 0; visit + 1 < robot.vertices.length; visit++) {
+        held[robot.vertices[visit]] += robot.leave(visit) - robot.enter[visit];
+      }
+    }
+    return { held, most: held.reduce((most, ticks) => Math.max(most, ticks), 1) };
   }
 
   /** All visits in the order of their vertices, in flat arrays. */

@@ -5,11 +5,17 @@ function counted(number, thing) {
   return `${number} ${thing}${number === 1 ? "" : "s"}`;
 }
 
-const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done"];
+const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
 
 /** A number with its thousands apart, from five digits on. */
 function grouped(number) {
   return number < 10000 ? String(number) : String(number).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
+}
+
+/** "R1, R2 and R3"; the first few of many. */
+function several(names) {
+  if (names.length > 4) return `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
+  return names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
 }
 
 /** Durations as people write them, names, and sentences made of them. */
@@ -44,12 +50,44 @@ class Words {
     return `${percent && percent < 9.95 ? percent.toFixed(1) : Math.round(percent)} %`;
   }
 
-  /** Why a robot waits. */
-  wait(wait) {
+  /** Why a robot waits, and on the floor how much longer than planned. */
+  wait(wait, robot) {
+    const more = robot.planned ? robot.unplanned(wait) : 0;
+    return more > 0 ? `${this.#wait(wait)}, ${this.time(more)} more than planned` : this.#wait(wait);
+  }
+
+  /** Why a robot never gets on. */
+  stuck(behind) {
+    if (!behind) return "never";
+    return `never: stuck behind ${behind.name}${behind.ending === BROKEN ? ", which breaks down" : ""}`;
+  }
+
+  #wait(wait) {
     const what = `waits ${counted(wait.ticks, "tick")} in ${this.vertex(wait.vertex)}`;
     const next = this.vertex(wait.towards);
     if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
     return `${what} for ${this.robot(wait.forRobot)} to leave ${next}`;
+  }
+
+  /** How late a robot is. */
+  lateness(ticks) {
+    if (ticks === null) return "another way";
+    if (!ticks) return "on time";
+    return ticks > 0 ? `${this.time(ticks)} late` : `${this.time(-ticks)} early`;
+  }
+
+  /** What keeps a group from repeating itself sooner, in a line. */
+  bottleneck({ circuit, period }) {
+    const names = [...new Set(circuit.map(({ robot }) => robot.name))];
+    const alone = names.length === 1 ? " alone, which waits for nobody" : "";
+    return `Bottleneck: ${several(names)}${alone}, ${this.time(period)} a period`;
+  }
+
+  /** The same with its places. */
+  bottleneckAtLength(group) {
+    const steps = group.circuit.map(({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`);
+    return `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
+      `the first again a period later: ${steps.join(", ")}`;
   }
 
   /** Where two robots would have met. */

@@ -1,0 +1,69 @@
+"""What became of a plan in one run, as pages show it: where robots were, and what took how long."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.floor.phases import Ended
+from rightofway.metrics.stays import stays_of
+from rightofway.model import Actual, Tick, Track
+from rightofway.precedence import NEVER, DelayedPlan, Setbacks
+
+__all__ = ["as_planned_but_late", "planned_anew"]
+
+
+def as_planned_but_late(floor: DelayedPlan, setbacks: Setbacks) -> Actual:
+    """Return a run on the routes of the plan, with what befell each visit."""
+    happens = floor.execute(setbacks)
+    tracks = floor.split(happens.enter)
+    return Actual(
+        tracks=tracks,
+        dwell=_split(floor, setbacks.dwell, tracks),
+        drive=_split(floor, setbacks.drive, tracks),
+        completion=_completion(happens.completion),
+        standstills=_standstills(setbacks, len(tracks)),
+    )
+
+
+def planned_anew(floor: DelayedPlan, setbacks: Setbacks, ended: Ended) -> Actual:
+    """Return a run that left the plan on the way.
+
+    What befell its visits is not kept, so they are taken to have lasted as planned; what they
+    lasted beyond that reads as waiting.
+    """
+    tracks = ended.tracks
+    stays = stays_of(floor.scenario, tracks)
+    return Actual(
+        tracks=tracks,
+        dwell=tuple(stay.dwell for stay in stays),
+        drive=tuple(np.append(0, stay.drive[:-1]) for stay in stays),
+        completion=_completion(ended.completion),
+        standstills=_standstills(setbacks, len(tracks)),
+    )
+
+
+def _split(
+    floor: DelayedPlan, values: NDArray[np.int64], tracks: Sequence[Track]
+) -> tuple[NDArray[np.int64], ...]:
+    """Return the values of the visits that took place, robot by robot."""
+    firsts = pairwise(floor.first_visit.tolist())
+    return tuple(
+        values[first : first + len(track)] for (first, _), track in zip(firsts, tracks, strict=True)
+    )
+
+
+def _completion(ticks: NDArray[np.int64]) -> tuple[Tick | None, ...]:
+    return tuple(None if tick >= NEVER else Tick(tick) for tick in ticks.tolist())
+
+
+def _standstills(
+    setbacks: Setbacks, robots: int
+) -> tuple[tuple[tuple[Tick, Tick | None], ...], ...]:
+    return tuple(
+        tuple((tick, None if ticks >= NEVER else ticks) for tick, ticks in setbacks.of(robot))
+        for robot in range(robots)
+    )

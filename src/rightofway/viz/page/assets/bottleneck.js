@@ -1,0 +1,123 @@
+"use strict";
+
+/** The critical circuit of the group that is looked at, lit on the map and in the diagram. */
+class Bottleneck {
+  constructor(plan, clock, choice, theme, words) {
+    Object.assign(this, { plan, clock, choice, theme, words });
+    this.button = document.getElementById("bottleneck");
+    this.legend = document.getElementById("bottleneck-legend");
+    this.button.hidden = !plan.steady?.groups.some(({ circuit }) => circuit.length);
+    this.button.addEventListener("click", () => choice.toggleBottleneck());
+    choice.on("bottleneck", () => this.#show());
+    choice.on("choice", () => this.#show());
+    this.#show();
+  }
+
+  /** The visits to light: none while that is switched off. */
+  get circuit() {
+    if (!this.choice.bottleneck || !this.plan.steady) return [];
+    return this.group.circuit;
+  }
+
+  get group() {
+    return this.plan.steady.group(this.choice.robot);
+  }
+
+  /** The places of the circuit, in map units; under everything that moves. */
+  paintMap(context, scale) {
+    const { circuit } = this;
+    if (!circuit.length) return;
+    const { x, y } = this.plan.roadmap;
+    const around = [...circuit, circuit[0]].map(({ vertex }) => vertex);
+    context.lineCap = context.lineJoin = "round";
+    const trace = () => {
+      context.beginPath();
+      around.forEach((vertex, i) => context[i ? "lineTo" : "moveTo"](x[vertex], y[vertex]));
+      context.stroke();
+    };
+    const width = Math.max(0.34, 5 / scale);
+    context.strokeStyle = this.theme.litEdge;
+    context.lineWidth = width + 2 / scale;
+    trace();
+    context.strokeStyle = this.theme.lit;
+    context.lineWidth = width;
+    trace();
+    context.lineCap = "butt";
+  }
+
+  /** A disc under the robots that are on the circuit at this moment. */
+  paintRobots(context, motion, scale) {
+    for (const index of this.robotsNow(this.clock.tick)) {
+      context.fillStyle = this.theme.lit;
+      context.strokeStyle = this.theme.litEdge;
+      context.lineWidth = Math.max(0.03, 1.25 / scale);
+      disc(context, motion.x[index], motion.y[index], Math.max(0.44, 8 / scale));
+      context.stroke();
+    }
+  }
+
+  /** Who is on the circuit at this moment. */
+  robotsNow(tick) {
+    const { circuit } = this;
+    if (!circuit.length || tick < this.group.start || this.choice.mode !== "plan") return [];
+    const { period } = this.group;
+    const since = ({ begin }) => (((tick - begin) % period) + period) % period;
+    return [...new Set(circuit.filter((step) => since(step) < step.ticks).map(({ robot }) => robot.index))];
+  }
+
+  /** Light the visits of all periods; `rowOf` tells top and height of a visit's row, or nothing. */
+  paintDiagram(context, area, rowOf) {
+    const { circuit } = this;
+    if (!circuit.length || this.choice.mode !== "plan") return;
+    const { period, until } = this.group;
+    if (area.x(period) - area.x(0) < NARROWEST_PERIOD) return;
+    const rows = circuit.map(rowOf);
+    for (let shift = -this.group.turn; shift < until; shift += period) {
+      circuit.forEach((step, i) => this.#cell(context, area, rows[i], step, shift));
+      circuit.forEach((step, i) => {
+        const next = (i + 1) % circuit.length;
+        if (circuit[next].robot !== step.robot) this.#link(context, area, rows[i], rows[next], step, shift);
+      });
+    }
+  }
+
+  /** Whether the plan repeats itself at a tick. */
+  #repeats(tick) {
+    return tick >= this.group.start && tick < this.group.until;
+  }
+
+  #cell(context, area, row, { begin, ticks }, shift) {
+    if (!row || !ticks || !this.#repeats(begin + shift)) return;
+    const { top, height } = row;
+    const left = area.x(begin + shift);
+    const width = Math.max(area.x(Math.min(begin + shift + ticks, this.group.until)) - left, 1.5);
+    context.fillStyle = this.theme.lit;
+    context.strokeStyle = this.theme.litEdge;
+    context.lineWidth = 1;
+    context.beginPath();
+    context.roundRect(left, top, width, height, Math.min(3, height / 3, width / 3));
+    context.fill();
+    if (width >= 4) context.stroke();
+  }
+
+  /** From a visit to that of another robot, which waits for it. */
+  #link(context, area, from, to, { begin, next }, shift) {
+    if (!from || !to || from.top === to.top || !this.#repeats(begin + shift) || !this.#repeats(next + shift)) return;
+    const down = to.top > from.top;
+    const x = area.x(next + shift);
+    context.strokeStyle = this.theme.litEdge;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    line(context, x, down ? from.top + from.height : from.top, x, down ? to.top : to.top + to.height);
+    context.stroke();
+  }
+
+  #show() {
+    const { circuit, button, legend } = this;
+    button.setAttribute("aria-pressed", this.choice.bottleneck);
+    legend.hidden = !circuit.length;
+    if (!circuit.length) return;
+    legend.lastElementChild.textContent = this.words.bottleneck(this.group);
+    legend.title = this.words.bottleneckAtLength(this.group);
+  }
+}

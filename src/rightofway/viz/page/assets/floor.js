@@ -1,0 +1,68 @@
+"use strict";
+
+/** The robots as they drove on the floor: the same visits at other ticks, and some of them never. */
+function onTheFloor(raw, planned) {
+  const robots = raw.floor.robots.map((run, index) => new FloorRobot(raw.robots[index], run, planned[index]));
+  giveWaits(robots, raw.floor.waits);
+  return robots;
+}
+
+/** A robot and what became of its part of the plan. */
+class FloorRobot extends Robot {
+  constructor(raw, run, planned) {
+    super(floorTrip(raw, run), planned.index);
+    this.planned = planned;
+    const other = this.vertices.findIndex((vertex, visit) => vertex !== planned.vertices[visit]);
+    this.asPlanned = other < 0 ? this.vertices.length : other; // visits before it goes another way
+    this.delayInAll = this.ending === DONE ? this.completion - planned.completion : Infinity;
+    this.plannedWait = waitedByVisit(planned);
+  }
+
+  /** How much later than planned it is, at a tick and in a visit; null where it goes another way. */
+  lateness(tick, visit) {
+    if (this.ending === DONE && visit === this.vertices.length - 1) return this.delayInAll;
+    if (visit >= this.asPlanned) return null;
+    const overdue = tick - this.planned.leave(visit);
+    return Math.max(this.enter[visit] - this.planned.enter[visit], overdue);
+  }
+
+  /** Ticks that it stood still by itself. */
+  get held() {
+    const { phases } = this;
+    return phases.begin.reduce((sum, begin, i) => sum + (phases.activity[i] === HELD ? phases.end(i) - begin : 0), 0);
+  }
+
+  /** How much longer a wait was than planned. */
+  unplanned(wait) {
+    const visit = lastAtMost(this.enter, wait.tick);
+    return visit < this.asPlanned ? wait.ticks - this.plannedWait[visit] : 0;
+  }
+
+  /** The robot that stands for ever where this one has to go next, or null. */
+  stuckBehind(robots) {
+    const next = this.planned.vertices[this.vertices.length];
+    return robots.find((robot) => robot !== this && robot.vertices.at(-1) === next) ?? null;
+  }
+
+  /** When it begins to wait longer than planned, in a phase that is a wait. */
+  unplannedFrom(phase) {
+    const visit = this.phases.visit[phase];
+    return visit < this.asPlanned ? this.phases.begin[phase] + this.plannedWait[visit] : Infinity;
+  }
+}
+
+function floorTrip(raw, run) {
+  const still = run.still.map(([begin, ticks]) => [begin, ticks === null ? Infinity : begin + ticks]);
+  const isBroken = still.some(([, to]) => to === Infinity);
+  const ending = run.completion !== null ? DONE : isBroken ? BROKEN : WAIT;
+  return { ...raw, vertices: raw.vertices.slice(0, run.enter.length), ...run, still, ending };
+}
+
+/** How long a robot waits in each visit. */
+function waitedByVisit({ phases, vertices }) {
+  const waited = new Float64Array(vertices.length);
+  phases.activity.forEach((activity, i) => {
+    if (activity === WAIT) waited[phases.visit[i]] += phases.end(i) - phases.begin[i];
+  });
+  return waited;
+}

@@ -1,0 +1,38 @@
+"use strict";
+
+/** The button that plays one period for ever. */
+class Loop {
+  constructor(plan, clock, choice) {
+    Object.assign(this, { plan, clock, choice });
+    this.button = document.getElementById("loop");
+    this.button.hidden = !plan.steady;
+    this.button.addEventListener("click", () => this.toggle());
+    clock.on("loop", () => this.#show());
+    choice.on("choice", () => clock.loop && clock.setLoop(this.#window));
+    choice.on("mode", () => choice.mode === "plan" || clock.setLoop(null));
+    this.#show();
+  }
+
+  toggle() {
+    if (this.button.hidden || this.button.disabled) return;
+    if (this.clock.loop) this.clock.setLoop(null);
+    else {
+      this.choice.show("plan");
+      this.clock.setLoop(this.#window);
+      this.clock.play();
+    }
+  }
+
+  /** The first period of the group that is looked at; null where the plan ends before it does. */
+  get #window() {
+    const group = this.plan.steady.group(this.choice.robot);
+    return group.whole ? { from: group.start, to: group.start + group.period } : null;
+  }
+
+  #show() {
+    if (!this.plan.steady) return;
+    this.button.disabled = !this.#window;
+    this.button.title = this.#window ? "Play one period for ever (L)" : "The plan ends before a whole period does";
+    this.button.setAttribute("aria-pressed", Boolean(this.clock.loop));
+  }
+}

@@ -1,0 +1,62 @@
+"""Pages of laps and of runs on the floor, from the command line."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.conftest import EXAMPLES, Cli
+
+
+def told(page: str) -> Any:
+    """Return what a page was told."""
+    text = Path(page).read_text("utf-8")
+    found = re.search(r'<script type="application/json" id="plan">(.*?)</script>', text, re.DOTALL)
+    assert found
+    return json.loads(found[1])
+
+
+@pytest.fixture
+def plan(cli: Cli, door: Path) -> str:
+    cli("plan", door, "--planner", "two-level", "-o", "plan.json")
+    return "plan.json"
+
+
+def test_laps_are_written_as_a_page(cli: Cli) -> None:
+    """They repeat themselves every 16 ticks, from 4 on."""
+    ended = cli("laps", EXAMPLES / "crossroad.yaml", "--page", "laps.html")
+    assert (ended.code, ended.err.strip()) == (0, "wrote laps.html")
+    group = told("laps.html")["steady"][0]
+    assert group["robots"] == [0, 1]
+    assert (group["start"], group["period"]) == (4, 16)
+    assert group["until"] >= 4 + 4 * 16
+
+
+def test_a_run_on_the_floor_is_written_as_a_page(cli: Cli, plan: str) -> None:
+    """R1 stands still for 5 from 3 on, in every run: R2 waits for it, or R1 is late alone."""
+    ended = cli("simulate", plan, "--delays", "stop:R1@3+5", "--runs", 3, "--page", "late.html")
+    assert (ended.code, ended.err.strip()) == (0, "wrote late.html: run 1 of 3")
+    floor = told("late.html")["floor"]
+    assert floor["robots"][0]["still"] == [[3, 5]]
+    assert floor["robots"][0]["completion"] == 15  # planned for 10
+
+
+def test_the_run_on_the_page_can_be_chosen(cli: Cli, plan: str) -> None:
+    ended = cli("simulate", plan, "--runs", 8, "--run", 7, "--page", "late.html")
+    assert ended.err.strip() == "wrote late.html: run 7 of 8"
+    ended = cli("simulate", plan, "--runs", 8, "--run", 8, "--page", "late.html")
+    assert ended.code == 2
+    assert "--run 8 is not among the 8 runs" in ended.err
+
+
+def test_a_plan_made_anew_is_on_the_page(cli: Cli) -> None:
+    """R1 breaks down at the crossing; what the other does then is no longer the plan."""
+    cli("plan", EXAMPLES / "crossroad.yaml", "--planner", "two-level", "-o", "plan.json")
+    late = ("--delays", "stop:R1@4", "--replan", "--runs", 1)
+    ended = cli("simulate", "plan.json", *late, "--page", "new.html")
+    assert ended.code == 0
+    one, two = told("new.html")["floor"]["robots"]
+    assert one["completion"] is None
+    assert two["completion"] is not None
