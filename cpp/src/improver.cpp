@@ -7,8 +7,6 @@
 namespace rightofway {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double memory = 0.97;    // of a record, from use to use
 constexpr double curiosity = 0.3;  // the share of draws that is even
 constexpr auto between_questions = std::chrono::milliseconds(10);
@@ -87,10 +85,9 @@ void Improver::round(std::size_t n, const std::function<bool()>& is_over) {
         others.emplace_back(
             [this, k] { work(*workers_[k], [this] { return is_stopped_.load(); }); });
     }
-    auto asked = Clock::now();
     work(*workers_.front(), [&] {
-        if (!is_stopped_ && Clock::now() - asked > between_questions) {
-            asked = Clock::now();
+        if (!is_stopped_ && std::chrono::steady_clock::now() - asked_ > between_questions) {
+            asked_ = std::chrono::steady_clock::now();
             try {
                 if (is_over()) {
                     is_stopped_ = true;

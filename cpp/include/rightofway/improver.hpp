@@ -14,6 +14,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -87,6 +88,7 @@ class Improver {
     std::size_t n_in_round_ = 0;
     std::atomic<bool> is_stopped_ = false;
     std::exception_ptr thrown_;
+    std::chrono::steady_clock::time_point asked_;  // rounds may be shorter than questions are apart
     std::uint64_t n_rounds_ = 0;
     std::int64_t n_tasks_ = 0;
     std::int64_t n_idle_ = 0;
