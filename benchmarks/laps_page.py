@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -10,22 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.laps_rows import Row
+from benchmarks.marked import write_tables
 from rightofway.laps import Conflict, LapsRun, run_laps
 from tests.fleets import PAPER, paper_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "laps.md"
-
-MARKED = re.compile(r"^(<!-- table: (.*) -->\n\n)(?:\|.*\n)*", re.MULTILINE)
-"""Where a table stands in the page."""
 
 RULES = ("first-come", "fixed-order", "two-level")
 
 
 def write_page(rows: Sequence[Row], page: Path = PAGE) -> None:
     """Put the tables between their marks."""
-    made = tables(rows)
-    text = page.read_text(encoding="utf-8")
-    page.write_text(MARKED.sub(lambda place: place[1] + made[place[2]], text), encoding="utf-8")
+    write_tables(page, "table", tables(rows))
 
 
 def tables(rows: Sequence[Row]) -> dict[str, str]:

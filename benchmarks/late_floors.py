@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import time
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import rightofway
+from benchmarks.marked import write_tables
 from rightofway.floor import Outcome
 from rightofway.model import Plan, Rules, Scenario
 from rightofway.planners import registered
@@ -45,7 +45,6 @@ FLEETS = {
     "30 robots, 20 x 20, two laps": random_fleet(3, size=20, robots=30, rules=Rules(laps=2)),
 }
 PAGE = Path(__file__).with_name("README.md")
-MARKED = re.compile(r"(<!-- late floors: (\w+) -->\n\n)((?:\|.*\n)*)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +125,7 @@ def main() -> None:
         "runs": "".join(runs_table(sorted(registered()))),
         "switching": "".join(switching_table()),
     }
-    text = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(MARKED.sub(lambda place: place[1] + made[place[2]], text), encoding="utf-8")
+    write_tables(PAGE, "late floors", made)
 
 
 if __name__ == "__main__":

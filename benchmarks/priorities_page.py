@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -10,15 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.marked import write_tables
 from benchmarks.priorities_rows import Row, fleet_of
 
 PAGE = Path(__file__).parents[1] / "docs" / "priorities.md"
 
 OURS = "two-level"
 OTHERS = ("fixed-priority", "random-priority", "priority-search")
-
-MARKED = re.compile(r"^(<!-- table: (.*) -->\n\n)(?:\|.*\n)*", re.MULTILINE)
-"""Where a table stands in the page."""
 
 LEVELS = ("node", "settled", "robot", "only")
 
@@ -28,9 +25,7 @@ Pair = tuple[Row, Row]
 
 def write_page(rows: Sequence[Row], page: Path = PAGE) -> None:
     """Put the tables between their marks."""
-    made = tables(rows)
-    text = page.read_text(encoding="utf-8")
-    page.write_text(MARKED.sub(lambda place: place[1] + made[place[2]], text), encoding="utf-8")
+    write_tables(page, "table", tables(rows))
 
 
 def tables(rows: Sequence[Row]) -> dict[str, str]:

@@ -7,7 +7,6 @@ at a time; measure on a quiet machine.
 from __future__ import annotations
 
 import random
-import re
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from pathlib import Path
 from statistics import median
 
 import rightofway
+from benchmarks.marked import write_tables
 from rightofway.errors import GaveUp
 from rightofway.metrics import measure
 from rightofway.model import Plan, Rules, Scenario
@@ -28,8 +28,6 @@ LIMIT, LONG = 10, 60
 SCALED = (100, 200, 400, 800)
 ROBOTS_ON_96 = 500
 """The scaled fleets are as dense as so many robots on 96 x 96."""
-
-MARKED = re.compile(r"^(<!-- right of way: (.*) -->\n\n)(?:\|.*\n)*", re.MULTILINE)
 
 METHODS: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "published rule": ("two-level", {"swaps": "leave"}),
@@ -156,8 +154,7 @@ def growth() -> Iterator[str]:
 def main() -> None:
     """Measure and write the tables."""
     made = {"quality": "".join(quality()), "growth": "".join(growth())}
-    text = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(MARKED.sub(lambda place: place[1] + made[place[2]], text), encoding="utf-8")
+    write_tables(PAGE, "right of way", made)
 
 
 if __name__ == "__main__":

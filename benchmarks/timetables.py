@@ -10,7 +10,6 @@ minutes; ``python -m benchmarks.timetables 8`` prints the rows of fleets of eigh
 
 from __future__ import annotations
 
-import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -19,13 +18,13 @@ from fractions import Fraction
 from pathlib import Path
 from statistics import median
 
+from benchmarks.marked import write_tables
 from rightofway.errors import GaveUp
 from rightofway.laps import LapsRun, best_timetable, run_laps, run_of
 from rightofway.model import Scenario
 from tests.fleets import random_fleet
 
 PAGE = Path(__file__).with_name("README.md")
-MARKED = re.compile(r"^(<!-- timetables -->\n\n)(?:\|.*\n)*", re.MULTILINE)
 HEADING = (
     "| robots | rule | how it ends | least ratio | median | greatest | its fairness | ours |",
     "| ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |",
@@ -124,9 +123,8 @@ def main() -> None:
         sys.stdout.writelines(f"{line}\n" for n in map(int, sys.argv[1:]) for line in table(n))
         return
     lines = [line for robots in SIDE for line in table(robots)]
-    text = PAGE.read_text(encoding="utf-8")
     rows = "".join(f"{line}\n" for line in (*HEADING, *lines))
-    PAGE.write_text(MARKED.sub(lambda found: found[1] + rows, text), encoding="utf-8")
+    write_tables(PAGE, "timetables", {"rivals": rows})
 
 
 if __name__ == "__main__":

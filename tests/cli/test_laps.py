@@ -133,3 +133,9 @@ def test_a_part_that_is_no_number_is_refused(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "timetable", "--least-fairness", "half")
     assert ended.code == 2
     assert "'half' is not a number (for example 0.5 or 1/2)" in ended.err
+
+
+def test_a_timetable_chooses_its_routes_itself(cli: Cli, slower: Path) -> None:
+    ended = cli("laps", slower, "--rule", "timetable", "--routes", "shortest")
+    assert ended.code == 2
+    assert "--rule timetable chooses routes itself (leave out --routes)" in ended.err

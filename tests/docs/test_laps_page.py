@@ -2,19 +2,16 @@
 
 from pathlib import Path
 
-from benchmarks.laps_page import MARKED, tables, write_page
+from benchmarks.laps_page import tables, write_page
 from benchmarks.laps_rows import load, measure, save
+from benchmarks.marked import tables_in
 from tests.docs.pages import DOCS
 
 PAGE = DOCS / "laps.md"
 
 
 def test_the_tables_are_those_of_the_figures() -> None:
-    text = PAGE.read_text(encoding="utf-8")
-    made = tables(load())
-    assert {place[2] for place in MARKED.finditer(text)} == set(made)
-    for name, table in made.items():
-        assert f"<!-- table: {name} -->\n\n{table}\n" in text
+    assert tables_in(PAGE, "table") == tables(load())
 
 
 def test_writing_the_page_again_changes_nothing(tmp_path: Path) -> None:

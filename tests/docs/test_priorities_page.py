@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.priorities_page import MARKED, later, pairs, tables, write_page
+from benchmarks.marked import tables_in
+from benchmarks.priorities_page import later, pairs, tables, write_page
 from benchmarks.priorities_rows import Row, load
 from tests.docs.pages import DOCS
 
@@ -21,11 +22,7 @@ OURS = Row(
 
 
 def test_the_tables_are_those_of_the_figures() -> None:
-    text = PAGE.read_text(encoding="utf-8")
-    made = tables(load())
-    assert {place[2] for place in MARKED.finditer(text)} == set(made)
-    for name, table in made.items():
-        assert f"<!-- table: {name} -->\n\n{table}\n" in text
+    assert tables_in(PAGE, "table") == tables(load())
 
 
 def test_writing_the_page_again_changes_nothing(tmp_path: Path) -> None:

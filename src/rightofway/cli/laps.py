@@ -38,8 +38,8 @@ def part(_context: click.Context, _parameter: click.Parameter, given: str) -> Fr
 @click.argument("scenario", type=click.Path())
 @click.option("--rule", type=click.Choice(RULES), default="first-come", show_default=True,
               help="Who goes first where two robots meet; timetable: most laps.")  # fmt: skip
-@click.option("--routes", type=click.Choice(["clear", "shortest"]), default="clear",
-              show_default=True, help="How round trips are chosen.")  # fmt: skip
+@click.option("--routes", type=click.Choice(["clear", "shortest"]),
+              help="How round trips are chosen.  [default: clear]")  # fmt: skip
 @click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
               metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip
 @click.option(
@@ -61,7 +61,7 @@ def laps(
     *,
     scenario: str,
     rule: str,
-    routes: str,
+    routes: str | None,
     time_limit: float | None,
     least_fairness: Fraction,
     seed: int,
@@ -79,6 +79,8 @@ def laps(
     from rightofway.laps import best_timetable, plan_of, run_laps, run_of
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
+    if rule == "timetable" and routes:
+        raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
     problem, chosen = read_scenario(scenario), []
     with progress() as report:
         if rule == "timetable":
@@ -91,7 +93,8 @@ def laps(
             )
             run = run_of(problem, chosen)
         else:
-            run = run_laps(problem, rule, routes=routes, time_limit=time_limit, report=report)
+            ways = routes or "clear"
+            run = run_laps(problem, rule, routes=ways, time_limit=time_limit, report=report)
     if output != "-":
         if as_json:
             put_json(laps_data(run, chosen))

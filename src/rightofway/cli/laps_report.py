@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.cli.laps_theory import (
+    HOUR,
     rival_data,
     rival_lines,
     sensitivity_data,
@@ -17,9 +18,6 @@ from rightofway.cli.words import wrapped
 from rightofway.laps import Bottleneck, Conflict, GroupRun, GroupTimetable, LapsRun, in_words
 
 __all__ = ["laps_data", "laps_report"]
-
-HOUR = 3600
-"""Time units of a scenario in an hour, if they are seconds."""
 
 MOST_GROUPS = 3
 """More groups are only counted; --json has them all."""

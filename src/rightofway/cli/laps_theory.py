@@ -15,29 +15,19 @@ from rightofway.laps import (
     levers_of,
 )
 from rightofway.model import Scenario
-from rightofway.planners import planning_headway
-from rightofway.precedence import EventGraph
 
-__all__ = ["rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
+__all__ = ["HOUR", "rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
+
+HOUR = 3600
+"""Time units of a scenario in an hour, if they are seconds."""
 
 MOST_LEVERS = 3
 """How many things that would help a person is told; --json has more."""
 
 
-def _graph(run: LapsRun, group: GroupRun) -> EventGraph | None:
-    """Return the event graph of a group that repeats and in which all move."""
-    if group.timetable is None:
-        return None
-    return EventGraph(
-        group.timetable,
-        headway=planning_headway(run.scenario),
-        books_ahead=run.scenario.rules.books_ahead,
-    )
-
-
 def sensitivity_data(run: LapsRun, group: GroupRun) -> list[dict[str, Any]]:
     """Return what would help, for programs; times are exact fractions of the unit."""
-    graph = _graph(run, group)
+    graph = run.graph(group)
     if graph is None:
         return []
     return [_lever_data(run.scenario, lever) for lever in levers_of(run.scenario, graph)]
@@ -59,7 +49,7 @@ def _lever_data(scenario: Scenario, lever: Lever) -> dict[str, Any]:
 
 def sensitivity_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     """Say what would make a period shorter."""
-    graph = _graph(run, group)
+    graph = run.graph(group)
     if graph is None:
         return
     levers = levers_of(run.scenario, graph, most=MOST_LEVERS)
@@ -88,7 +78,7 @@ def _what(scenario: Scenario, lever: Lever) -> str:
 
 def rival_data(scenario: Scenario, chosen: GroupTimetable) -> dict[str, Any]:
     """Return how a chosen timetable compares with first come first served, for programs."""
-    hour = 3600 / scenario.timing.clock.tick
+    hour = HOUR / scenario.timing.clock.tick
     return {
         "throughput_per_hour": str(chosen.throughput * hour),
         "fairness": str(chosen.fairness),

@@ -32,7 +32,7 @@ def run_of(scenario: Scenario, chosen: Sequence[GroupTimetable]) -> LapsRun:
     return LapsRun(
         scenario=scenario,
         rule="timetable",
-        routes="clear",
+        routes="chosen",
         groups=tuple(_group_run(scenario, one.timetable) for one in chosen),
     )
 
