@@ -20,8 +20,9 @@ from statistics import median
 
 from benchmarks.marked import write_tables
 from rightofway.errors import GaveUp
-from rightofway.laps import LapsRun, best_timetable, run_laps, run_of
+from rightofway.laps import LapsRun, run_laps
 from rightofway.model import Scenario
+from rightofway.timetables import best_timetable, run_of
 from tests.fleets import random_fleet
 
 PAGE = Path(__file__).with_name("README.md")

@@ -76,7 +76,8 @@ def laps(
     Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.laps import best_timetable, plan_of, run_laps, run_of
+    from rightofway.laps import plan_of, run_laps
+    from rightofway.timetables import best_timetable, run_of
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
     if rule == "timetable" and routes:

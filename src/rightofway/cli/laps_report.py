@@ -15,7 +15,8 @@ from rightofway.cli.laps_theory import (
     sensitivity_lines,
 )
 from rightofway.cli.words import wrapped
-from rightofway.laps import Bottleneck, Conflict, GroupRun, GroupTimetable, LapsRun, in_words
+from rightofway.laps import Bottleneck, Conflict, GroupRun, LapsRun, in_words
+from rightofway.timetables import GroupTimetable
 
 __all__ = ["laps_data", "laps_report"]
 

@@ -7,14 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.cli.words import wrapped
-from rightofway.laps import (
-    GroupRun,
-    GroupTimetable,
-    LapsRun,
-    Lever,
-    levers_of,
-)
+from rightofway.laps import GroupRun, LapsRun, Lever, levers_of
 from rightofway.model import Scenario
+from rightofway.timetables import GroupTimetable
 
 __all__ = ["HOUR", "rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
 

@@ -1,7 +1,6 @@
-"""Work that repeats: rules on endless routes, recurrence, and timetables chosen to repeat well."""
+"""Work that repeats: rules on endless routes, and what comes again."""
 
 from rightofway.laps.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
-from rightofway.laps.choosing import GroupTimetable
 from rightofway.laps.conflicts import Conflict
 from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.levers import Lever, levers_of
@@ -11,8 +10,6 @@ from rightofway.laps.plan import plan_of
 from rightofway.laps.rules import RULES
 from rightofway.laps.run import ROUTES, run_laps
 from rightofway.laps.shown import shown
-from rightofway.laps.starting import run_of
-from rightofway.laps.timetable import best_timetable
 
 __all__ = [
     "ROUTES",
@@ -21,18 +18,15 @@ __all__ = [
     "Conflict",
     "Endless",
     "GroupRun",
-    "GroupTimetable",
     "LapsRun",
     "Lever",
     "Pattern",
     "Piece",
-    "best_timetable",
     "bottleneck_of",
     "endless_routes",
     "in_words",
     "levers_of",
     "plan_of",
     "run_laps",
-    "run_of",
     "shown",
 ]

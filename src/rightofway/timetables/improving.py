@@ -23,10 +23,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.laps.crowding import crowded
-from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.model import Tick
 from rightofway.precedence import PeriodicTimetable, unrolled
+from rightofway.timetables.crowding import crowded
+from rightofway.timetables.shift import Choice, Shift, Work
 
 __all__ = ["improve"]
 

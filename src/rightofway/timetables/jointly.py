@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.model import Lap, Plan, Scenario, Track, lap_of, route_of
 from rightofway.precedence import PeriodicTimetable
 from rightofway.solve import solve
+from rightofway.timetables.shift import Choice, Shift, Work
 
 __all__ = ["jointly"]
 

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rightofway.laps.choosing import GroupTimetable
 from rightofway.laps.endless import Endless
 from rightofway.laps.outcome import GroupRun, LapsRun
 from rightofway.laps.pattern import Pattern
 from rightofway.model import Scenario, Tick
 from rightofway.precedence import PeriodicTimetable
+from rightofway.timetables.group import GroupTimetable
 
 __all__ = ["run_of"]
 

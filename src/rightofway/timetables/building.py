@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from heapq import heapify, heappop, heappush
 
 from rightofway.errors import GaveUp
-from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.search import Circle
+from rightofway.timetables.shift import Choice, Shift, Work
 
 __all__ = ["build", "filled"]
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.errors import GaveUp, InputError
-from rightofway.laps.choosing import GroupTimetable, choose
 from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.groups import independent_groups
-from rightofway.laps.shift import Shift
 from rightofway.model import Lap, Scenario, VertexId
 from rightofway.planners import Deadline, planning_headway
+from rightofway.timetables.group import GroupTimetable, choose
+from rightofway.timetables.shift import Shift
 
 __all__ = ["best_timetable"]
 

@@ -7,9 +7,9 @@ timed anew, so there are many such steps in the time of one of `improving`.
 
 from __future__ import annotations
 
-from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.model import Tick
 from rightofway.search import Circle
+from rightofway.timetables.shift import Choice, Shift, Work
 
 __all__ = ["crowded"]
 

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.laps.building import filled
 from rightofway.laps.outcome import GroupRun
-from rightofway.laps.shift import Choice, Shift, Work
 from rightofway.search import Circle
+from rightofway.timetables.building import filled
+from rightofway.timetables.shift import Choice, Shift, Work
 
 __all__ = ["windows"]
 

@@ -11,17 +11,17 @@ from typing import Literal
 import numpy as np
 
 from rightofway.errors import GaveUp
-from rightofway.laps.building import build
 from rightofway.laps.endless import Endless
-from rightofway.laps.improving import improve
-from rightofway.laps.jointly import jointly
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.run import run_group
-from rightofway.laps.shift import Choice, Shift, Work
-from rightofway.laps.windows import windows
 from rightofway.model import Scenario, Tick
 from rightofway.planners import Task
 from rightofway.precedence import PeriodicTimetable, unrolled
+from rightofway.timetables.building import build
+from rightofway.timetables.improving import improve
+from rightofway.timetables.jointly import jointly
+from rightofway.timetables.shift import Choice, Shift, Work
+from rightofway.timetables.windows import windows
 
 __all__ = ["GroupTimetable", "choose"]
 
