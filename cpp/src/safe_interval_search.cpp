@@ -8,12 +8,17 @@ namespace {
 constexpr std::int32_t none = -1;
 constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
+constexpr std::int64_t states_per_edge = 16;  // for aiming
 
-// A key holds f in its upper bits, as ticks beyond the least f, and the rest of the way in the
-// lower ones. No plan comes near these bounds; beyond them only the order would suffer.
-constexpr int bits_of_rest = 26;
-constexpr Tick most_rest = (Tick{1} << bits_of_rest) - 1;
-constexpr Tick most_f = (Tick{1} << (63 - bits_of_rest)) - 1;
+// The first number in the upper bits, the second in the lower ones. No plan comes near these
+// bounds; beyond them only the order would suffer.
+std::uint64_t key(Tick first, Tick second) {
+    constexpr int bits = 26;
+    constexpr Tick most_first = (Tick{1} << (63 - bits)) - 1;
+    constexpr Tick most_second = (Tick{1} << bits) - 1;
+    return (static_cast<std::uint64_t>(std::min(first, most_first)) << bits) |
+           static_cast<std::uint64_t>(std::min(second, most_second));
+}
 
 std::uint64_t scatter(std::uint64_t key) {
     key *= 0x9E3779B97F4A7C15U;
@@ -23,7 +28,7 @@ std::uint64_t scatter(std::uint64_t key) {
 }  // namespace
 
 SafeIntervalSearch::SafeIntervalSearch(const Roads& roads, const BookingRules& rules)
-    : roads_(roads), rules_(rules), slots_(first_slots, Slot{0, 0, none}) {}
+    : roads_(roads), rules_(rules), slots_(first_slots, unused) {}
 
 void SafeIntervalSearch::begin(const Errand& errand) {
     trip_ = &errand.trip;
@@ -35,8 +40,13 @@ void SafeIntervalSearch::begin(const Errand& errand) {
     goal_ = none;
     mask_ = first_slots - 1;
     greed_ = errand.greed;
+    has_one_label_ = prices_.empty() || greed_ > 0;
     next_generation();
     measure_stages(errand.trip);
+    const auto& pace = trip_->pace;
+    least_drive_ = pace.empty() ? 1 : *std::min_element(pace.begin(), pace.end());
+    least_f_ = least_end();
+    is_aiming_ = false;
 }
 
 // Of the stages at the last vertex, all that are left can be served in the last visit, which needs
@@ -57,6 +67,20 @@ void SafeIntervalSearch::measure_stages(const Trip& trip) {
     }
 }
 
+// What completion and prices come to at least, because of the bookings of the last vertex: either
+// the robot enters after a booking has ended, or pays for it.
+Tick SafeIntervalSearch::least_end() const {
+    const auto last = bookings_->at(trip_->stage_vertex.back());
+    const Tick approach = rules_.books_ahead ? least_drive_ : 0;
+    Tick paid = 0;
+    Tick least = infinity;
+    for (std::size_t k = last.size(); k > 0 && paid < least; --k) {
+        least = std::min(least, paid + last[k - 1].time.end + approach);
+        paid += price(last[k - 1].robot);
+    }
+    return std::min(least, paid) + trip_->stage_work.back();
+}
+
 // The least ticks from here to completion, or -1 where no way leads on.
 Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     if (stage == n_stages()) {
@@ -68,6 +92,23 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
 
 SearchEnd SafeIntervalSearch::run(const Errand& errand, const IsOver& is_over) {
     begin(errand);
+    if (least_f_ > limit_) {
+        return SearchEnd::proven_none;
+    }
+    const Tick alone = rest(trip_->home, 0);
+    if (least_f_ > alone) {
+        is_aiming_ = true;
+        limit_ = least_f_;
+        const SearchEnd end = search(states_per_edge * (alone / least_drive_ + 1), is_over);
+        if (end == SearchEnd::found) {
+            return end;
+        }
+        begin(errand);
+    }
+    return search(infinity, is_over);
+}
+
+SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const IsOver& is_over) {
     const auto here = bookings_->at(trip_->home);
     Node first{0,    0, trip_->home, BookingTable::started(here, rules_.headway), 0, none,
                none, 0, false};
@@ -86,6 +127,9 @@ SearchEnd SafeIntervalSearch::run(const Errand& errand, const IsOver& is_over) {
         if (node.stage == n_stages()) {
             goal_ = top.node;
             return SearchEnd::found;
+        }
+        if (most_states-- == 0) {
+            return SearchEnd::stopped;
         }
         if (++n_expanded_ % states_between_questions == 0 && is_over()) {
             return SearchEnd::stopped;
@@ -291,24 +335,37 @@ void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
         return;
     }
     Slot& slot = slot_of(candidate);
-    for (std::int32_t k = slot.node; k != none; k = nodes_[k].next) {
-        Node& known = nodes_[k];
-        if (known.ready <= candidate.ready && known.cost <= candidate.cost) {
+    const Tick sum = candidate.ready + candidate.cost;
+    if (!has_one_label_) {
+        if (is_known(candidate, slot.node)) {
             return;
         }
-        if (greed_ > 0 && known.ready + known.cost <= candidate.ready + candidate.cost) {
+    } else if (slot.node != none) {
+        if (slot.least <= sum) {
             return;
         }
-        known.is_beaten |= candidate.ready <= known.ready && candidate.cost <= known.cost;
+        nodes_[static_cast<std::size_t>(slot.node)].is_beaten = true;
     }
+    slot.least = sum;
     const auto node = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back(candidate);
     nodes_.back().next = slot.node;
     slot.node = node;
-    const Tick ahead = f - first_f_ + way * greed_ / 8;
-    push({(static_cast<std::uint64_t>(std::min(ahead, most_f)) << bits_of_rest) |
-              static_cast<std::uint64_t>(std::min(way, most_rest)),
-          node});
+    push(
+        {is_aiming_ ? key(way, candidate.ready) : key(f - first_f_ + way * greed_ / 8, way), node});
+}
+
+// Tells whether a node of the same state is no later and no dearer; marks those of which this one
+// is that.
+bool SafeIntervalSearch::is_known(const Node& candidate, std::int32_t first) {
+    for (std::int32_t k = first; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
+        Node& known = nodes_[static_cast<std::size_t>(k)];
+        if (known.ready <= candidate.ready && known.cost <= candidate.cost) {
+            return true;
+        }
+        known.is_beaten |= candidate.ready <= known.ready && candidate.cost <= known.cost;
+    }
+    return false;
 }
 
 // A heap of four children a node: half as deep as one of two, and its children share a cache line.
@@ -360,7 +417,7 @@ SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
         k = (k + 1) & mask_;
     }
     if (slots_[k].generation != generation_) {
-        slots_[k] = {state, generation_, none};
+        slots_[k] = {state, 0, generation_, none};
     }
     return slots_[k];
 }
@@ -368,19 +425,20 @@ SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
 void SafeIntervalSearch::enlarge_slots() {
     mask_ = 4 * mask_ + 3;
     if (slots_.size() <= mask_) {
-        slots_.resize(mask_ + 1, Slot{0, 0, none});
+        slots_.resize(mask_ + 1, unused);
     }
     next_generation();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
         Slot& slot = slot_of(nodes_[k]);
         nodes_[k].next = slot.node;
         slot.node = static_cast<std::int32_t>(k);
+        slot.least = nodes_[k].ready + nodes_[k].cost;
     }
 }
 
 void SafeIntervalSearch::next_generation() {
     if (++generation_ == 0) {
-        std::fill(slots_.begin(), slots_.end(), Slot{0, 0, none});
+        std::fill(slots_.begin(), slots_.end(), unused);
         generation_ = 1;
     }
 }

@@ -171,6 +171,40 @@ TEST_CASE("one object serves many searches") {
     }
 }
 
+// A ring of places, of which every second one is taken at every second time.
+TEST_CASE("where somebody else comes to the end late, the search does not look at all until then") {
+    constexpr VertexId n = 40;
+    std::vector<EdgeId> indptr{0};
+    Vertices heads;
+    for (VertexId v = 0; v < n; ++v) {
+        heads.insert(heads.end(), {(v + n - 1) % n, (v + 1) % n});
+        indptr.push_back(static_cast<EdgeId>(heads.size()));
+    }
+    const std::vector<std::int32_t> classes(heads.size(), 0);
+    const std::vector<std::int32_t> pace{1};
+    std::vector<std::int32_t> table;
+    for (VertexId v = 0; v < n; ++v) {
+        table.push_back(std::min(v < 5 ? 5 - v : v - 5, v < 5 ? n - 5 + v : n + 5 - v));
+    }
+    const Vertices stage{5};
+    const Ticks nothing{0};
+    const Trip trip{0, stage, nothing, nothing, pace, {{table.data(), 1}}};
+    SafeIntervalSearch search({{indptr, heads}, classes}, {0, false});
+    BookingTable bookings(n);
+    for (Tick k = 10; k < 100; ++k) {
+        for (VertexId v = 10; v < n; v += 2) {
+            bookings.book(v, {4 * k, 4 * k + 2}, v);
+        }
+    }
+    bookings.book(5, {398, 400}, 50);
+    REQUIRE(search.run({trip, bookings}, test::never) == SearchEnd::found);
+    CHECK(search.completion() == 400);
+    CHECK(search.n_expanded() < 20);
+    const std::int64_t before = search.n_expanded();
+    CHECK(search.run({trip, bookings, {}, 399}, test::never) == SearchEnd::proven_none);
+    CHECK(search.n_expanded() == before);
+}
+
 TEST_CASE("arrays that do not fit together are refused") {
     FoundTrack found;
     const Case far{test::corridor(), BookingTable(4), {0, false}, 7, {3}, {0}};

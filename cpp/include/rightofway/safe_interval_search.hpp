@@ -9,12 +9,19 @@
 // another at that price, and finds the track whose completion and prices together are least. With
 // prices far above any time this is the track with the fewest conflicts.
 //
+// Others may come to the last vertex late. No track can be complete before the last of them has
+// left or is paid for, and a search by time alone looks at all that can be done until then. So it
+// *aims* first: among tracks that are complete at just that tick any is as good as another, and one
+// is looked for greedily, nearest to the end first, for a limited number of states.
+//
 // One object serves many searches: nodes, heap and the table of states keep their memory, and a
 // generation stamp takes the place of clearing.
 //
 // Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
 // Li et al., "MAPF-LNS2: Fast repairing for multi-agent path finding via large neighborhood
 // search", AAAI 2022 (soft intervals).
+// Doran & Michie, "Experiments with the graph traverser program", Proceedings of the Royal Society
+// A 294, 1966 (greedy search).
 #pragma once
 
 #include <cstdint>
@@ -76,12 +83,16 @@ class SafeIntervalSearch {
     };
     struct Slot {
         std::uint64_t state;
+        Tick least;  // time and prices of that node together
         std::uint32_t generation;
-        std::int32_t node;
+        std::int32_t node;  // the latest of this state
     };
+    static constexpr Slot unused{0, 0, 0, -1};
 
+    SearchEnd search(std::int64_t most_states, const IsOver& is_over);
     void begin(const Errand& errand);
     void measure_stages(const Trip& trip);
+    Tick least_end() const;
     Tick rest(VertexId vertex, std::int32_t stage) const;
     void expand(std::int32_t node);
     void finish(std::int32_t node);
@@ -94,6 +105,7 @@ class SafeIntervalSearch {
     Tick price_of_swaps(const Node& candidate) const;
     Tick price(RobotId robot) const;
     void reach(const Node& candidate, Tick way);
+    bool is_known(const Node& candidate, std::int32_t first);
     static bool is_before(const Open& left, const Open& right) {
         return left.key != right.key ? left.key < right.key : left.node < right.node;
     }
@@ -114,8 +126,12 @@ class SafeIntervalSearch {
     std::int32_t first_last_ = 0;  // from this stage on, all are at the last vertex
     std::vector<Node> nodes_;
     std::vector<Open> open_;
-    std::vector<Slot> slots_;  // open addressing
-    std::size_t mask_ = 0;     // the first so many slots are in use; a search starts with few
+    std::vector<Slot> slots_;    // open addressing
+    std::size_t mask_ = 0;       // the first so many slots are in use; a search starts with few
+    Tick least_drive_ = 1;       // on any edge
+    Tick least_f_ = 0;           // of any track, because of who comes to the last vertex
+    bool is_aiming_ = false;     // at a track with that f
+    bool has_one_label_ = true;  // a state is known by one node only, not by all that may pay
     Tick first_f_ = 0;
     Tick greed_ = 0;
     std::uint32_t generation_ = 0;
