@@ -8,7 +8,7 @@ namespace {
 constexpr std::int32_t none = -1;
 constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
-constexpr std::int64_t states_per_edge = 16;  // for aiming
+constexpr std::int64_t states_per_drive = 8;  // as many as there is time for, for aiming
 
 // The first number in the upper bits, the second in the lower ones. No plan comes near these
 // bounds; beyond them only the order would suffer.
@@ -71,14 +71,22 @@ void SafeIntervalSearch::measure_stages(const Trip& trip) {
 // the robot enters after a booking has ended, or pays for it.
 Tick SafeIntervalSearch::least_end() const {
     const auto last = bookings_->at(trip_->stage_vertex.back());
-    const Tick approach = rules_.books_ahead ? least_drive_ : 0;
     Tick paid = 0;
     Tick least = infinity;
     for (std::size_t k = last.size(); k > 0 && paid < least; --k) {
-        least = std::min(least, paid + last[k - 1].time.end + approach);
+        least = std::min(least, paid + free_end(last.first(k)));
         paid += price(last[k - 1].robot);
     }
-    return std::min(least, paid) + trip_->stage_work.back();
+    return std::min(least, paid + trip_->stage_work.back());
+}
+
+// The least completion after all these bookings of the last vertex.
+Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
+    if (before.empty()) {
+        return trip_->stage_work.back();
+    }
+    const Tick approach = rules_.books_ahead ? least_drive_ : 0;
+    return before.back().time.end + approach + trip_->stage_work.back();
 }
 
 // The least ticks from here to completion, or -1 where no way leads on.
@@ -95,17 +103,29 @@ SearchEnd SafeIntervalSearch::run(const Errand& errand, const IsOver& is_over) {
     if (least_f_ > limit_) {
         return SearchEnd::proven_none;
     }
-    const Tick alone = rest(trip_->home, 0);
-    if (least_f_ > alone) {
-        is_aiming_ = true;
-        limit_ = least_f_;
-        const SearchEnd end = search(states_per_edge * (alone / least_drive_ + 1), is_over);
+    if (is_worth_aiming()) {
+        const SearchEnd end = aim(is_over);
         if (end == SearchEnd::found) {
             return end;
         }
         begin(errand);
     }
     return search(infinity, is_over);
+}
+
+// Whether others keep the last vertex longer than the way takes, and waiting for them is the best
+// that can be hoped for.
+bool SafeIntervalSearch::is_worth_aiming() const {
+    const auto last = bookings_->at(trip_->stage_vertex.back());
+    return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
+}
+
+SearchEnd SafeIntervalSearch::aim(const IsOver& is_over) {
+    is_aiming_ = true;
+    has_one_label_ = true;
+    prices_ = {};
+    limit_ = least_f_;
+    return search(states_per_drive * (least_f_ / least_drive_ + 1), is_over);
 }
 
 SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const IsOver& is_over) {

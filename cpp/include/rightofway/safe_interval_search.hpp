@@ -93,6 +93,9 @@ class SafeIntervalSearch {
     void begin(const Errand& errand);
     void measure_stages(const Trip& trip);
     Tick least_end() const;
+    Tick free_end(std::span<const BookedBy> before) const;
+    bool is_worth_aiming() const;
+    SearchEnd aim(const IsOver& is_over);
     Tick rest(VertexId vertex, std::int32_t stage) const;
     void expand(std::int32_t node);
     void finish(std::int32_t node);
