@@ -9,6 +9,11 @@ namespace {
 
 constexpr double memory = 0.97;    // of a record, from use to use
 constexpr double curiosity = 0.3;  // the share of draws that is even
+// Tasks of a round: many, so that threads seldom wait for each other; few where they would get in
+// each other's way.
+constexpr std::size_t robots_per_task = 4;
+constexpr std::size_t least_in_round = 4;
+constexpr std::size_t most_in_round = 32;
 constexpr auto between_questions = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -41,7 +46,7 @@ Improver::Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> al
         replicas_.push_back(plan);
         workers_.push_back(std::make_unique<Worker>(fleet, replicas_.back(), alone));
     }
-    tasks_.resize(std::clamp<std::size_t>(is_touched_.size() / 16, 4, 32));
+    tasks_.resize(std::clamp(is_touched_.size() / robots_per_task, least_in_round, most_in_round));
 }
 
 Improver::~Improver() = default;
