@@ -86,12 +86,15 @@ def _together(task: Task) -> Draft | None:
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
-    search.start(_spaced(task, first.tracks))
+    spaced = _spaced(task, first.tracks)
+    search.start(spaced)
     improvement = _Improvement(task, search)
     improvement.run()
     found = search.tracks()
-    if flowtime_of(task.scenario, found) > flowtime_of(task.scenario, first.tracks):
-        found = first.tracks  # the headway of planning may cost more than was won
+    if spaced is not first.tracks and flowtime_of(task.scenario, found) > flowtime_of(
+        task.scenario, first.tracks
+    ):
+        found = first.tracks  # the headway of planning costs more than was won
     return Draft(tracks=found, status=improvement.status(first.status))
 
 
