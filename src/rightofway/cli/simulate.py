@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_plan, say, writable
+from rightofway.cli.terminal import progress, put, put_json, read_plan, say, writable
 
 if TYPE_CHECKING:
     from rightofway.floor import Outcome
@@ -65,7 +65,10 @@ Examples:
     help="Switch rights of way on the way, where that is expected to help.",
 )
 @click.option(
-    "--replan", is_flag=True, help="Plan what is left anew when a robot breaks down for ever."
+    "--replan",
+    is_flag=True,
+    help="Plan what is left anew when the fleet has fallen behind and that is expected to help, "
+    "and when a robot breaks down for ever.",
 )
 @click.option(
     "--page",
@@ -103,9 +106,11 @@ def simulate(
     from rightofway.floor import DEFAULT
     from rightofway.floor import simulate as run_on_the_floor
 
-    outcome = run_on_the_floor(
-        read_plan(plan), delays or DEFAULT, runs, seed, switch=switch, replan=replan
-    )
+    found = read_plan(plan)
+    with progress() as told:
+        outcome = run_on_the_floor(
+            found, delays or DEFAULT, runs, seed, switch=switch, replan=replan, report=told
+        )
     if as_json:
         put_json(outcome.as_dict())
     else:

@@ -8,6 +8,7 @@ from rightofway.floor.outcome import (
     RobotLateness,
     Source,
     Spread,
+    Won,
 )
 from rightofway.floor.simulation import simulate
 
@@ -20,6 +21,7 @@ __all__ = [
     "RobotLateness",
     "Source",
     "Spread",
+    "Won",
     "hazards_of",
     "read_delays",
     "simulate",
