@@ -7,8 +7,8 @@ how long a delay will last, neither here nor on a real floor.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +33,6 @@ class Outlook:
         What comes of both.
     now
         The instant [ticks].
-    order
-        Times in whose order visits take place.
 
     Attributes
     ----------
@@ -42,10 +40,12 @@ class Outlook:
         Which visits have booked their vertex, and which robots have entered it; bool[N].
     graph
         The precedence graph with the durations that are expected.
+    is_possible
+        Whether all visits can take place in their order, without a swap.
     """
 
     def __init__(
-        self, floor: DelayedPlan, setbacks: Setbacks, happens: Execution, now: int, order: Times
+        self, floor: DelayedPlan, setbacks: Setbacks, happens: Execution, now: int
     ) -> None:
         self.floor, self.setbacks, self.happens, self.now = floor, setbacks, happens, now
         self.begun = happens.start <= now
@@ -56,9 +56,7 @@ class Outlook:
             headway=planning_headway(scenario),
             books_ahead=scenario.rules.books_ahead,
         )
-        self.is_possible = self.graph.try_order(
-            [order[i:j].tolist() for i, j in pairwise(floor.first_visit)]
-        )
+        self.is_possible = self.graph.give_all(self._rights())
 
     def times(self) -> Times:
         """Return when visits are expected to begin [ticks]."""
@@ -81,6 +79,18 @@ class Outlook:
                 ready += ticks
             stands |= begin < self.now < begin + ticks
         return ready <= self.now and not stands
+
+    def _rights(self) -> Iterator[tuple[int, int]]:
+        """Yield the rights of way that are still to be used, in the order of the plan."""
+        before, robot = self.floor.before, self._robots()
+        still = np.flatnonzero(~self.begun & (before >= 0) & (robot[before] != robot))
+        still = still[np.argsort(self.floor.planned[still], kind="stable")]
+        yield from zip(before[still].tolist(), still.tolist(), strict=True)
+
+    def _robots(self) -> NDArray[np.int64]:
+        """Return whose each visit is."""
+        lengths = np.diff(self.floor.first_visit)
+        return np.repeat(np.arange(len(lengths)), lengths)
 
     def _route(self, robot: int) -> Route:
         """Return a route with what has happened, and what the visit under way may still take."""

@@ -104,7 +104,7 @@ class Watch:
 
     def outlook(self, now: int) -> Outlook:
         """Look ahead."""
-        return Outlook(self.floor, self.setbacks, self.happens, now, self.expected)
+        return Outlook(self.floor, self.setbacks, self.happens, now)
 
     def try_to_switch(self, outlook: Outlook) -> Outlook:
         """Switch rights of way where that helps; return what is to be expected then."""
@@ -131,7 +131,7 @@ class Watch:
         robots = range(len(floor.routes))
         setbacks = with_standstills(draw(floor), [self.setbacks.of(robot) for robot in robots])
         happens = floor.execute(setbacks)
-        anew = Outlook(floor, setbacks, happens, outlook.now, floor.planned)
+        anew = Outlook(floor, setbacks, happens, outlook.now)
         if anew.is_possible and anew.graph.flowtime() < self.last_tried:
             self.replans += 1
             self.floor, self.setbacks, self.happens = floor, setbacks, happens

@@ -168,26 +168,16 @@ class PrecedenceGraph:
             For each robot, a number for each of its visits; of two visits to one vertex, the one
             with the smaller number goes first. The ticks of a plan, or steps.
         """
-        possible = self.try_order(when)
-        assert possible, "what took place in some order can take place in it again"
-
-    def try_order(self, when: Sequence[Sequence[int]]) -> bool:
-        """Do the same in any order; false, with some of it given, if not all visits can take place.
-
-        Nobody can go before a robot at its home, after one that has ended there, or exchange places
-        with one; and in a circle nobody can go at all.
-        """
         at: dict[VertexId, list[tuple[int, Visit]]] = {}
         for robot, numbers in enumerate(when):
             for index, number in enumerate(numbers):
                 visit = self.visit(robot, index)
                 at.setdefault(self.vertex(visit), []).append((number, visit))
-        return all(
-            self.give_way(first, second)
-            for visits in at.values()
-            for (_, first), (_, second) in pairwise(sorted(visits))
-            if self._robot[first] != self._robot[second]
-        )
+        for visits in at.values():
+            for (_, first), (_, second) in pairwise(sorted(visits)):
+                if self._robot[first] != self._robot[second]:
+                    possible = self.give_way(first, second)
+                    assert possible, "what took place in some order can take place in it again"
 
     def rights_of_way(self) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) in the order they were given."""
