@@ -52,7 +52,7 @@ def lateness(axes: Axes, plan: Plan) -> None:
 
 def main() -> None:
     """Draw both panels."""
-    plans = [plan_of(scenario, "local-search") for scenario in FLEETS.values()]
+    plans = [plan_of(fleet, "local-search") for fleet in FLEETS]
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), dpi=120)
     collisions(left, plans)
     lateness(right, plans[2])
