@@ -27,7 +27,7 @@ from tests.fleets import random_fleet
 RUNS = 10_000
 """Runs of each plan with each kind of delay."""
 
-CARED = 50
+CARED = 20
 """Runs of each plan that are cared for."""
 
 LIMIT = 2

@@ -1,6 +1,6 @@
 """A plan on a floor where robots are late: by the clock it collides, by right of way never."""
 
-from rightofway.floor.delays import DEFAULT, Delay, hazards_of, read_delays
+from rightofway.floor.delays import CAUSES, DEFAULT, Cause, Delay, hazards_of, read_delays
 from rightofway.floor.outcome import (
     Collisions,
     Lateness,
@@ -13,7 +13,9 @@ from rightofway.floor.outcome import (
 from rightofway.floor.simulation import simulate
 
 __all__ = [
+    "CAUSES",
     "DEFAULT",
+    "Cause",
     "Collisions",
     "Delay",
     "Lateness",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
-from pathlib import Path
 
 import numpy as np
 
@@ -25,7 +24,7 @@ CHUNK = 1 << 20
 
 def simulate(
     plan: Plan,
-    delays: str | Path | Iterable[str | Path] = DEFAULT,
+    delays: str | Iterable[str] = DEFAULT,
     runs: int = 1000,
     seed: int = 0,
     *,
@@ -42,7 +41,8 @@ def simulate(
         A plan that keeps the rules, by any planner or by hand.
     delays
         What makes robots late: causes like ``exponential:0.2`` or ``stop:R3@12+30``, several with
-        commas or in a list, or a file with a list of them; see `rightofway.floor.delays`.
+        commas or in a list; see `rightofway.floor.CAUSES`. `rightofway.io.load_delays` reads them
+        from a file.
     runs
         How many runs.
     seed
