@@ -75,6 +75,9 @@ def laps(
     Prints, for each group of robots that have to do with each other, how long it takes until the
     pattern repeats, its period, the mean lap of each robot, and who waits for whom, where and when.
     Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
+
+    Scenarios name no unit of time: throughput_per_hour of --json is laps in 3600 of it, so it is
+    per hour where the unit is a second.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
     from rightofway.laps import plan_of, run_laps, shown
