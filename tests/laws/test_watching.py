@@ -41,7 +41,7 @@ def watched(
     chance=st.integers(0, 2**32 - 1),
     care=st.sampled_from(CARES),
 )
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_robots_that_look_find_the_new_plan_possible(
     seed: int, rules: int, chance: int, care: tuple[bool, bool]
 ) -> None:
@@ -123,7 +123,7 @@ class Witness(Watch):
     chance=st.integers(0, 2**32 - 1),
     care=st.sampled_from(CARES),
 )
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_no_change_reaches_into_the_past(
     seed: int, rules: int, chance: int, care: tuple[bool, bool]
 ) -> None:
@@ -142,7 +142,7 @@ def test_the_witness_has_seen_changes() -> None:
 
 
 @given(chance=st.integers(0, 2**32 - 1), cut=st.integers(1, 40), care=st.sampled_from(CARES))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_what_is_still_to_come_decides_nothing(
     chance: int, cut: int, care: tuple[bool, bool]
 ) -> None:
