@@ -19,7 +19,7 @@ from rightofway.model import Plan
 PLOT = PAGE.parents[1] / "docs" / "images" / "late-floors.png"
 MEANS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
 COLOURS = ("#56b4e9", "#0b4f8a", "#d55e00", "#8a8a8a")
-RUNS, SWITCHED = 1000, 200
+RUNS, SWITCHED = 1000, 100
 STOPS = "chance:0.02x20"
 
 
