@@ -151,7 +151,7 @@ def care_table(kept: Kept) -> Iterator[str]:
                 order = row["late"] + row["won"]
                 yield (
                     f"| {fleet} | {delays} | {care} | {order:.0f} → {row['late']:.0f}"
-                    f" | {row['won'] / order:.0%} | {row['earlier']}, {row['later']}"
+                    f" | {row['won'] / order:.1%} | {row['earlier']}, {row['later']}"
                     f" | {row['changes']:.1f} | {CARED / row['seconds']:.1f} |\n"
                 )
 
