@@ -48,10 +48,10 @@ class Care:
 
     def actual(self, floor: DelayedPlan, seed: int, run: int) -> Actual:
         """Return what happens in one run."""
-        setbacks, ended = floor.setbacks(seed, run), self._ended(floor, seed, run)
-        if ended.replans:
-            return planned_anew(floor, setbacks, ended)
-        return as_planned_but_late(ended.floor, setbacks)
+        ended = self._ended(floor, seed, run)
+        if ended.stands:
+            return planned_anew(floor, floor.setbacks(seed, run), ended)
+        return as_planned_but_late(ended.floor, ended.setbacks)
 
     def _ended(self, floor: DelayedPlan, seed: int, run: int) -> Ended:
         return run_in_phases(floor, seed, run, switch=self.switch, replan=self.replan)

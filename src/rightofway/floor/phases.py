@@ -27,8 +27,8 @@ class Ended:
 
     Attributes
     ----------
-    floor
-        The plan that was run in the end, of all phases the last.
+    floor, setbacks
+        The plan that was run in the end, and what befell it; of all phases the last.
     completion
         When each robot completed, `NEVER` where it did not do everything [ticks]; int64[R].
     broken
@@ -41,11 +41,14 @@ class Ended:
         Robots that wait for each other for ever.
     switches, replans
         How often the order was changed, and how often what was left was planned anew.
+    stands
+        How often that was from a stand, because a robot had broken down.
     tracks
         What really happened.
     """
 
     floor: DelayedPlan
+    setbacks: Setbacks
     completion: NDArray[np.int64]
     broken: frozenset[int] = frozenset()
     cut_off: frozenset[int] = frozenset()
@@ -53,6 +56,7 @@ class Ended:
     deadlocked: frozenset[int] = frozenset()
     switches: int = 0
     replans: int = 0
+    stands: int = 0
     tracks: tuple[Track, ...] = ()
 
 
@@ -81,14 +85,14 @@ class _Phases:
         self, floor: DelayedPlan, seed: int, run: int, *, switch: bool, replan: bool
     ) -> None:
         self.seed, self.run, self.switch, self.replan = seed, run, switch, replan
-        self.offset, self.breakdowns = Tick(0), 0
+        self.offset, setbacks = Tick(0), floor.setbacks(seed, run)
         robots = len(floor.routes)
         self.ended = Ended(
             floor=floor,
+            setbacks=setbacks,
             completion=np.full(robots, NEVER, np.int64),
             collisions=np.array([0, 0, 0, NEVER]),
         )
-        setbacks = floor.setbacks(seed, run)
         while (following := self.phase(floor, setbacks)) is not None:
             floor, setbacks = following
 
@@ -97,7 +101,7 @@ class _Phases:
         draw = self.draw if self.replan else None
         watch = Watch(floor, setbacks, switch=self.switch, draw=draw, seed=self.seed)
         floor, setbacks, happens = watch.floor, watch.setbacks, watch.happens
-        self.ended.floor = floor
+        self.ended.floor, self.ended.setbacks = floor, setbacks
         self.ended.switches += watch.switches
         self.ended.replans += watch.replans
         since = first_breakdown(setbacks, happens) if self.replan else NEVER
@@ -111,7 +115,7 @@ class _Phases:
 
     def draw(self, floor: DelayedPlan) -> Setbacks:
         """Return what befalls a plan in this phase."""
-        return floor.setbacks(self.seed + (self.breakdowns << 32), self.run)
+        return floor.setbacks(self.seed + (self.ended.stands << 32), self.run)
 
     def follow(
         self, floor: DelayedPlan, setbacks: Setbacks, since: Tick
@@ -124,7 +128,7 @@ class _Phases:
         unfinished = frozenset(robot for robot, left in enumerate(rest.stages) if left)
         self.write_down(floor, happens, unfinished)
         self.ended.replans += 1
-        self.breakdowns += 1
+        self.ended.stands += 1
         self.ended.broken = rest.broken
         self.ended.cut_off |= anew.cut_off
         self.offset = Tick(self.offset + rest.tick)
