@@ -1,6 +1,7 @@
 """The plot of ``docs/floor.md``: ``python -m benchmarks.late_floors_plot`` writes it.
 
-How soon a plan collides by the clock, and how late its fleet is by right of way, kept or switched.
+How soon a plan collides by the clock, and how late its fleet is by right of way: order kept,
+switched, or planned anew.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import PercentFormatter
 
 import rightofway
-from benchmarks.late_floors import FLEETS, PAGE, plan_of
+from benchmarks.late_floors import CARES, FLEETS, PAGE, plan_of
 from rightofway.model import Plan
 
 PLOT = PAGE.parents[1] / "docs" / "images" / "late-floors.png"
 MEANS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
 COLOURS = ("#56b4e9", "#0b4f8a", "#d55e00", "#8a8a8a")
-RUNS, SWITCHED = 1000, 200
+RUNS, CARED = 1000, 50
 STOPS = "chance:0.02x20"
 
 
@@ -38,10 +39,14 @@ def collisions(axes: Axes, plans: Sequence[Plan]) -> None:
 
 
 def lateness(axes: Axes, plan: Plan) -> None:
-    """Draw how the lateness of a fleet is spread, with the order kept and switched."""
+    """Draw how the lateness of a fleet is spread: order kept, switched, planned anew."""
     planned = sum(int(track.enter[-1]) for track in plan.tracks)
-    for switch, label, colour in ((False, "order kept", "#d55e00"), (True, "switched", "#0b4f8a")):
-        outcome = rightofway.simulate(plan, STOPS, SWITCHED, switch=switch)
+    for label, (switch, replan), colour in (
+        ("order kept", (False, False), "#d55e00"),
+        ("switched", CARES["switched"], "#0b4f8a"),
+        ("planned anew", CARES["planned anew"], "#56b4e9"),
+    ):
+        outcome = rightofway.simulate(plan, STOPS, CARED, switch=switch, replan=replan)
         late = np.sort(outcome.completion.sum(axis=1) - planned) / planned
         axes.step(late, np.linspace(0, 1, len(late)), color=colour, label=label)
     axes.set(xlabel="flowtime above the plan, at most", ylim=(0, 1.02))
@@ -52,7 +57,7 @@ def lateness(axes: Axes, plan: Plan) -> None:
 
 def main() -> None:
     """Draw both panels."""
-    plans = [plan_of(scenario, "local-search") for scenario in FLEETS.values()]
+    plans = [plan_of(fleet, "local-search") for fleet in FLEETS]
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), dpi=120)
     collisions(left, plans)
     lateness(right, plans[2])

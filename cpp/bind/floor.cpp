@@ -26,6 +26,8 @@ dwell, drive : int64[N]
     How long each visit lasts at least without the drive after it, and the drive into it. [ticks]
 before : int32[N]
     The visit that goes directly before at the same vertex, -1 for none.
+since : int64[N]
+    When each visit was given its right of way, if that was on the way: it begins no sooner. [ticks]
 headway : int
     Ticks from one robot's leave to the next one's enter, or start to drive there.
 books_ahead : bool
@@ -222,8 +224,8 @@ class Floor {
 
 void init(Floor* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<VertexId>& vertex,
           const ArrayIn<Tick>& planned, const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
-          const ArrayIn<VisitId>& before, Tick headway, bool books_ahead,
-          const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
+          const ArrayIn<VisitId>& before, const ArrayIn<Tick>& since, Tick headway,
+          bool books_ahead, const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
           const ArrayIn<double>& delay_a, const ArrayIn<double>& delay_b,
           const ArrayIn<std::int32_t>& first_standstill, const ArrayIn<Tick>& standstill_tick,
           const ArrayIn<Tick>& standstill_ticks) {
@@ -243,7 +245,7 @@ void init(Floor* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Vertex
     const auto first = view(first_standstill);
     new (self)
         Floor({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
-               view(before), headway, books_ahead},
+               view(before), headway, books_ahead, view(since)},
               view(pace), std::move(delays), {first.begin(), first.end()}, std::move(standstills));
 }
 
@@ -253,8 +255,9 @@ void bind_floor(nb::module_& module) {
     nb::class_<Floor>(module, "Floor", class_doc)
         .def("__init__", &init, nb::arg("first_visit").noconvert(), nb::arg("vertex").noconvert(),
              nb::arg("planned").noconvert(), nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("before").noconvert(), nb::arg("headway"),
-             nb::arg("books_ahead"), nb::arg("pace").noconvert(), nb::arg("delay_kind").noconvert(),
+             nb::arg("drive").noconvert(), nb::arg("before").noconvert(),
+             nb::arg("since").noconvert(), nb::arg("headway"), nb::arg("books_ahead"),
+             nb::arg("pace").noconvert(), nb::arg("delay_kind").noconvert(),
              nb::arg("delay_a").noconvert(), nb::arg("delay_b").noconvert(),
              nb::arg("first_standstill").noconvert(), nb::arg("standstill_tick").noconvert(),
              nb::arg("standstill_ticks").noconvert())

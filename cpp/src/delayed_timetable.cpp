@@ -200,7 +200,7 @@ void DelayedTimetable::take_place(VisitId x, const Setbacks& setbacks, ActualTim
     const Tick ready = standstills.busy_until(sum(from, setbacks.dwell[x - 1] + drive_before));
     const VisitId other = plan_.before(x);
     const Tick free = other == no_visit ? 0 : sum(times.enter[other + 1], plan_.headway());
-    const Tick start = standstills.waits_until(std::max(ready, free));
+    const Tick start = standstills.waits_until(std::max({ready, free, plan_.since(x)}));
     times.start[x] = start;
     times.enter[x] = drive_after == 0 ? start : standstills.busy_until(sum(start, drive_after));
     times.cause[x] = free > ready && start == free ? other + 1 : x - 1;
@@ -226,6 +226,7 @@ void DelayedTimetable::take_place_jointly(std::span<const VisitId> group, const 
         const Tick from = times.enter[x - 1];
         const Tick done = sum(from, setbacks.dwell[x - 1] + setbacks.drive[x]);
         put_off(x, from >= infinity ? infinity : standstills_of(x).busy_until(done));
+        put_off(x, plan_.since(x));
     }
     for (Tick before = -1; before < instant;) {
         before = instant;

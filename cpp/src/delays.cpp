@@ -86,8 +86,8 @@ void Delays::draw(std::uint64_t seed, std::uint64_t run, Setbacks& out) const {
     out.drive.resize(n_visits);
     out.first_standstill.assign(1, 0);
     out.standstills.clear();
-    Random random(seed, stream, run);
     for (RobotId r = 0; r < plan_.n_robots(); ++r) {
+        Random random(seed, stream + (static_cast<std::uint64_t>(r) << 32), run);
         draw_standstills(r, random, out);
         draw_durations(r, random, out);
     }

@@ -32,12 +32,16 @@ FloorPlan::FloorPlan(const FloorPlanArrays& arrays)
       dwell_(copy(arrays.dwell)),
       drive_(copy(arrays.drive)),
       before_(copy(arrays.before)),
+      since_(copy(arrays.since)),
       headway_(arrays.headway),
       books_ahead_(arrays.books_ahead) {
     require_length("planned", planned_.size(), vertex_.size());
     require_length("dwell", dwell_.size(), vertex_.size());
     require_length("drive", drive_.size(), vertex_.size());
     require_length("before", before_.size(), vertex_.size());
+    if (!since_.empty()) {
+        require_length("since", since_.size(), vertex_.size());
+    }
     number_robots();
     check();
 }
@@ -63,6 +67,7 @@ void FloorPlan::check() const {
     check_ticks("planned", planned_, infinity);
     check_ticks("dwell", dwell_, longest);
     check_ticks("drive", drive_, longest);
+    check_ticks("since", since_, infinity);
     if (headway_ < 0 || headway_ >= longest) {
         reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
     }

@@ -19,10 +19,11 @@ struct Late {
     std::vector<VisitId> before;
     Tick headway = 0;
     bool books_ahead = false;
+    Ticks since = {};
 
     FloorPlan plan() const {
         return FloorPlan(
-            {first_visit, vertex, planned, dwell, drive, before, headway, books_ahead});
+            {first_visit, vertex, planned, dwell, drive, before, headway, books_ahead, since});
     }
     Setbacks setbacks() const {
         return {dwell, drive, std::vector<std::int32_t>(first_visit.size(), 0), {}};
@@ -51,6 +52,15 @@ ActualTimes in_order(const Late& late, const Setbacks& setbacks) {
 TEST_CASE("without delays everything happens as planned") {
     const Late late = following();
     CHECK(in_order(late, late.setbacks()).enter == late.planned);
+}
+
+TEST_CASE("a visit begins no sooner than its right of way was given") {
+    Late late = following();
+    late.since = {0, 0, 9, 0, 0, 0};
+    CHECK(in_order(late, late.setbacks()).enter == Ticks{0, 1, 9, 0, 9, 10});
+    Late round = ring();
+    round.since = {0, 0, 0, 4, 0, 0};
+    CHECK(in_order(round, round.setbacks()).enter == Ticks{0, 4, 0, 4, 0, 4});
 }
 
 TEST_CASE("who is late makes others wait, and by the clock it is run into") {

@@ -51,6 +51,23 @@ TEST_CASE("a run depends on its number and the seed alone") {
     CHECK(one.drive == other.drive);
 }
 
+TEST_CASE("what befalls a robot does not depend on what others do") {
+    const std::vector<VertexId> vertex{0, 1, 2, 3};
+    const std::vector<Tick> planned{0, 200, 0, 200};
+    const std::vector<Tick> drive{0, 100, 0, 100};
+    const std::vector<VisitId> before{-1, -1, -1, -1};
+    const std::vector<double> pace{1, 1};
+    const auto second = [&](const std::vector<VisitId>& first_visit) {
+        const std::vector<Tick> dwell(4, 100);
+        const FloorPlan plan({first_visit, vertex, planned, dwell, drive, before, 0, false});
+        Setbacks out;
+        Delays(plan, pace, {{DelayKind::exponential, 0.2, 0}}, {0, 0, 0}, {}).draw(1, 7, out);
+        return out.dwell[static_cast<std::size_t>(first_visit[1])];
+    };
+    CHECK(second({0, 2, 4}) == second({0, 3, 4}));
+    CHECK(second({0, 2, 4}) == second({0, 1, 4}));
+}
+
 TEST_CASE("parts of a tick are carried, not lost") {
     const std::vector<VisitId> first{0, 3};
     const std::vector<VertexId> vertex{0, 1, 2};

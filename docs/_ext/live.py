@@ -2,8 +2,8 @@
 
 ``command-help`` shows what ``--help`` prints, ``planner-options`` and ``planner-list`` come from
 the registry, ``document-keys`` from the JSON Schema of a format, ``result-columns`` from the
-benchmark, ``public-names`` from ``__all__``, ``native-headers`` from the comments that C++ headers
-begin with.
+benchmark, ``delay-causes`` from the floor, ``public-names`` from ``__all__``, ``native-headers``
+from the comments that C++ headers begin with.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
-from itertools import takewhile
+from itertools import chain, takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
+from rightofway.floor import CAUSES, DEFAULT
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
 from rightofway.planners import Count, Option, registered
@@ -144,6 +145,19 @@ class ResultColumns(LiveDirective):
         return table(("column", "what"), ((f"`{each.name}`", each.what) for each in COLUMNS))
 
 
+class DelayCauses(LiveDirective):
+    """What makes robots late, and how it is written."""
+
+    required_arguments = 0
+
+    def lines(self, *_: str) -> Iterable[str]:
+        """Return a table."""
+        examples = chain.from_iterable(cause.examples for cause in CAUSES.values())
+        default = {DEFAULT: "; this is the default"}
+        rows = ((f"`{text}`", what + default.get(text, "")) for text, what in examples)
+        return table(("cause", "what happens"), rows)
+
+
 def _defaults() -> dict[str, dict[str, Any]]:
     """Return the defaults that the model has, where the schema leaves them to it."""
     rules, robot = Rules(), Robot(name="R1", home=0, stops=(Stop(at=0),))  # type: ignore[arg-type]
@@ -220,6 +234,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("planner-options", PlannerOptions)
     app.add_directive("document-keys", DocumentKeys)
     app.add_directive("result-columns", ResultColumns)
+    app.add_directive("delay-causes", DelayCauses)
     app.add_directive("native-headers", NativeHeaders)
     app.add_directive("public-names", PublicNames)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -34,6 +34,15 @@ def test_laps_are_written_as_a_page(cli: Cli) -> None:
     assert group["until"] >= 4 + 4 * 16
 
 
+def test_a_plan_of_laps_tells_its_page_from_when_on_it_repeats_itself(cli: Cli) -> None:
+    """The page of the plan marks what the page of the laps does; its plan is shorter."""
+    cli("laps", EXAMPLES / "crossroad.yaml", "-o", "plan.json", "--page", "laps.html")
+    assert cli("show", "plan.json", "-o", "plan.html").code == 0
+    laps, plan = told("laps.html")["steady"][0], told("plan.html")["steady"][0]
+    assert {**plan, "until": laps["until"]} == laps
+    assert 4 + 16 <= plan["until"] < laps["until"]
+
+
 def test_a_run_on_the_floor_is_written_as_a_page(cli: Cli, plan: str) -> None:
     """R1 stands still for 5 from 3 on, in every run: R2 waits for it, or R1 is late alone."""
     ended = cli("simulate", plan, "--delays", "stop:R1@3+5", "--runs", 3, "--page", "late.html")

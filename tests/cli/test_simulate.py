@@ -56,7 +56,8 @@ def test_a_broken_robot_is_told_apart_from_who_waits_for_it(cli: Cli, plan: Path
 def test_switching_and_new_plans_are_told(cli: Cli, plan: Path) -> None:
     ended = cli("simulate", plan, "--delays", "stop:R2@1", "--runs", 5, "--replan", "--switch")
     words = " ".join(ended.out.split())
-    assert "1.00 are cut off from a place, 1.00 new plans" in words
+    assert "1.00 are cut off from a place" in words
+    assert "planned anew 1.0 times a run" in words
 
 
 def test_a_deadlock_would_be_told_by_the_exit_code(

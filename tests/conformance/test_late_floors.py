@@ -31,7 +31,10 @@ def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> Non
     plan = rightofway.solve(SMALL[name], planner, time_limit=1)
     for delays in DELAYS:
         outcome = rightofway.simulate(plan, delays, runs=50)
-        assert (outcome.collisions, outcome.deadlocks) == (0, 0)
+        changed = rightofway.simulate(plan, delays, runs=2, switch=True, replan=True)
+        for one in (outcome, changed):
+            assert (one.collisions, one.deadlocks) == (0, 0)
+        assert changed.stranded == 0
         happened = rightofway.check(replace(plan, tracks=outcome.actual(7)))
         if delays not in EARLY or not plan.scenario.rules.books_ahead:
             assert not MEETINGS & set(happened.counts)

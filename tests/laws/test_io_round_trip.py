@@ -1,6 +1,7 @@
 """What is written is read back the same, whatever it is."""
 
 import tempfile
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from rightofway.model import (
     Robot,
     Rules,
     Scenario,
+    Steady,
     Stop,
     Tick,
     Track,
@@ -133,7 +135,22 @@ def plans(draw: st.DrawFn) -> Plan:
     )
     track = st.lists(st.tuples(vertices, ticks), min_size=1, max_size=6)
     tracks = tuple(Track.of(*zip(*draw(track), strict=True)) for _ in scenario.robots)
-    return Plan(scenario=scenario, tracks=tracks, run=run)
+    return Plan(scenario=scenario, tracks=tracks, run=run, steady=draw(repeating(tracks)))
+
+
+@st.composite
+def repeating(draw: st.DrawFn, tracks: Sequence[Track]) -> tuple[Steady, ...]:
+    lasts = [len(track) - 1 for track in tracks]
+    robots = draw(st.lists(st.integers(0, len(tracks) - 1), max_size=len(tracks), unique=True))
+    return tuple(
+        Steady(
+            robots=(robot,),
+            start=Tick(draw(st.integers(0, 2**40))),
+            period=Tick(draw(st.integers(1, 2**40))),
+            critical=tuple((robot, visit) for visit in range(draw(st.integers(0, lasts[robot])))),
+        )
+        for robot in robots
+    )
 
 
 @given(st.fractions(-1000, 1000, max_denominator=10**15))

@@ -61,6 +61,7 @@ def oracle_of(floor: DelayedPlan, setbacks: Setbacks) -> late_floor.Floor:
         planned=floor.planned.tolist(),
         nominal_drive=floor.drive.tolist(),
         before=floor.before.tolist(),
+        since=floor.since.tolist(),
         headway=int(floor.scenario.timing.headway),
         books_ahead=floor.scenario.rules.books_ahead,
         dwell=setbacks.dwell.tolist(),
@@ -82,6 +83,8 @@ def test_the_kernel_equals_robots_that_look(seed: int, rules: int, chance: int) 
     last = max(int(track.enter[-1]) for track in plan.tracks)
     hazards = some_hazards(draw, len(plan.tracks), last)
     floor = DelayedPlan(plan.scenario, plan.tracks, hazards)
+    told = np.array([draw.choice([0, 0, 0, 12]) for _ in floor.vertex], np.int64)
+    floor = floor.reordered(floor.before, told)
     setbacks = floor.setbacks(chance, 3)
     slow = oracle_of(floor, setbacks)
     for clock, run in ((False, late_floor.by_right_of_way), (True, late_floor.by_clock)):

@@ -26,6 +26,7 @@ class Floor:
     planned: Sequence[int]
     nominal_drive: Sequence[int]
     before: Sequence[int]
+    since: Sequence[int]
     headway: int
     books_ahead: bool
     dwell: Sequence[int]
@@ -86,6 +87,8 @@ class _Run:
     def is_free(self, visit: int, leaving: set[int]) -> bool:
         """Tell whether a robot may have its next vertex, if those robots leave theirs now."""
         floor = self.floor
+        if self.tick < floor.since[visit]:
+            return False
         earlier = floor.before[visit]
         at_once = floor.headway == 0 and not floor.books_ahead
         if earlier >= 0:
@@ -165,7 +168,7 @@ class _Run:
             if any(self.tick <= begin + ticks < NEVER for begin, ticks in state.standing):
                 return False
         recent = [leave for leave in self.leave if leave < NEVER]
-        return not recent or self.tick > max(recent) + self.floor.headway + 1
+        return self.tick > max(max(recent, default=0) + self.floor.headway, *self.floor.since) + 1
 
 
 def by_right_of_way(floor: Floor) -> Happened:

@@ -72,15 +72,32 @@ def test_a_run_shown_is_the_run_counted() -> None:
         outcome.actual(5)
 
 
-def test_switching_is_never_in_vain_when_one_robot_stops() -> None:
-    """Those that can pass before the robot that stands still do."""
+def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:
+    """Each of eight robots stands still for 30 ticks once; one run each, all added up."""
     plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
-    kept, switched = (
-        rightofway.simulate(plan, "stop:R1@5+30", runs=1, switch=switch) for switch in (False, True)
+    late = dict.fromkeys(("kept", "switched", "planned anew"), 0)
+    for robot in plan.scenario.robots:
+        for how, (switch, replan) in zip(late, [(0, 0), (1, 0), (0, 1)], strict=True):
+            stop = f"stop:{robot.name}@5+30"
+            outcome = rightofway.simulate(
+                plan, stop, runs=1, switch=bool(switch), replan=bool(replan)
+            )
+            assert outcome.collisions == outcome.deadlocks == 0
+            late[how] += int(outcome.completion.sum())
+    assert late["planned anew"] < late["switched"] < late["kept"]
+
+
+def test_what_was_won_is_told_of_the_same_runs() -> None:
+    plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
+    kept, anew = (
+        rightofway.simulate(plan, "chance:0.05x20", runs=10, replan=replan)
+        for replan in (False, True)
     )
-    assert switched.switches > 0
-    assert switched.completion.sum() < kept.completion.sum()
-    assert switched.collisions == switched.deadlocks == 0
+    won = kept.completion.sum(axis=1) - anew.completion.sum(axis=1)
+    assert kept.won is None
+    assert anew.won is not None
+    assert (anew.won.runs, anew.won.flowtime.max) == (10, won.max())
+    assert (anew.won.earlier, anew.won.later) == ((won > 0).sum(), (won < 0).sum())
 
 
 def test_replanning_brings_home_whom_a_broken_robot_would_strand() -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.floor import hazards_of, read_delays
+from rightofway.floor import CAUSES, hazards_of, read_delays
+from rightofway.io import load_delays
 from rightofway.model import Scenario
 from rightofway.precedence import NEVER
 from tests.fleets import grid_fleet
@@ -43,7 +44,10 @@ def test_what_befalls_one_robot_befalls_no_other(scenario: Scenario) -> None:
 def test_a_file_holds_the_same(tmp_path: Path, scenario: Scenario, text: str) -> None:
     path = tmp_path / "late.yaml"
     path.write_text(text, encoding="utf-8")
-    assert [delay.text for delay in read_delays(path, scenario)] == ["slow:R1x2", "breaks:0.1"]
+    assert [delay.text for delay in read_delays(load_delays(path), scenario)] == [
+        "slow:R1x2",
+        "breaks:0.1",
+    ]
 
 
 def test_robots_may_have_any_name() -> None:
@@ -67,7 +71,7 @@ def test_robots_may_have_any_name() -> None:
         ("exponential:-1", "-1 is negative (give 0 or more)"),
         ("exponential:many", "'many' is not a number (write it like 3, 0.5 or 1/3)"),
         ("normal:-1~0", "-1 is not above -1 (nothing takes no time)"),
-        ("none.yaml", "none.yaml: there is no such file (check the path)"),
+        ("late.yaml", "delays: late.yaml: 'late.yaml' is no kind of delay (one of exponential, "),
     ],
 )
 def test_what_cannot_be_read_is_told_with_what_to_do(
@@ -76,3 +80,21 @@ def test_what_cannot_be_read_is_told_with_what_to_do(
     with pytest.raises(InputError) as caught:
         read_delays(text, scenario)
     assert complaint in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["slow:R1x2", "{delays: 3}", "[1, 2]", "{late: []}"])
+def test_a_file_that_is_no_list_is_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "late.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"late.yaml: is no list of delays \(write lines like"):
+        load_delays(path)
+
+
+def test_every_example_can_be_read() -> None:
+    """Their robots are R1 to R3."""
+    scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N1", "N2"), ("N2", "N0")])
+    examples = [example for cause in CAUSES.values() for example, _ in cause.examples]
+    assert [delay.text for delay in read_delays(examples, scenario)] == examples
+    assert [delay.kind for delay in read_delays(",".join(examples), scenario)] == [
+        example.partition(":")[0] for example in examples
+    ]

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from rightofway import solve
 from rightofway.floor import simulate
+from tests.fleets import random_fleet
 from tests.viewer.plans import door
 
 
@@ -37,3 +39,19 @@ def test_the_typical_run_is_in_the_middle() -> None:
 def test_there_is_no_run_beyond_the_last() -> None:
     with pytest.raises(IndexError, match="run 3 is not among the 3 runs"):
         simulate(door(), runs=3).happened(3)
+
+
+def test_a_plan_made_anew_on_the_move_accounts_for_its_times_as_well() -> None:
+    """Each visit lasts as long as it takes and the drive after it, and waiting on top."""
+    plan = solve(random_fleet(2, size=12, robots=10), "two-level", None)
+    outcome = simulate(plan, "slow:R10x2", runs=1, replan=True)
+    assert outcome.replans > 0
+    actual = outcome.happened(0)
+    assert any(one != other for one, other in zip(actual.tracks, plan.tracks, strict=True))
+    for track, dwell, drive in zip(actual.tracks, actual.dwell, actual.drive, strict=True):
+        assert (np.diff(track.enter) >= dwell[:-1] + drive[1:]).all()
+    slow = actual.drive[9][1:] / np.gcd.reduce(actual.drive[9][1:])
+    assert set(slow.tolist()) == {1.0}
+    assert [ticks for ticks in actual.completion if ticks is not None] == (
+        outcome.completion[0].tolist()
+    )

@@ -18,6 +18,7 @@ from rightofway.model import (
     PlannerRun,
     Reroute,
     Rules,
+    Steady,
     Tick,
     Track,
     VertexId,
@@ -173,6 +174,52 @@ def test_a_track_off_the_roadmap_cannot_be_written(tmp_path: Path) -> None:
         with pytest.raises(InputError, match=r"robots\[0\]\.vertices: a vertex is not on the road"):
             save_plan(Plan(scenario=plan.scenario, tracks=tracks, run=plan.run), tmp_path / "a")
     assert list(tmp_path.iterdir()) == []
+
+
+def steady_plan() -> Plan:
+    """Return the door, said to repeat itself every 10 ticks; nobody judges that."""
+    steady = Steady(robots=(1, 0), start=Tick(4), period=Tick(10), critical=((0, 1), (1, 8)))
+    return replace(door_plan(), steady=(steady,))
+
+
+def test_a_plan_says_from_when_on_it_repeats_itself() -> None:
+    document = dump_plan(steady_plan(), seconds=True)
+    assert document["steady"] == [
+        {
+            "robots": ["R2", "R1"],
+            "start": 4,
+            "period": 10,
+            "critical": [{"robot": "R1", "visit": 1}, {"robot": "R2", "visit": 8}],
+        }
+    ]
+    assert plan_of(document) == steady_plan()
+    assert "steady" not in dump_plan(door_plan())
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"robots": ["R3"]}, "steady[0].robots[0]: no robot is named 'R3' (name one of"),
+        ({"robots": []}, "steady[0].robots: "),
+        ({"robots": ["R2", "R1", "R2"]}, "steady[0].robots: R2 is there already (give each robot"),
+        ({"robots": ["R2"]}, "steady[0].critical[0].robot: 'R1' is not of this group (name one"),
+        ({"period": 0}, "steady[0].period: 0 is not positive (give 1 tick or more)"),
+        ({"start": -1}, "steady[0].start: -1 is negative (give 0 or more)"),
+        ({"start": "soon"}, "steady[0].start: 'soon' is not a whole number"),
+        ({"perod": 3}, "steady[0].perod: unknown key (did you mean period?)"),
+        (
+            {"critical": [{"robot": "R1", "visit": 9}]},
+            "steady[0].critical[0]: R1 has no visit 9 (give 0 to 8)",
+        ),
+        ({"critical": [{"robot": "R9", "visit": 9}]}, "steady[0].critical[0].robot: no robot is"),
+    ],
+)
+def test_what_cannot_repeat_itself_is_refused(change: dict[str, Any], fault: str) -> None:
+    document = dump_plan(steady_plan())
+    document["steady"][0] |= change
+    with pytest.raises(InputError) as caught:
+        plan_of(document)
+    assert str(caught.value.problems[0]).startswith(fault), caught.value
 
 
 def _set(*path: str | int) -> Callable[[dict[str, Any], Any], None]:

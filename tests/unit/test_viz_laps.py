@@ -13,6 +13,12 @@ from rightofway.viz import page_of, payload_of
 from tests.viewer.plans import counter, counter_steady, door
 
 
+def test_what_a_plan_says_itself_is_told() -> None:
+    group = counter_steady()
+    plan = replace(counter(4), steady=(group,))
+    assert payload_of(plan) == payload_of(counter(4), steady=[group])
+
+
 def told(*groups: Steady, laps: int = 4) -> Any:
     return json.loads(json.dumps(payload_of(counter(laps), steady=groups)))
 
@@ -72,7 +78,7 @@ def test_a_page_without_them_is_told_nothing() -> None:
         ),
         (
             replace(counter_steady(), critical=((1, 9),)),
-            r"steady\[0\].critical\[0\]: robot 1 has no visit 9 \(give 0 to 8\)",
+            r"steady\[0\].critical\[0\]: R2 has no visit 9 \(give 0 to 8\)",
         ),
     ],
 )

@@ -52,7 +52,9 @@ class Delays {
     Delays(const FloorPlan& plan, std::span<const double> pace, std::vector<Delay> delays,
            std::vector<std::int32_t> first_standstill, std::vector<Standstill> standstills);
 
-    // The same for the same seed and run, whatever was drawn before.
+    // The same for the same seed and run, whatever was drawn before. What befalls the n-th visit of
+    // a robot depends on n alone, not on where it is or what others do: who goes another way takes
+    // his luck along.
     void draw(std::uint64_t seed, std::uint64_t run, Setbacks& out) const;
 
   private:

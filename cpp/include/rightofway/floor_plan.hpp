@@ -20,6 +20,7 @@ struct FloorPlanArrays {
     std::span<const VisitId> before;       // n: the visit that goes directly before at its vertex
     Tick headway = 0;
     bool books_ahead = false;
+    std::span<const Tick> since = {};  // n: no visit begins before; or nothing, for never
 };
 
 class FloorPlan {
@@ -46,6 +47,9 @@ class FloorPlan {
     // visit, which never ends, this one cannot take place.
     VisitId before(VisitId visit) const { return before_[visit]; }
 
+    // When its right of way was given, if that was on the way: it cannot begin before.
+    Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
+
     Tick planned_completion(RobotId robot) const {
         return planned_[last_of(robot)] + dwell_[last_of(robot)];
     }
@@ -60,6 +64,7 @@ class FloorPlan {
     std::vector<Tick> dwell_;
     std::vector<Tick> drive_;
     std::vector<VisitId> before_;
+    std::vector<Tick> since_;
     std::vector<RobotId> robot_;
     Tick headway_;
     bool books_ahead_;

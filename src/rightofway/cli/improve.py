@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from rightofway.cli.planning import (
+    Asked,
     PlanningCommand,
     hand_over,
     options_of_planning,
@@ -30,29 +31,17 @@ class _ImproveCommand(PlanningCommand):
 @click.command(cls=_ImproveCommand, epilog=EXAMPLE)
 @click.argument("plan", type=click.Path())
 @options_of_planning(IMPROVER)
-def improve(
-    *,
-    plan: str,
-    output: str | None,
-    planner: str,
-    options: dict[str, str],
-    time_limit: float | None,
-    seed: int,
-    page: str | None,
-    log: bool,
-    table: bool,
-    as_json: bool,
-) -> int:
+def improve(*, plan: str, asked: Asked) -> int:
     """Make a PLAN better, whoever made it, and check the result.
 
     The result is never worse. A PLAN of - is standard input.
     """
     from rightofway.solve import improve as make_better
 
-    refuse_bad_outputs(plan, output, log=log, table=table, as_json=as_json)
+    refuse_bad_outputs(plan, asked.output, log=asked.log, table=asked.table, as_json=asked.as_json)
     first = read_plan(plan)
     with progress() as report:
         found = make_better(
-            first, planner, options=options, time_limit=time_limit, seed=seed, report=report
+            first, asked.planner, asked.time_limit, asked.seed, options=asked.options, report=report
         )
-    return hand_over(found, output, page, log=log, table=table, as_json=as_json)
+    return hand_over(found, asked)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -74,9 +75,13 @@ def laps(
     Prints, for each group of robots that have to do with each other, how long it takes until the
     pattern repeats, its period, the mean lap of each robot, and who waits for whom, where and when.
     Exit code 1 if a group comes to a standstill, 3 if time ran out for one.
+
+    Scenarios name no unit of time: throughput_per_hour of --json is laps in 3600 of it, so it is
+    per hour where the unit is a second.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.laps import plan_of, run_laps
+    from rightofway.laps import plan_of, run_laps, shown
+    from rightofway.model.steady import within
     from rightofway.timetables import best_timetable, run_of
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
@@ -104,7 +109,8 @@ def laps(
     if page:
         _write_page(run, page)
     if output:
-        write(plan_of(run), output)
+        plan, steady = plan_of(run), shown(run)[1]
+        write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from rightofway.cli.summary import MOST_LINES, short
 from rightofway.cli.words import COLUMNS, names_of
-from rightofway.floor import Outcome, Spread
+from rightofway.floor import Outcome, Spread, Won
 
 __all__ = ["report"]
 
@@ -34,6 +34,10 @@ def _head(outcome: Outcome) -> Iterator[str]:
         yield _row("makespan", f"later by {_spread(late.makespan)}")
     if outcome.switches:
         yield _row("switching", f"{outcome.switches / outcome.runs:.1f} times a run")
+    if outcome.replans:
+        yield _row("planned anew", f"{outcome.replans / outcome.runs:.1f} times a run")
+    if outcome.won and outcome.won.runs:
+        yield _row("won by that", _won(outcome.won))
     if outcome.broken:
         yield _row("broken", _broken(outcome))
 
@@ -69,12 +73,20 @@ def _spread(spread: Spread) -> str:
     )
 
 
+def _won(won: Won) -> str:
+    """Say what was won; what was lost is won below zero."""
+    spread, runs = won.flowtime, won.runs
+    return (
+        f"{spread.mean:.1f} ticks of flowtime a run on average against the plan's rights of way in"
+        f" the same runs; {won.earlier / runs:.0%} of runs earlier, {won.later / runs:.0%} later"
+    )
+
+
 def _broken(outcome: Outcome) -> str:
     parts = [
         (outcome.broken, "robots a run break down"),
         (outcome.stranded, "wait for them for ever"),
         (outcome.cut_off, "are cut off from a place"),
-        (outcome.replans, "new plans"),
     ]
     shown = parts if outcome.replans else parts[:2]
     return ", ".join(f"{number / outcome.runs:.2f} {what}" for number, what in shown)

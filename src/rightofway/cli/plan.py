@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from rightofway.cli.planning import (
+    Asked,
     PlanningCommand,
     hand_over,
     options_of_planning,
@@ -26,29 +27,24 @@ Examples:
 @click.command(cls=PlanningCommand, epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
 @options_of_planning(DEFAULT)
-def plan(
-    *,
-    scenario: str,
-    output: str | None,
-    planner: str,
-    options: dict[str, str],
-    time_limit: float | None,
-    seed: int,
-    page: str | None,
-    log: bool,
-    table: bool,
-    as_json: bool,
-) -> int:
+def plan(*, scenario: str, asked: Asked) -> int:
     """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
 
     Prints what the plan costs and who waits for whom. A SCENARIO of - is standard input.
     """
     from rightofway.solve import solve
 
-    refuse_bad_outputs(scenario, output, log=log, table=table, as_json=as_json)
+    refuse_bad_outputs(
+        scenario, asked.output, log=asked.log, table=asked.table, as_json=asked.as_json
+    )
     problem = read_scenario(scenario)
     with progress() as report:
         found = solve(
-            problem, planner, options=options, time_limit=time_limit, seed=seed, report=report
+            problem,
+            asked.planner,
+            asked.time_limit,
+            asked.seed,
+            options=asked.options,
+            report=report,
         )
-    return hand_over(found, output, page, log=log, table=table, as_json=as_json)
+    return hand_over(found, asked)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from rightofway.model import Plan
 
 __all__ = [
+    "Asked",
     "PlanningCommand",
     "hand_over",
     "options_of_planning",
@@ -23,6 +26,21 @@ __all__ = [
     "seconds",
     "write",
 ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Asked:
+    """What the options of a command that plans say."""
+
+    output: str | None
+    planner: str
+    options: dict[str, str]
+    time_limit: float | None
+    seed: int
+    page: str | None
+    log: bool
+    table: bool
+    as_json: bool
 
 
 class PlanningCommand(click.Command):
@@ -64,7 +82,7 @@ def seconds(_context: click.Context, _parameter: click.Parameter, given: float) 
 
 
 def options_of_planning(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds the options of a command that plans.
+    """Return a decorator that adds the options of a command that plans; it gets them as ``asked``.
 
     Parameters
     ----------
@@ -91,9 +109,14 @@ def options_of_planning(planner: str) -> Callable[[Callable[..., Any]], Callable
     ]  # fmt: skip
 
     def add_to(command: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(command)
+        def with_options(**given: Any) -> Any:
+            asked = Asked(**{field.name: given.pop(field.name) for field in fields(Asked)})
+            return command(asked=asked, **given)
+
         for option in reversed(options):
-            command = option(command)
-        return command
+            with_options = option(with_options)
+        return with_options
 
     return add_to
 
@@ -107,13 +130,11 @@ def refuse_bad_outputs(
         raise click.UsageError(f"-o {output} would replace {source} (give another name)")
 
 
-def hand_over(
-    found: Plan, output: str | None, page: str | None, *, log: bool, table: bool, as_json: bool
-) -> int:
+def hand_over(found: Plan, asked: Asked) -> int:
     """Write and report a plan; return the exit code."""
-    write(found, output, page)
-    if output != "-":
-        _report(found, log=log, table=table, as_json=as_json)
+    write(found, asked.output, asked.page)
+    if asked.output != "-":
+        _report(found, asked)
     return _end(found)
 
 
@@ -142,17 +163,17 @@ def write(found: Plan, output: str | None, page: str | None = None) -> None:
         say(f"wrote {page} (open it in a browser)")
 
 
-def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
+def _report(found: Plan, asked: Asked) -> None:
     from rightofway.cli.log import decision_log
     from rightofway.cli.summary import summary, summary_data
 
-    if as_json:
+    if asked.as_json:
         put_json(summary_data(found))
         return
     put(summary(found))
-    if log:
+    if asked.log:
         put("\n" + decision_log(found))
-    if table:
+    if asked.table:
         from rightofway.viz.table import as_text, table_of
 
         put("\n" + as_text(table_of(found), width()))

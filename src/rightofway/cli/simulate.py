@@ -6,27 +6,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_plan, say, writable
+from rightofway.cli.terminal import progress, put, put_json, read_plan, say, writable
 
 if TYPE_CHECKING:
     from rightofway.floor import Outcome
 
 __all__ = ["simulate"]
 
-EPILOG = """\b
-Delays (times in time units; numbers may be fractions like 1/3):
-  exponential:0.2      everything takes longer, on average by 0.2 of its time
-  uniform:0..0.5       longer by 0 to 0.5 of its time
-  normal:0.1~0.05      by 0.1 of its time, with a standard deviation of 0.05
-  chance:0.01x20       a stop of 20 with chance 0.01 in each visit
-  breaks:0.05          each robot breaks down for ever with chance 0.05
-  stop:R3@12           R3 breaks down for ever at time 12
-  stop:R3@12+30        R3 stands still for 30 from time 12
-  slow:R2x1.5          everything takes R2 1.5 times as long
-  early:R1x0.8         everything takes R1 0.8 of its time
-Several go with commas between, or in a YAML or JSON file with a list of them.
-
-\b
+EXAMPLES = """\b
 Examples:
   rightofway simulate plan.json
   rightofway simulate plan.json --delays exponential:0.1,stop:R1@5+20
@@ -35,7 +22,21 @@ Examples:
 """
 
 
-@click.command(epilog=EPILOG)
+class _SimulateCommand(click.Command):
+    """A command whose help lists what makes robots late."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the delays, then what else there is."""
+        from rightofway.floor import CAUSES
+
+        with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
+            formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
+            formatter.write_paragraph()
+            formatter.write_text("Several go with commas between, or in a YAML or JSON list.")
+        super().format_epilog(ctx, formatter)
+
+
+@click.command(cls=_SimulateCommand, epilog=EXAMPLES)
 @click.argument("plan", type=click.Path())
 @click.option(
     "--delays",
@@ -65,7 +66,10 @@ Examples:
     help="Switch rights of way on the way, where that is expected to help.",
 )
 @click.option(
-    "--replan", is_flag=True, help="Plan what is left anew when a robot breaks down for ever."
+    "--replan",
+    is_flag=True,
+    help="Plan what is left anew when the fleet has fallen behind and that is expected to help, "
+    "and when a robot breaks down for ever.",
 )
 @click.option(
     "--page",
@@ -103,9 +107,12 @@ def simulate(
     from rightofway.floor import DEFAULT
     from rightofway.floor import simulate as run_on_the_floor
 
-    outcome = run_on_the_floor(
-        read_plan(plan), delays or DEFAULT, runs, seed, switch=switch, replan=replan
-    )
+    texts = [text for one in delays or [DEFAULT] for text in _texts(one)]
+    found = read_plan(plan)
+    with progress() as told:
+        outcome = run_on_the_floor(
+            found, texts, runs, seed, switch=switch, replan=replan, report=told
+        )
     if as_json:
         put_json(outcome.as_dict())
     else:
@@ -115,6 +122,13 @@ def simulate(
     if page:
         _write_page(outcome, page, outcome.typical() if run is None else run)
     return _end(outcome)
+
+
+def _texts(delays: str) -> tuple[str, ...]:
+    """Return delays as they were written, or those of a file that was named."""
+    from rightofway.io import DELAY_FILES, load_delays
+
+    return load_delays(delays) if delays.lower().endswith(DELAY_FILES) else (delays,)
 
 
 def _write_page(outcome: Outcome, page: str, run: int) -> None:

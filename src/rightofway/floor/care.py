@@ -8,7 +8,6 @@ import numpy as np
 
 from rightofway.floor.happened import as_planned_but_late, planned_anew
 from rightofway.floor.phases import Ended, run_in_phases
-from rightofway.floor.switching import switched
 from rightofway.floor.tally import Tally
 from rightofway.model import Actual
 from rightofway.precedence import DelayedPlan, Runs
@@ -25,7 +24,8 @@ class Care:
     switch
         Whether rights of way are switched where that is expected to help.
     replan
-        Whether what is left is planned anew when a robot breaks down.
+        Whether what is left is planned anew: when the fleet has fallen behind and that is expected
+        to help, and when a robot breaks down.
     """
 
     switch: bool
@@ -35,39 +35,26 @@ class Care:
         return self.switch or self.replan
 
     def run(self, floor: DelayedPlan, seed: int, run: int, tally: Tally) -> None:
-        """Run a plan once with care, and count it."""
-        if self.replan:
-            ended = run_in_phases(floor, seed, run, switch=self.switch)
-            if ended.replans:
-                tally.add(
-                    _as_runs(ended, floor.runs(seed, run, 1)),
-                    cut_off=int(_out_of_action(ended).sum()),
-                    switches=ended.switches,
-                    replans=ended.replans,
-                )
-                return
-        switches = 0
-        if self.switch:
-            floor, switches = switched(floor, floor.setbacks(seed, run))
-        tally.add(floor.runs(seed, run, 1), switches=switches)
+        """Run a plan once with care, and count it beside the same run without."""
+        kept, ended = floor.runs(seed, run, 1), self._ended(floor, seed, run)
+        tally.add(
+            _as_runs(ended, kept) if ended.replans else ended.floor.runs(seed, run, 1),
+            kept=kept.completion,
+            deadlocks=bool(ended.deadlocked),
+            cut_off=len(ended.cut_off - ended.broken),
+            switches=ended.switches,
+            replans=ended.replans,
+        )
 
     def actual(self, floor: DelayedPlan, seed: int, run: int) -> Actual:
         """Return what happens in one run."""
-        setbacks = floor.setbacks(seed, run)
-        if self.replan:
-            ended = run_in_phases(floor, seed, run, switch=self.switch)
-            if ended.replans:
-                return planned_anew(floor, setbacks, ended)
-        if self.switch:
-            floor, _ = switched(floor, setbacks)
-        return as_planned_but_late(floor, setbacks)
+        ended = self._ended(floor, seed, run)
+        if ended.stands:
+            return planned_anew(floor, floor.setbacks(seed, run), ended)
+        return as_planned_but_late(ended.floor, ended.setbacks)
 
-
-def _out_of_action(ended: Ended) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Tell which robots were cut off, and did not break down besides."""
-    cut_off = np.zeros(len(ended.completion), bool)
-    cut_off[sorted(ended.cut_off - ended.broken)] = True
-    return cut_off
+    def _ended(self, floor: DelayedPlan, seed: int, run: int) -> Ended:
+        return run_in_phases(floor, seed, run, switch=self.switch, replan=self.replan)
 
 
 def _as_runs(ended: Ended, kept: Runs) -> Runs:

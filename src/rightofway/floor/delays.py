@@ -1,17 +1,4 @@
-"""What makes robots late: how it is written, and what it is in ticks.
-
-============================  ======================================================================
-``exponential:0.2``           everything takes longer, on average by 0.2 of its time
-``uniform:0..0.5``            longer by 0 to 0.5 of its time
-``normal:0.1~0.05``           longer by 0.1 of its time, with a standard deviation of 0.05
-``chance:0.01x20``            a stop of 20 time units with chance 0.01 in each visit
-``breaks:0.05``               each robot breaks down for ever with chance 0.05, at any time
-``stop:R3@12``                R3 breaks down for ever at time 12
-``stop:R3@12+30``             R3 stands still for 30 time units from time 12
-``slow:R2x1.5``               everything takes R2 1.5 times as long
-``early:R1x0.8``              everything takes R1 0.8 of its time
-============================  ======================================================================
-"""
+"""What makes robots late: how it is written (`CAUSES`), and what it is in ticks."""
 
 from __future__ import annotations
 
@@ -20,21 +7,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
-from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.text.documents import read_document
 from rightofway.io.text.exact import exact
 from rightofway.model import Clock, Scenario, Tick
 from rightofway.precedence import NEVER, Hazards
 
-__all__ = ["DEFAULT", "Delay", "hazards_of", "read_delays"]
+__all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "hazards_of", "read_delays"]
 
 DEFAULT = "exponential:0.2"
 """What makes robots late where nothing is said."""
-
-FILES = (".yaml", ".yml", ".json")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,28 +44,81 @@ class Delay:
     text: str
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cause:
+    """How one kind of delay is written.
+
+    Attributes
+    ----------
+    form
+        What stands after the colon, as a regular expression: robot, first and second number.
+    examples
+        One for each way to write it, and what it means.
+    """
+
+    form: str
+    examples: tuple[tuple[str, str], ...]
+
+
 _NUMBER = r"([^~@+]+?)"
-_FORMS = {
-    "exponential": (rf"(){_NUMBER}()", "exponential:0.2"),
-    "uniform": (rf"(){_NUMBER}\.\.{_NUMBER}", "uniform:0..0.5"),
-    "normal": (rf"(){_NUMBER}~{_NUMBER}", "normal:0.1~0.05"),
-    "chance": (rf"(){_NUMBER}x{_NUMBER}", "chance:0.01x20"),
-    "breaks": (rf"(){_NUMBER}()", "breaks:0.05"),
-    "stop": (rf"(.+)@{_NUMBER}(?:\+{_NUMBER})?", "stop:R3@12+30"),
-    "slow": (rf"(.+)x{_NUMBER}()", "slow:R2x1.5"),
-    "early": (rf"(.+)x{_NUMBER}()", "early:R1x0.8"),
+
+CAUSES = {
+    "exponential": Cause(
+        form=rf"(){_NUMBER}()",
+        examples=(("exponential:0.2", "everything takes longer, on average by 0.2 of its time"),),
+    ),
+    "uniform": Cause(
+        form=rf"(){_NUMBER}\.\.{_NUMBER}",
+        examples=(("uniform:0..0.5", "longer by 0 to 0.5 of its time"),),
+    ),
+    "normal": Cause(
+        form=rf"(){_NUMBER}~{_NUMBER}",
+        examples=(
+            ("normal:0.1~0.05", "longer by 0.1 of its time, with a standard deviation of 0.05"),
+        ),
+    ),
+    "chance": Cause(
+        form=rf"(){_NUMBER}x{_NUMBER}",
+        examples=(("chance:0.01x20", "a stop of 20 time units with chance 0.01 in each visit"),),
+    ),
+    "breaks": Cause(
+        form=rf"(){_NUMBER}()",
+        examples=(
+            (
+                "breaks:0.05",
+                "each robot breaks down for ever with chance 0.05, at any time of the plan",
+            ),
+        ),
+    ),
+    "stop": Cause(
+        form=rf"(.+)@{_NUMBER}(?:\+{_NUMBER})?",
+        examples=(
+            ("stop:R3@12", "R3 breaks down for ever at time 12"),
+            ("stop:R3@12+30", "R3 stands still for 30 time units from time 12"),
+        ),
+    ),
+    "slow": Cause(
+        form=rf"(.+)x{_NUMBER}()",
+        examples=(("slow:R2x1.5", "everything takes R2 1.5 times as long"),),
+    ),
+    "early": Cause(
+        form=rf"(.+)x{_NUMBER}()",
+        examples=(("early:R1x0.8", "everything takes R1 0.8 of its time"),),
+    ),
 }
-_BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(_FORMS)})\s*:)")
+"""All kinds, by what stands before the colon; the help of the command and the documentation show
+their examples."""
+
+_BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(CAUSES)})\s*:)")
 
 
-def read_delays(given: str | Path | Iterable[str | Path], scenario: Scenario) -> tuple[Delay, ...]:
+def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, ...]:
     """Read what makes robots late.
 
     Parameters
     ----------
     given
-        One cause or several with commas between, a YAML or JSON file with a list of them, or
-        several of all these.
+        One cause or several with commas between, or several of these.
     scenario
         Whose robots they befall.
 
@@ -91,35 +127,20 @@ def read_delays(given: str | Path | Iterable[str | Path], scenario: Scenario) ->
     InputError
         Naming the cause and what to write instead.
     """
-    several = [given] if isinstance(given, str | Path) else given
-    texts = chain.from_iterable(_texts(one) for one in several)
+    several = [given] if isinstance(given, str) else given
+    texts = chain.from_iterable(map(_BETWEEN.split, several))
     return tuple(_delay(text.strip(), scenario) for text in texts)
-
-
-def _texts(given: str | Path) -> list[str]:
-    text = str(given)
-    if not text.lower().endswith(FILES):
-        return _BETWEEN.split(text)
-    try:
-        found = read_document(Path(text))
-    except InputError as error:
-        raise InputError(error.problems, text) from None
-    if isinstance(found, dict) and list(found) == ["delays"]:
-        found = found["delays"]
-    if not (isinstance(found, list) and all(isinstance(one, str) for one in found)):
-        raise InputError.at("", f"is no list of delays (write lines like - {DEFAULT})", text)
-    return [part for one in found for part in _BETWEEN.split(one)]
 
 
 def _delay(text: str, scenario: Scenario) -> Delay:
     kind, _, rest = text.partition(":")
     kind = kind.strip()
-    if kind not in _FORMS:
-        known = ", ".join(_FORMS)
+    if kind not in CAUSES:
+        known = ", ".join(CAUSES)
         raise _wrong(text, f"{kind!r} is no kind of delay (one of {known})")
-    form, example = _FORMS[kind]
-    match = re.fullmatch(form, rest.strip())
+    match = re.fullmatch(CAUSES[kind].form, rest.strip())
     if not match:
+        example, _ = CAUSES[kind].examples[-1]
         raise _wrong(text, f"{rest.strip()!r} cannot be read (write it like {example})")
     robot, first, second = match.groups()
     delay = Delay(

@@ -17,7 +17,7 @@ __all__ = ["as_planned_but_late", "planned_anew"]
 
 
 def as_planned_but_late(floor: DelayedPlan, setbacks: Setbacks) -> Actual:
-    """Return a run on the routes of the plan, with what befell each visit."""
+    """Return a run of one plan, whatever was changed on the way, with what befell each visit."""
     happens = floor.execute(setbacks)
     tracks = floor.split(happens.enter)
     return Actual(
@@ -30,7 +30,7 @@ def as_planned_but_late(floor: DelayedPlan, setbacks: Setbacks) -> Actual:
 
 
 def planned_anew(floor: DelayedPlan, setbacks: Setbacks, ended: Ended) -> Actual:
-    """Return a run that left the plan on the way.
+    """Return a run that came to a stand on the way, and went on by another plan.
 
     What befell its visits is not kept, so they are taken to have lasted as planned; what they
     lasted beyond that reads as waiting.

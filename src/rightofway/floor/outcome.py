@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Actual, Plan, Track, VertexId
 
-__all__ = ["Collisions", "Lateness", "Outcome", "RobotLateness", "Source", "Spread"]
+__all__ = ["Collisions", "Lateness", "Outcome", "RobotLateness", "Source", "Spread", "Won"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,6 +137,32 @@ class Lateness:
     sources: tuple[Source, ...]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Won:
+    """How much earlier a fleet is than by the rights of way of the plan, in the same runs.
+
+    Attributes
+    ----------
+    runs
+        In how many runs everybody completes both ways; only these are compared.
+    earlier, later
+        In how many of them the fleet is earlier, and later.
+    flowtime
+        By how much earlier, negative where later [ticks].
+    """
+
+    runs: int
+    earlier: int
+    later: int
+    flowtime: Spread
+
+    @classmethod
+    def of(cls, won: NDArray[np.int64]) -> Won:
+        """Return what these runs have won."""
+        earlier, later = int((won > 0).sum()), int((won < 0).sum())
+        return cls(runs=len(won), earlier=earlier, later=later, flowtime=Spread.of(won))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Outcome:
     """What came of many runs of a plan.
@@ -162,6 +188,8 @@ class Outcome:
         planned anew.
     switches, replans
         How often a right of way was switched, and how often what was left was planned anew.
+    won
+        What switching and planning anew have won; None where neither was asked for.
     lateness
         By right of way.
     completion
@@ -180,6 +208,7 @@ class Outcome:
     cut_off: int = 0
     switches: int = 0
     replans: int = 0
+    won: Won | None = None
     lateness: Lateness
     completion: NDArray[np.int64]
     _actual: Callable[[int], Actual] = field(repr=False)
@@ -250,6 +279,7 @@ class Outcome:
             "cut_off": self.cut_off,
             "switches": self.switches,
             "replans": self.replans,
+            "won": asdict(self.won) if self.won else None,
             "seed": self.seed,
             "delays": list(self.delays),
             "tick": str(self.plan.scenario.timing.clock.tick),

@@ -1,4 +1,4 @@
-"""One run in phases: by a plan until a robot breaks down, then by a new one for what is left."""
+"""One run in phases: watched until a robot breaks down, then by a new plan for what is left."""
 
 from __future__ import annotations
 
@@ -8,8 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.floor.replanning import plan_the_rest
-from rightofway.floor.standing import Rest, breakdown, come_to_a_stand, with_standstills
-from rightofway.floor.switching import switched
+from rightofway.floor.standing import (
+    Rest,
+    come_to_a_stand,
+    first_breakdown,
+    with_standstills,
+)
+from rightofway.floor.watching import Watch
 from rightofway.model import Tick, Track
 from rightofway.precedence import NEVER, DelayedPlan, Execution, Setbacks
 
@@ -18,10 +23,12 @@ __all__ = ["Ended", "run_in_phases"]
 
 @dataclass(kw_only=True)
 class Ended:
-    """How a run with new plans ended.
+    """How a run ended.
 
     Attributes
     ----------
+    floor, setbacks
+        The plan that was run in the end, and what befell it; of all phases the last.
     completion
         When each robot completed, `NEVER` where it did not do everything [ticks]; int64[R].
     broken
@@ -30,23 +37,33 @@ class Ended:
         Robots that could not be brought to all their places, or not home, any more.
     collisions
         As in `Execution`; int64[4].
+    deadlocked
+        Robots that wait for each other for ever.
     switches, replans
         How often the order was changed, and how often what was left was planned anew.
+    stands
+        How often that was from a stand, because a robot had broken down.
     tracks
         What really happened.
     """
 
+    floor: DelayedPlan
+    setbacks: Setbacks
     completion: NDArray[np.int64]
     broken: frozenset[int] = frozenset()
     cut_off: frozenset[int] = frozenset()
     collisions: NDArray[np.int64]
+    deadlocked: frozenset[int] = frozenset()
     switches: int = 0
     replans: int = 0
+    stands: int = 0
     tracks: tuple[Track, ...] = ()
 
 
-def run_in_phases(floor: DelayedPlan, seed: int, run: int, *, switch: bool) -> Ended:
-    """Run a plan once; plan anew whenever a robot breaks down.
+def run_in_phases(
+    floor: DelayedPlan, seed: int, run: int, *, switch: bool, replan: bool = True
+) -> Ended:
+    """Run a plan once; change it, or plan anew, while it runs.
 
     Parameters
     ----------
@@ -55,37 +72,50 @@ def run_in_phases(floor: DelayedPlan, seed: int, run: int, *, switch: bool) -> E
     seed, run
         As for `DelayedPlan.setbacks`.
     switch
-        Whether rights of way are switched as well.
+        Whether rights of way are switched.
+    replan
+        Whether what is left is planned anew: on the move where the fleet has fallen behind, and
+        from a stand when a robot breaks down.
     """
-    return _Phases(floor, seed, run, switch=switch).ended
+    return _Phases(floor, seed, run, switch=switch, replan=replan).ended
 
 
 class _Phases:
-    def __init__(self, floor: DelayedPlan, seed: int, run: int, *, switch: bool) -> None:
-        self.seed, self.run, self.switch = seed, run, switch
-        self.offset = Tick(0)
+    def __init__(
+        self, floor: DelayedPlan, seed: int, run: int, *, switch: bool, replan: bool
+    ) -> None:
+        self.seed, self.run, self.switch, self.replan = seed, run, switch, replan
+        self.offset, setbacks = Tick(0), floor.setbacks(seed, run)
         robots = len(floor.routes)
         self.ended = Ended(
-            completion=np.full(robots, NEVER, np.int64), collisions=np.array([0, 0, 0, NEVER])
+            floor=floor,
+            setbacks=setbacks,
+            completion=np.full(robots, NEVER, np.int64),
+            collisions=np.array([0, 0, 0, NEVER]),
         )
-        setbacks = floor.setbacks(seed, run)
         while (following := self.phase(floor, setbacks)) is not None:
             floor, setbacks = following
 
     def phase(self, floor: DelayedPlan, setbacks: Setbacks) -> tuple[DelayedPlan, Setbacks] | None:
         """Run a plan to its end or to the next breakdown; return what then is to be run."""
-        if self.switch:
-            until = _first_breakdown(setbacks, floor.execute(setbacks))
-            floor, switches = switched(floor, setbacks, until=until)
-            self.ended.switches += switches
-        happens = floor.execute(setbacks)
-        since = _first_breakdown(setbacks, happens)
+        draw = self.draw if self.replan else None
+        watch = Watch(floor, setbacks, switch=self.switch, draw=draw, seed=self.seed)
+        floor, setbacks, happens = watch.floor, watch.setbacks, watch.happens
+        self.ended.floor, self.ended.setbacks = floor, setbacks
+        self.ended.switches += watch.switches
+        self.ended.replans += watch.replans
+        since = first_breakdown(setbacks, happens) if self.replan else NEVER
         following = None if since == NEVER else self.follow(floor, setbacks, since)
         if following is None:
+            self.ended.deadlocked |= frozenset(floor.deadlocked())
             down = enumerate(happens.is_broken & (happens.completion == NEVER))
             self.write_down(floor, happens, self.ended.cut_off)
             self.ended.broken |= {robot for robot, is_down in down if is_down}
         return following
+
+    def draw(self, floor: DelayedPlan) -> Setbacks:
+        """Return what befalls a plan in this phase."""
+        return floor.setbacks(self.seed + (self.ended.stands << 32), self.run)
 
     def follow(
         self, floor: DelayedPlan, setbacks: Setbacks, since: Tick
@@ -98,6 +128,7 @@ class _Phases:
         unfinished = frozenset(robot for robot, left in enumerate(rest.stages) if left)
         self.write_down(floor, happens, unfinished)
         self.ended.replans += 1
+        self.ended.stands += 1
         self.ended.broken = rest.broken
         self.ended.cut_off |= anew.cut_off
         self.offset = Tick(self.offset + rest.tick)
@@ -110,9 +141,8 @@ class _Phases:
 
     def what_comes(self, new: DelayedPlan, setbacks: Setbacks, rest: Rest) -> Setbacks:
         """Return new delays, and what is left of the standstills that were to come."""
-        drawn = new.setbacks(self.seed + (self.ended.replans << 32), self.run)
         return with_standstills(
-            drawn,
+            self.draw(new),
             [
                 [
                     (Tick(max(tick - rest.tick, 0)), _less(ticks, max(rest.tick - tick, 0)))
@@ -145,16 +175,6 @@ class _Phases:
         ended.tracks = tuple(
             _joined(one, other, self.offset) for one, other in zip(before, tracks, strict=True)
         )
-
-
-def _first_breakdown(setbacks: Setbacks, happens: Execution) -> Tick:
-    """Return when the first robot breaks down that has not completed, `NEVER` if none does."""
-    ticks = [
-        breakdown(setbacks, robot)
-        for robot, completion in enumerate(happens.completion.tolist())
-        if completion == NEVER
-    ]
-    return min(ticks, default=NEVER)
 
 
 def _less(ticks: Tick, passed: int) -> Tick:

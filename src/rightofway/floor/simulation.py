@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
-from pathlib import Path
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -25,13 +24,14 @@ CHUNK = 1 << 20
 
 def simulate(
     plan: Plan,
-    delays: str | Path | Iterable[str | Path] = DEFAULT,
+    delays: str | Iterable[str] = DEFAULT,
     runs: int = 1000,
     seed: int = 0,
     *,
     switch: bool = False,
     replan: bool = False,
     time_limit: float | None = None,
+    report: Callable[[str], None] = lambda _: None,
 ) -> Outcome:
     """Run a plan many times with delays: by right of way, and by the clock to compare.
 
@@ -41,7 +41,8 @@ def simulate(
         A plan that keeps the rules, by any planner or by hand.
     delays
         What makes robots late: causes like ``exponential:0.2`` or ``stop:R3@12+30``, several with
-        commas or in a list, or a file with a list of them; see `rightofway.floor.delays`.
+        commas or in a list; see `rightofway.floor.CAUSES`. `rightofway.io.load_delays` reads them
+        from a file.
     runs
         How many runs.
     seed
@@ -49,9 +50,12 @@ def simulate(
     switch
         Whether rights of way are switched while the plan runs, where that is expected to help.
     replan
-        Whether what is left is planned anew when a robot breaks down for ever.
+        Whether what is left is planned anew when the fleet has fallen behind and that is expected
+        to help, and when a robot breaks down for ever.
     time_limit
         When no more runs are begun [s]; one is run in any case.
+    report
+        Takes sentences on the progress.
 
     Returns
     -------
@@ -83,6 +87,7 @@ def simulate(
             care.run(floor, seed, first, tally)
         else:
             tally.add(floor.runs(seed, first, min(chunk, runs - first)))
+        report(f"{tally.runs} of {runs} runs")
         if end is not None and time.monotonic() > end:
             break
     stuck = np.zeros(len(plan.tracks), bool)
@@ -95,12 +100,13 @@ def simulate(
         delays=tuple(cause.text for cause in causes),
         by_right_of_way=Collisions.of(tally.by_right_of_way),
         by_clock=Collisions.of(tally.by_clock),
-        deadlocks=tally.runs if stuck.any() else 0,
+        deadlocks=tally.runs if stuck.any() else tally.deadlocks,
         broken=int(tally.is_broken.sum()),
         stranded=int((unfinished & ~tally.is_broken & ~stuck).sum()) - tally.cut_off,
         cut_off=tally.cut_off,
         switches=tally.switches,
         replans=tally.replans,
+        won=tally.won(),
         lateness=tally.lateness(),
         completion=np.where(unfinished, -1, tally.completion),
         _actual=lambda run: care.actual(floor, seed, run),

@@ -15,7 +15,7 @@ import numpy as np
 from rightofway.model import Route, Scenario, Stage, Tick, VertexId
 from rightofway.precedence import NEVER, DelayedPlan, Execution, Setbacks
 
-__all__ = ["Rest", "breakdown", "come_to_a_stand", "with_standstills"]
+__all__ = ["Rest", "breakdown", "come_to_a_stand", "first_breakdown", "served", "with_standstills"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,6 +49,16 @@ class Rest:
 def breakdown(setbacks: Setbacks, robot: int) -> Tick:
     """Return when a robot breaks down, `NEVER` if it does not [ticks]."""
     return min((tick for tick, ticks in setbacks.of(robot) if ticks == NEVER), default=NEVER)
+
+
+def first_breakdown(setbacks: Setbacks, happens: Execution) -> Tick:
+    """Return when the first robot breaks down that has not completed, `NEVER` if none does."""
+    ticks = [
+        breakdown(setbacks, robot)
+        for robot, completion in enumerate(happens.completion.tolist())
+        if completion == NEVER
+    ]
+    return min(ticks, default=NEVER)
 
 
 def come_to_a_stand(
@@ -147,7 +157,7 @@ class _Stand:
         """Return the stages a robot has not done; the one it is at is shorter by what is done."""
         stages = self._floor.scenario.timing.itineraries[robot].stages
         index = int(self._at[robot] - self._floor.first_visit[robot])
-        serves = _served(self._floor.routes[robot], stages)
+        serves = served(self._floor.routes[robot], stages)
         done = self._done(robot, tick)
         left = []
         for stage, serving in zip(stages, serves, strict=True):
@@ -171,7 +181,7 @@ class _Stand:
         return int(self._floor.dwell[visit]) * done // max(really, 1)
 
 
-def _served(route: Route, stages: Sequence[Stage]) -> list[int]:
+def served(route: Route, stages: Sequence[Stage]) -> list[int]:
     """Return the visit that serves each stage; the dwell of a route is made of their times."""
     visit, last, spare, serves = 0, len(route) - 1, list(route.dwell), []
     for stage in stages[:-1]:

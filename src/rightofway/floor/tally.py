@@ -7,7 +7,7 @@ from collections import defaultdict
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.floor.outcome import Lateness, RobotLateness, Source, Spread
+from rightofway.floor.outcome import Lateness, RobotLateness, Source, Spread, Won
 from rightofway.model import VertexId
 from rightofway.precedence import NEVER, DelayedPlan, Runs
 
@@ -26,13 +26,29 @@ class Tally:
     def __init__(self, floor: DelayedPlan) -> None:
         self._floor = floor
         self._parts: list[Runs] = []
-        self.cut_off = self.switches = self.replans = 0
+        self._kept: list[NDArray[np.int64]] = []
+        self.deadlocks = self.cut_off = self.switches = self.replans = 0
         ends = floor.first_visit[1:] - 1
         self._planned = floor.planned[ends] + floor.dwell[ends]
 
-    def add(self, runs: Runs, *, cut_off: int = 0, switches: int = 0, replans: int = 0) -> None:
-        """Count more runs, and in all of them robots cut off, switches and new plans."""
+    def add(
+        self,
+        runs: Runs,
+        *,
+        kept: NDArray[np.int64] | None = None,
+        deadlocks: int = 0,
+        cut_off: int = 0,
+        switches: int = 0,
+        replans: int = 0,
+    ) -> None:
+        """Count more runs, and in all of them deadlocks, robots cut off, switches and new plans.
+
+        Of runs that were cared for, also when robots would have completed otherwise.
+        """
         self._parts.append(runs)
+        if kept is not None:
+            self._kept.append(kept)
+        self.deadlocks += deadlocks
         self.cut_off += cut_off
         self.switches += switches
         self.replans += replans
@@ -40,7 +56,7 @@ class Tally:
     @property
     def runs(self) -> int:
         """How many there are."""
-        return len(self.completion)
+        return sum(len(part.completion) for part in self._parts)
 
     @property
     def completion(self) -> NDArray[np.int64]:
@@ -61,6 +77,14 @@ class Tally:
     def by_clock(self) -> NDArray[np.int64]:
         """The same by the clock."""
         return np.concatenate([part.by_clock for part in self._parts])
+
+    def won(self) -> Won | None:
+        """Return how much earlier the fleet was than without care; None if there was none."""
+        if not self._kept:
+            return None
+        cared, kept = self.completion, np.concatenate(self._kept)
+        both = ((cared < NEVER) & (kept < NEVER)).all(axis=1)
+        return Won.of(kept[both].sum(axis=1) - cared[both].sum(axis=1))
 
     def lateness(self) -> Lateness:
         """Return how late everybody was, and where that came from."""

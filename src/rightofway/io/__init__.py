@@ -3,6 +3,7 @@
 Pydantic and PyYAML serve in here, at the border; both are imported when the first file is read.
 """
 
+from rightofway.io.delays import DELAY_FILES, load_delays
 from rightofway.io.movingai import read_map, read_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_plan, plan_of, read_either
 from rightofway.io.plan.writer import dump_plan, plan_text, save_plan
@@ -11,10 +12,12 @@ from rightofway.io.scenario.writer import dump_scenario, save_scenario
 from rightofway.io.schema import schema
 
 __all__ = [
+    "DELAY_FILES",
     "Loaded",
     "dump_plan",
     "dump_scenario",
     "load",
+    "load_delays",
     "load_plan",
     "plan_of",
     "plan_text",

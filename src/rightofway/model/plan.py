@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model.scenario import Scenario
+from rightofway.model.steady import Steady, refuse_strangers
 from rightofway.model.units import Tick, VertexId
 
 __all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "Track"]
@@ -163,6 +164,13 @@ class Plan:
         One for each robot, in the scenario's order.
     run
         How it came about.
+    steady
+        From when on it repeats itself, where somebody knows; for the eye, nobody judges it.
+
+    Raises
+    ------
+    InputError
+        If there is not a track for each robot, or ``steady`` is not of this plan.
 
     Notes
     -----
@@ -172,6 +180,7 @@ class Plan:
     scenario: Scenario
     tracks: tuple[Track, ...]
     run: PlannerRun
+    steady: tuple[Steady, ...] = ()
 
     def __post_init__(self) -> None:
         robots, tracks = len(self.scenario.robots), len(self.tracks)
@@ -179,3 +188,5 @@ class Plan:
             raise InputError.at(
                 "robots", f"{tracks} tracks for {robots} robots (give one for each)"
             )
+        names = [robot.name for robot in self.scenario.robots]
+        refuse_strangers(self.steady, names, list(map(len, self.tracks)))

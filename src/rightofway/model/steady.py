@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from rightofway.errors import InputError
 from rightofway.model.units import Tick
 
-__all__ = ["Steady"]
+__all__ = ["Steady", "refuse_strangers", "within"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,3 +49,53 @@ class Steady:
             if robot not in self.robots:
                 message = f"robot {robot} is not of this group (name one of its robots)"
                 raise InputError.at(f"critical[{index}]", message)
+
+
+def refuse_strangers(steady: Sequence[Steady], names: Sequence[str], visits: Sequence[int]) -> None:
+    """Refuse groups that are not of a plan.
+
+    Parameters
+    ----------
+    steady
+        Groups of its robots.
+    names, visits
+        What each robot of the plan is called, and how many visits its track has.
+
+    Raises
+    ------
+    InputError
+        If a group names a robot or a visit that the plan does not have, or a robot is in two.
+    """
+    seen: set[int] = set()
+    for index, group in enumerate(steady):
+        for robot in group.robots:
+            if not 0 <= robot < len(names):
+                message = f"there is no robot {robot} (give 0 to {len(names) - 1})"
+                raise InputError.at(f"steady[{index}].robots", message)
+            if robot in seen:
+                message = f"{names[robot]} is there already (give each robot one period)"
+                raise InputError.at(f"steady[{index}].robots", message)
+            seen.add(robot)
+        for place, (robot, visit) in enumerate(group.critical):
+            last = visits[robot] - 1
+            if not 0 <= visit <= last:
+                message = f"{names[robot]} has no visit {visit} (give 0 to {last})"
+                raise InputError.at(f"steady[{index}].critical[{place}]", message)
+
+
+def within(steady: Sequence[Steady], visits: Sequence[int]) -> tuple[Steady, ...]:
+    """Return the groups for a plan with shorter tracks: bottlenecks beyond their ends are unknown.
+
+    Parameters
+    ----------
+    steady
+        Groups of the robots of a plan.
+    visits
+        How many visits the track of each robot has.
+    """
+    return tuple(
+        group
+        if all(visit < visits[robot] for robot, visit in group.critical)
+        else replace(group, critical=())
+        for group in steady
+    )

@@ -150,14 +150,17 @@ class DelayedPlan:
     before
         Another order than that of the plan: for each visit the one directly before it at its
         vertex, -1 for none; int32[N].
+    since
+        When each visit was given its right of way, if that was on the way; it begins no sooner
+        [ticks]; int64[N].
 
     Attributes
     ----------
     routes
         Where robots go, what they do there, and how long that takes at least.
-    first_visit, vertex, planned, before
-        Arrays over visits: which are whose, where each is, when it begins by the plan, and which
-        one goes directly before it at its vertex.
+    first_visit, vertex, planned, before, since
+        Arrays over visits: which are whose, where each is, when it begins by the plan, which one
+        goes directly before it at its vertex, and since when that is so.
     """
 
     def __init__(
@@ -168,6 +171,7 @@ class DelayedPlan:
         *,
         routes: Sequence[Route] | None = None,
         before: NDArray[np.int32] | None = None,
+        since: NDArray[np.int64] | None = None,
     ) -> None:
         itineraries = scenario.timing.itineraries
         self.scenario, self.hazards = scenario, hazards
@@ -182,6 +186,7 @@ class DelayedPlan:
         self.vertex = np.concatenate([track.vertices for track in tracks])
         self.planned = np.concatenate([track.enter for track in tracks])
         self.before = order_of(self.vertex, self.planned) if before is None else before
+        self.since = np.zeros(len(self.vertex), np.int64) if since is None else since
         self.dwell = np.array([ticks for route in self.routes for ticks in route.dwell], np.int64)
         self.drive = np.array([ticks for route in self.routes for ticks in route.drive], np.int64)
         self._kernel = _core.Floor(
@@ -191,6 +196,7 @@ class DelayedPlan:
             self.dwell,
             self.drive,
             self.before,
+            self.since,
             int(scenario.timing.headway),
             scenario.rules.books_ahead,
             np.array(hazards.pace, np.float64),
@@ -202,10 +208,17 @@ class DelayedPlan:
             np.array([ticks for _, ticks in hazards.all_standstills()], np.int64),
         )
 
-    def reordered(self, before: NDArray[np.int32]) -> DelayedPlan:
-        """Return the same with another order of visits."""
+    def reordered(
+        self, before: NDArray[np.int32], since: NDArray[np.int64] | None = None
+    ) -> DelayedPlan:
+        """Return the same with another order of visits, and since when each is told of it."""
         return DelayedPlan(
-            self.scenario, self.split(self.planned), self.hazards, routes=self.routes, before=before
+            self.scenario,
+            self.split(self.planned),
+            self.hazards,
+            routes=self.routes,
+            before=before,
+            since=self.since if since is None else since,
         )
 
     def deadlocked(self) -> list[int]:

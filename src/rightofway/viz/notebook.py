@@ -30,7 +30,7 @@ def frame_of(
     height
         Height of the frame [pixels].
     steady
-        Where it repeats itself.
+        Where it repeats itself, if the plan does not say it.
     actual
         What became of it on the floor.
 

@@ -11,10 +11,20 @@ from rightofway.errors import InputError
 from rightofway.io.faults import Faults, blaming, checked, checked_format, under
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.plan.names import Names
+from rightofway.io.plan.repeats import steady_of
 from rightofway.io.scenario.reader import Loaded, read, read_scenario
 from rightofway.io.text.documents import read_document
 from rightofway.io.words import shown
-from rightofway.model import Decision, Plan, PlannerRun, Reroute, Scenario, Tick, Track, VertexId
+from rightofway.model import (
+    Decision,
+    Plan,
+    PlannerRun,
+    Reroute,
+    Scenario,
+    Tick,
+    Track,
+    VertexId,
+)
 
 if TYPE_CHECKING:
     from rightofway.io.plan.shape import DecisionDocument, RerouteDocument, TrackDocument
@@ -82,13 +92,14 @@ def _read(document: dict[str, Any]) -> Plan:
     names = Names.of(loaded.scenario) if loaded else None
     run = faults.part(document, "planner", _run, names)
     tracks = faults.part(document, "robots", _tracks, names)
+    steady = faults.part(document, "steady", steady_of, names) or ()
     if frame and loaded:
         faults.attempt("tick", _check_tick, frame.tick, loaded.scenario)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert run is not None, "or there was a fault"
     assert tracks is not None, "or there was a fault"
-    return Plan(scenario=loaded.scenario, tracks=tracks, run=run)
+    return Plan(scenario=loaded.scenario, tracks=tracks, run=run, steady=steady)
 
 
 def _check_tick(tick: Fraction, scenario: Scenario) -> None:

@@ -15,7 +15,9 @@ __all__ = [
     "PlanFrame",
     "PlannerDocument",
     "RerouteDocument",
+    "SteadyDocument",
     "TrackDocument",
+    "VisitDocument",
 ]
 
 PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
@@ -74,6 +76,25 @@ class TrackDocument(Document):
     )
 
 
+class VisitDocument(Document):
+    """One visit of a robot."""
+
+    robot: Name = Field(description="the name of the robot")
+    visit: int = Field(description="which of its visits, from 0")
+
+
+class SteadyDocument(Document):
+    """Robots that repeat themselves together."""
+
+    robots: list[Name] = Field(min_length=1, description="the names of the robots, at least one")
+    start: Ticks = Field(description="from when on everything comes again, a whole number of ticks")
+    period: Ticks = Field(description="after how many ticks, at least one")
+    critical: list[VisitDocument] = Field(
+        default=[],
+        description="the bottleneck: a list of {robot, visit} that wait for each other in a circle",
+    )
+
+
 class PlanFrame(Document):
     """The keys of a plan; their values are read one by one, so that faults add up."""
 
@@ -85,6 +106,7 @@ class PlanFrame(Document):
         default={}, description="a mapping of numbers, for readers; they are not read back"
     )
     robots: Any = Field(description="for each robot {name, vertices, enter}")
+    steady: Any = Field(default=[], description="a list of {robots, start, period, critical}")
 
 
 class PlanDocument(PlanFrame):
@@ -93,3 +115,6 @@ class PlanDocument(PlanFrame):
     scenario: ScenarioDocument = Field(description="the problem, its map inlined")
     planner: PlannerDocument = Field(description="how the plan came about")
     robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
+    steady: list[SteadyDocument] = Field(
+        default=[], description="robots that repeat themselves; for the page, nobody judges it"
+    )

@@ -11,7 +11,7 @@ from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text.exact import written
 from rightofway.io.text.json_layout import json_text
-from rightofway.model import Decision, Plan, PlannerRun, Scenario
+from rightofway.model import Decision, Plan, PlannerRun, Scenario, Steady
 
 __all__ = ["dump_plan", "plan_text", "save_plan"]
 
@@ -40,6 +40,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
         "planner": _planner(plan.run, scenario, seconds=seconds),
         "metrics": _metrics(plan),
         "robots": robots,
+        **({"steady": [_steady(group, scenario) for group in plan.steady]} if plan.steady else {}),
     }
 
 
@@ -108,6 +109,16 @@ def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
         "level": decision.level,
         "conflicts_left": list(decision.conflicts_left),
         "completion_sums": None if sums is None else list(sums),
+    }
+
+
+def _steady(steady: Steady, scenario: Scenario) -> dict[str, Any]:
+    names = [robot.name for robot in scenario.robots]
+    return {
+        "robots": [names[robot] for robot in steady.robots],
+        "start": steady.start,
+        "period": steady.period,
+        "critical": [{"robot": names[robot], "visit": visit} for robot, visit in steady.critical],
     }
 
 

@@ -8,7 +8,7 @@ from typing import Any
 __all__ = ["json_text"]
 
 OPEN = {"scenario", "map", "grid", "roadmap", "vertices", "edges", "robots"}
-OPEN |= {"planner", "decisions", "reroutes"}
+OPEN |= {"planner", "decisions", "reroutes", "steady"}
 """What stands in these keys is spread over lines; everything inside their items is not."""
 
 

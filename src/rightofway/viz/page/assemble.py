@@ -47,7 +47,8 @@ def page_of(plan: Plan, *, steady: Sequence[Steady] = (), actual: Actual | None 
     plan
         The plan.
     steady
-        Where it repeats itself: the page marks the periods and plays one for ever.
+        Where it repeats itself, if the plan does not say it: the page marks the periods and plays
+        one for ever.
     actual
         What became of it on the floor: the page shows it against the plan.
 
@@ -88,7 +89,8 @@ def write_page(
     path
         Where, usually ``….html``.
     steady
-        Where it repeats itself: the page marks the periods and plays one for ever.
+        Where it repeats itself, if the plan does not say it: the page marks the periods and plays
+        one for ever.
     actual
         What became of it on the floor: the page shows it against the plan.
 

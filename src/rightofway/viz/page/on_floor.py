@@ -43,7 +43,7 @@ def floor_of(plan: Plan, actual: Actual, trips: Sequence[Trip]) -> dict[str, Any
         raise InputError.at("actual.tracks", f"{counts} (give one for each)")
     still = actual.standstills or ((),) * len(trips)
     stays = tuple(map(_stays, actual.tracks, actual.dwell, actual.drive, still))
-    anew = trips_of(replace(plan, tracks=actual.tracks))
+    anew = trips_of(replace(plan, tracks=actual.tracks, steady=()))
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": [

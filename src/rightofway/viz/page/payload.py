@@ -38,7 +38,7 @@ def payload_of(
     plan
         The plan; times in the result are ticks.
     steady
-        Where it repeats itself.
+        Where it repeats itself, if the plan does not say it.
     actual
         What became of it on the floor.
 
@@ -48,7 +48,7 @@ def payload_of(
         If ``steady`` or ``actual`` are not of this plan.
     """
     trips = trips_of(plan)
-    payload = _plan(plan, trips)
+    payload, steady = _plan(plan, trips), steady or plan.steady
     if steady:
         payload["steady"] = steady_of(plan, steady)
         payload["laps"] = laps_of(plan)

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError
 from rightofway.model import Plan, Steady, Track
+from rightofway.model.steady import refuse_strangers
 from rightofway.viz.motion import Trip
 
 __all__ = ["laps_of", "last_tick_of_all", "steady_of"]
@@ -27,9 +27,10 @@ def steady_of(plan: Plan, steady: Sequence[Steady]) -> list[dict[str, Any]]:
     Raises
     ------
     InputError
-        If a group names a robot or a visit that the plan does not have.
+        If these are no groups of the plan.
     """
-    _refuse_strangers(plan, steady)
+    names = [robot.name for robot in plan.scenario.robots]
+    refuse_strangers(steady, names, list(map(len, plan.tracks)))
     return [
         {
             "robots": list(group.robots),
@@ -59,20 +60,6 @@ def last_tick_of_all(trips: Sequence[Trip], groups: Sequence[dict[str, Any]]) ->
         if robot in untils or min(trip.served) >= 0
     ]
     return max(1, min(ends))
-
-
-def _refuse_strangers(plan: Plan, steady: Sequence[Steady]) -> None:
-    robots = len(plan.tracks)
-    for index, group in enumerate(steady):
-        for robot in group.robots:
-            if not 0 <= robot < robots:
-                message = f"there is no robot {robot} (give 0 to {robots - 1})"
-                raise InputError.at(f"steady[{index}].robots", message)
-        for place, (robot, visit) in enumerate(group.critical):
-            last = len(plan.tracks[robot]) - 1
-            if not 0 <= visit <= last:
-                message = f"robot {robot} has no visit {visit} (give 0 to {last})"
-                raise InputError.at(f"steady[{index}].critical[{place}]", message)
 
 
 def _until(group: Steady, track: Track) -> int:
