@@ -42,6 +42,12 @@ Circle::Circle(VertexId n_vertices, Tick period, Tick headway, bool books_ahead)
     at_.resize(static_cast<std::size_t>(n_vertices));
 }
 
+std::vector<Circle::Booking>::const_iterator Circle::first_from(const std::vector<Booking>& row,
+                                                                Tick tick) {
+    return std::lower_bound(row.begin(), row.end(), tick,
+                            [](const Booking& one, Tick from) { return one.start < from; });
+}
+
 Tick Circle::fold(Tick tick) const {
     const Tick rest = tick % period_;
     return rest < 0 ? rest + period_ : rest;
@@ -57,16 +63,16 @@ Circle::Booking Circle::folded(const Round& round, std::span<const Tick> enter, 
     return {begins, begins + (leave + headway_ - start), robot};
 }
 
+// Bookings of a vertex begin and end in the same order, so only the two next to a new one matter.
 bool Circle::is_free(VertexId vertex, const Booking& booking) const {
-    for (const Booking& other : at_[static_cast<std::size_t>(vertex)]) {
-        for (const Tick shift : {-period_, Tick{0}, period_}) {
-            if (other.robot != booking.robot && other.start + shift < booking.end &&
-                booking.start < other.end + shift) {
-                return false;
-            }
-        }
+    const auto& row = at_[static_cast<std::size_t>(vertex)];
+    if (row.empty()) {
+        return true;
     }
-    return true;
+    const auto next = first_from(row, booking.start);
+    const Tick ends_before = next == row.begin() ? row.back().end - period_ : std::prev(next)->end;
+    const Tick starts_next = next == row.end() ? row.front().start + period_ : next->start;
+    return ends_before <= booking.start && booking.end <= starts_next;
 }
 
 void Circle::add(RobotId robot, const Round& round, std::span<const Tick> enter) {
@@ -87,13 +93,12 @@ void Circle::add(RobotId robot, const Round& round, std::span<const Tick> enter)
     for (std::size_t k = 0; k < n; ++k) {
         auto& row = at_[static_cast<std::size_t>(round.vertex[k])];
         const Booking booking = folded(round, enter, k, robot);
-        row.insert(std::upper_bound(row.begin(), row.end(), booking,
-                                    [](const Booking& one, const Booking& other) {
-                                        return one.start < other.start;
-                                    }),
-                   booking);
+        row.insert(first_from(row, booking.start), booking);
     }
-    vertices_of_[robot].assign(round.vertex.begin(), round.vertex.end());
+    std::vector<VertexId>& vertices = vertices_of_[robot];
+    vertices.assign(round.vertex.begin(), round.vertex.end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 void Circle::remove(RobotId robot) {
@@ -119,10 +124,7 @@ void Circle::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const 
     }
     // The first gap is that before the first booking that starts at `from` or after it.
     const Tick turn = from - fold(from);
-    std::size_t k = static_cast<std::size_t>(
-        std::lower_bound(row.begin(), row.end(), from - turn,
-                         [](const Booking& one, Tick tick) { return one.start < tick; }) -
-        row.begin());
+    auto k = static_cast<std::size_t>(first_from(row, from - turn) - row.begin());
     for (Tick shift = turn;; ++k) {
         if (k == row.size()) {
             k = 0;

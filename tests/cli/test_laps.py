@@ -1,11 +1,15 @@
 """``rightofway laps``: what it prints, for people and for programs, and how it ends."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from rightofway import load
+from rightofway.cli.laps_theory import rival_lines
+from rightofway.timetables import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
 SLOWER = """
@@ -116,6 +120,13 @@ def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
     assert "against first come first served\n" in ended.out
     assert "fairness: every robot makes at least " in ended.out
     assert cli("check", "plan.json").code == 0
+
+
+def test_a_chosen_timetable_that_is_below_its_rival_says_so(slower: Path) -> None:
+    [chosen] = best_timetable(load(slower), time_limit=None, rounds=2)
+    rival = replace(chosen, first_come_ends="open", first_come=chosen.throughput * 2)
+    said = " ".join(" ".join(rival_lines(rival)).split())
+    assert "not reached: 50.00% below first come first served as far as it was seen" in said
 
 
 def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:

@@ -81,6 +81,9 @@ class Circle {
 
     static constexpr RobotId nobody = -1;
 
+    // The first booking of a row that starts at a tick or after it.
+    static std::vector<Booking>::const_iterator first_from(const std::vector<Booking>& row,
+                                                           Tick tick);
     Tick fold(Tick tick) const;
     Booking folded(const Round& round, std::span<const Tick> enter, std::size_t k,
                    RobotId robot) const;
@@ -97,8 +100,8 @@ class Circle {
     Tick period_;
     Tick headway_;
     bool books_ahead_;
-    std::vector<std::vector<Booking>> at_;  // of each vertex, by start
-    std::unordered_map<RobotId, std::vector<VertexId>> vertices_of_;
+    std::vector<std::vector<Booking>> at_;                            // of each vertex, by start
+    std::unordered_map<RobotId, std::vector<VertexId>> vertices_of_;  // each once
     std::vector<Tick> rest_;                // from each visit's enter to the end of the round
     std::vector<std::vector<Stay>> stays_;  // of each visit, one more for home again
     std::int32_t closing_ = nobody;

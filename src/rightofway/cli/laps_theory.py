@@ -94,7 +94,11 @@ def rival_lines(chosen: GroupTimetable) -> Iterator[str]:
     }[chosen.first_come_ends]
     if chosen.first_come:
         more = chosen.throughput / chosen.first_come - 1
-        yield from wrapped(f"throughput: {_signed(more)} against {rival}")
+        if more < 0:
+            below = f"{float(-more):.2%} below {rival} (give more time)"
+            yield from wrapped(f"throughput: not reached: {below}")
+        else:
+            yield from wrapped(f"throughput: {_signed(more)} against {rival}")
     else:
         yield "throughput: first come first served comes to a standstill"
     yield f"fairness: every robot makes at least {float(chosen.fairness):.0%} of its laps alone"

@@ -14,24 +14,20 @@ Baccelli, Cohen, Olsder & Quadrat, *Synchronization and Linearity*, Wiley 1992.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
-from typing import Self, TypeVar
+from functools import cached_property, lru_cache
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.model import Tick
+from rightofway.model import Lap, Tick
 from rightofway.precedence.periodic import PeriodicTimetable
 
 __all__ = ["Arcs", "Circuit", "EventGraph", "critical_circuit", "event_graph"]
-
-
-Number = TypeVar("Number", np.int32, np.int64)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -119,10 +115,8 @@ class EventGraph:
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
         self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
-        self.vertex = _tiled([lap.vertices for lap in laps], counts, np.int32)
-        self.index = _tiled([range(len(lap)) for lap in laps], counts, np.int32)
-        self.drive = _tiled([lap.drive for lap in laps], counts, np.int64)
-        self.dwell = _tiled([lap.dwell for lap in laps], counts, np.int64)
+        rows = zip(*map(_visits, laps, counts), strict=True)
+        self.vertex, self.index, self.drive, self.dwell = map(np.concatenate, rows)
 
     def __len__(self) -> int:
         return len(self.vertex)
@@ -180,6 +174,21 @@ class EventGraph:
             height=(turn[first] + rounds - turn[second] - self.wraps[first]).astype(np.int32),
             first=first.astype(np.int32),
         )
+
+    def has_swaps(self) -> bool:
+        """Tell whether two robots would exchange two vertices: each waits for the other to go.
+
+        No timetable that keeps the rules has these orders; but no circuit of them takes any time.
+        """
+        rights = self.arcs.chosen((self.arcs.first >= 0) & (self.arcs.length == 0))
+        if not len(rights):
+            return False
+        there = rights.tail.astype(np.int64) * len(self) + rights.head
+        back = rights.head.astype(np.int64) * len(self) + rights.tail
+        order = np.argsort(there)
+        found = order[np.searchsorted(there[order], back).clip(max=len(there) - 1)]
+        swaps = (there[found] == back) & (rights.height + rights.height[found] == 0)
+        return bool(swaps.any())
 
     def slack(self) -> NDArray[np.int64]:
         """Return how much later than it had to each arc's head comes in the timetable [ticks].
@@ -305,8 +314,15 @@ def circuit_of(n_visits: int, arcs: Arcs, *, time_limit: float | None = None) ->
     return Circuit(cycle_time=Fraction(length, height), arcs=numbers)
 
 
-def _tiled(
-    rows: Iterable[Sequence[int]], counts: Sequence[int], kind: type[Number]
-) -> NDArray[Number]:
-    tiles = (np.tile(np.array(row, kind), n) for row, n in zip(rows, counts, strict=True))
-    return np.concatenate(list(tiles))
+_Visits = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
+
+
+@lru_cache(maxsize=1 << 14)
+def _visits(lap: Lap, count: int) -> _Visits:
+    """Return vertex, index, drive and dwell of all visits of some laps."""
+    return (
+        np.array(lap.vertices * count, np.int32),
+        np.array((*range(len(lap)),) * count, np.int32),
+        np.array(lap.drive * count, np.int64),
+        np.array(lap.dwell * count, np.int64),
+    )

@@ -7,7 +7,6 @@ timed anew, so there are many such steps in the time of one of `improving`.
 
 from __future__ import annotations
 
-from rightofway.model import Tick
 from rightofway.search import Circle
 from rightofway.timetables.shift import Choice, Shift, Work
 
@@ -22,14 +21,7 @@ SOMETIMES = 3
 
 def crowded(shift: Shift, choice: Choice) -> Choice:
     """Return a timetable with as many laps, or more, in a period as short as it can be."""
-    timetable = shift.graph(choice.timetable).earliest(
-        Tick(choice.period), cycle_time=choice.cycle_time
-    )
-    rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
-    works = [Work(*row) for row in rows]
-    circle = shift.circle(choice.period)
-    for place, work in enumerate(works):
-        circle.add(place, work.lap, work.count, work.enter)
+    circle, works = shift.on_circle(choice)
     for _ in range(STEPS_OF_A_ROBOT * len(works)):
         if shift.deadline.seconds_left() == 0:
             break

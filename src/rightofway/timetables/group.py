@@ -17,7 +17,7 @@ from rightofway.laps.run import run_group
 from rightofway.model import Scenario, Tick
 from rightofway.planners import Task
 from rightofway.precedence import PeriodicTimetable, unrolled
-from rightofway.timetables.building import build
+from rightofway.timetables.building import build, filled
 from rightofway.timetables.improving import improve
 from rightofway.timetables.jointly import jointly
 from rightofway.timetables.shift import Choice, Shift, Work
@@ -31,8 +31,14 @@ RIVAL_SHARE = 0.2
 OTHERS_SHARE = 0.05
 """The part of what is left that each other rule may take."""
 
-CUTTING_SHARE, CUT = 0.25, 2
-"""The part of what is left that goes into timetables cut out of that run; how many are kept."""
+CUTTING_SHARE = 0.25
+"""The part of what is left that goes into timetables cut out of that run."""
+
+CLOSING_SHARE = 0.8
+"""The part of that in which they are cut; in the rest the best get more laps."""
+
+CUT, SHORT = 2, 4_000
+"""How many more are kept than the best; how many visits they have at most: these improve soon."""
 
 BUILDING_SHARE = 0.3
 """The part of what is left then that goes into first timetables."""
@@ -175,12 +181,17 @@ def _by_other_rules(scenario: Scenario, group: Sequence[Endless], shift: Shift) 
 
 
 def _cut(shift: Shift, run: GroupRun) -> list[Choice]:
-    """Return the best timetables cut out of a run."""
+    """Return the best timetables cut out of a run, with more laps where there is room."""
     if not all(run.mean_laps()):
         return []
     part = shift.until(shift.deadline.sooner(CUTTING_SHARE))
-    fair = [w for w in windows(part, run) if shift.is_fair(w.timetable.counts, w.cycle_time)]
-    return sorted(fair, key=shift.value, reverse=True)[:CUT]
+    closing = part.until(part.deadline.sooner(CLOSING_SHARE))
+    cut = windows(closing, run)
+    fair = [one for one in cut if shift.is_fair(one.timetable.counts, one.cycle_time)]
+    best = sorted(fair, key=shift.value, reverse=True)
+    short = [one for one in best if one.visits <= SHORT]
+    kept = dict.fromkeys((*best[:1], *short[:CUT]))
+    return [max(one, filled(part, *part.on_circle(one)), key=shift.value) for one in kept]
 
 
 def _worth(shift: Shift, run: GroupRun) -> Fraction:
@@ -216,13 +227,15 @@ def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
 
 
 def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Choice:
-    """Improve all a little, and go on with the best."""
+    """Improve all that are short a little, and go on with the best of these; return the best."""
+    short = [start for start in starts if start.visits <= SHORT] or starts
     trying = shift.deadline.sooner(TRYING_SHARE)
     tried = []
-    for index, start in enumerate(starts):
-        share = shift.until(trying.sooner(1 / (len(starts) - index)))
+    for index, start in enumerate(short):
+        share = shift.until(trying.sooner(1 / (len(short) - index)))
         tried.append(improve(share, start, steps=rounds))
-    return improve(shift, max(tried, key=shift.value), steps=rounds)
+    best = improve(shift, max(tried, key=shift.value), steps=rounds)
+    return max(*starts, best, key=shift.value)
 
 
 def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:

@@ -43,19 +43,18 @@ MOST_VISITS = 20_000
 """No period gets more visits than this by becoming two."""
 
 TOO_MANY_VISITS = 60_000
-"""A step on a period of more visits takes too long to be worth it."""
+"""On a period of more visits laps are added at most: anything else takes too long."""
 
 
 def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice:
     """Make what the laps of a group are worth per tick as large as steps and time allow."""
     best, in_vain, step = choice, 0, 0
-    if sum(map(len, choice.timetable.enter)) > TOO_MANY_VISITS:
-        return choice
     try:
         while (steps is None or step < steps) and shift.value(best) < shift.bound:
             shift.deadline.check("improving a timetable")
             step += 1
-            found = _step(shift, choice) if step % CROWDS_AFTER else crowded(shift, choice)
+            crowds = step % CROWDS_AFTER == 0 or choice.visits > TOO_MANY_VISITS
+            found = crowded(shift, choice) if crowds else _step(shift, choice)
             in_vain += 1
             if found is None or not shift.is_fair(found.timetable.counts, found.cycle_time):
                 pass
@@ -72,7 +71,7 @@ def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice
 
 def _doubled(choice: Choice) -> Choice:
     """Return two periods as one, if that is not too long."""
-    if 2 * sum(map(len, choice.timetable.enter)) > MOST_VISITS:
+    if 2 * choice.visits > MOST_VISITS:
         return choice
     return Choice(unrolled(choice.timetable, 2), choice.cycle_time * 2)
 

@@ -51,6 +51,11 @@ class Choice:
         """The least whole number of ticks that the period can be."""
         return -(-self.cycle_time.numerator // self.cycle_time.denominator)
 
+    @property
+    def visits(self) -> int:
+        """How many visits all robots make in a period."""
+        return sum(map(len, self.timetable.enter))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Shift:
@@ -155,9 +160,33 @@ class Shift:
             enter=tuple(work.enter for work in works),
         )
 
+    def on_circle(self, choice: Choice) -> tuple[Circle, list[Work]]:
+        """Return a circle as long as a timetable needs it, and what all robots do on it."""
+        timetable = self.graph(choice.timetable).earliest(
+            Tick(choice.period), cycle_time=choice.cycle_time
+        )
+        rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
+        works, circle = [Work(*row) for row in rows], self.circle(choice.period)
+        for place, work in enumerate(works):
+            circle.add(place, work.lap, work.count, work.enter)
+        return circle, works
+
     def tightened(self, timetable: PeriodicTimetable) -> Choice:
         """Return the timetable with its cycle time: how short its orders let the period be."""
         return Choice(timetable, self.graph(timetable).critical_circuit().cycle_time)
+
+    def closed(self, timetable: PeriodicTimetable) -> Choice | None:
+        """Return the same of a timetable of which only the orders are known to be meant.
+
+        None if robots would wait for each other for ever in these orders, or swap.
+        """
+        graph = self.graph(timetable)
+        if graph.has_swaps():
+            return None
+        try:
+            return Choice(timetable, graph.critical_circuit().cycle_time)
+        except ValueError:  # a circuit that takes time, but no period
+            return None
 
     def place(
         self, circle: Circle, place: int, count: int, *, lap: Lap | None = None, tries: int = 3
