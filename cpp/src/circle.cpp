@@ -113,29 +113,14 @@ void Circle::remove(RobotId robot) {
     vertices_of_.erase(found);
 }
 
-// Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in order,
-// until it returns false. Gaps may be empty where one robot follows another at once.
-template <class Use>
-void Circle::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
-    const auto& row = at_[static_cast<std::size_t>(vertex)];
-    if (row.empty()) {
-        use(Gap{-infinity, infinity, nobody, nobody});
-        return;
-    }
-    // The first gap is that before the first booking that starts at `from` or after it.
-    const Tick turn = from - fold(from);
-    auto k = static_cast<std::size_t>(first_from(row, from - turn) - row.begin());
-    for (Tick shift = turn;; ++k) {
-        if (k == row.size()) {
-            k = 0;
-            shift += period_;
-        }
-        const Booking& before = k > 0 ? row[k - 1] : row.back();
-        const Tick start = before.end + shift - (k > 0 ? 0 : period_);
-        if (start > to || !use(Gap{start, row[k].start + shift, before.robot, row[k].robot})) {
-            return;
-        }
-    }
+Tick Circle::enters(const Gap& here, const Gap& there, Tick soonest, Tick last,
+                    Tick approach) const {
+    const Tick enter =
+        there.start == -infinity ? soonest : std::max(soonest, there.start + approach);
+    const bool fits = there.end == infinity || enter + headway_ < there.end;
+    const bool swaps = headway_ == 0 && approach == 0 && there.start == enter &&
+                       here.end == enter && there.before == here.after;
+    return enter <= last && fits && !swaps ? enter : infinity;
 }
 
 bool Circle::search(const Round& round, Tick phase, std::vector<Tick>& enter,
@@ -221,14 +206,8 @@ void Circle::go_on(const Round& round, std::size_t k, std::int32_t from, Tick la
     }
     const Tick approach = books_ahead_ ? round.drive[next] : 0;
     for_each_gap(round.vertex[next], soonest, last - approach, [&](const Gap& gap) {
-        const Tick enter =
-            gap.start == -infinity ? soonest : std::max(soonest, gap.start + approach);
-        if (enter > last) {
-            return false;
-        }
-        const bool swaps = headway_ == 0 && approach == 0 && gap.start == enter &&
-                           here.gap.end == enter && gap.before == here.gap.after;
-        if (!swaps && (gap.end == infinity || enter + headway_ < gap.end)) {
+        const Tick enter = enters(here.gap, gap, soonest, last, approach);
+        if (enter < infinity) {
             arrive(k + 1, {enter, gap, from});
         }
         return true;

@@ -106,6 +106,47 @@ class Circle:
         tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
         """
 
+    def find_way(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
+        """
+        Find a way for a round trip, and when to take it, among bookings.
+
+        Parameters
+        ----------
+        indptr, indices : int32[V + 1], int32[E]
+            The directed graph in compressed rows.
+        length_class : int32[E]
+            The length class of each edge.
+        pace : int32[C]
+            What an edge of each length class takes. [ticks]
+        home : int
+            Where the trip begins and ends.
+        stage_vertex : int32[S]
+            Where the robot has something to do, in order; the last one is its home.
+        stage_work, stage_turn : int64[S], int64[S]
+            How long it works there, and then turns. [ticks]
+        stage_tables : list of int32[V]
+            For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
+        phase : int
+            Where on the circle to begin to look. [ticks]
+        time_limit : float or None
+            After so many seconds the search stops.
+
+        Returns
+        -------
+        tuple of (int32[N], int64[N], int64[N], int64[N]) or None
+            Vertices, dwells, drives and enters of all visits; None if no way was found. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together, or a stage cannot be reached.
+
+        Notes
+        -----
+        Complete among all ways, but where nobody else visits the home: then only this phase is tried. No
+        trip from this phase is home again earlier. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        """
+
 class DistanceTables:
     """
     Least ticks from every vertex to one target.

@@ -53,6 +53,7 @@ def shift_of(scenario: Scenario, run: GroupRun) -> Shift:
         books_ahead=scenario.rules.books_ahead,
         robots=run.robots,
         ways=tuple((endless.lap,) for endless in run.group),
+        tours=(),
         forbidden=frozenset(),
         weights=(Fraction(1),) * len(run.group),
         least_fairness=Fraction(0),

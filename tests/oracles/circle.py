@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 
-from rightofway.model import Lap
+from rightofway.model import Itinerary, Lap, Roadmap, edge_ticks
 from rightofway.precedence import PeriodicTimetable
 
 
@@ -89,6 +89,18 @@ def can_go_round(lap: Lap, others: PeriodicTimetable, *, headway: int, books_ahe
     home again, in its first visit, when the period is over.
     """
     period = int(others.period)
+    free, comes = _taken(others, headway=headway, books_ahead=books_ahead)
+    return any(
+        _closes(lap, start, period, free, comes, headway=headway, books_ahead=books_ahead)
+        for start in range(period)
+    )
+
+
+def _taken(
+    others: PeriodicTimetable, *, headway: int, books_ahead: bool
+) -> tuple[Callable[[int, int, int], bool], set[tuple[int, int, int]]]:
+    """Return whether a vertex is free from one tick to another, and who moves when from where."""
+    period = int(others.period)
     booked: dict[int, set[int]] = {}
     comes: set[tuple[int, int, int]] = set()
     for robot, one in enumerate(others.laps):
@@ -102,10 +114,67 @@ def can_go_round(lap: Lap, others: PeriodicTimetable, *, headway: int, books_ahe
     def free(vertex: int, first: int, end: int) -> bool:
         return not any(t % period in booked.get(vertex, ()) for t in range(first, end))
 
-    return any(
-        _closes(lap, start, period, free, comes, headway=headway, books_ahead=books_ahead)
-        for start in range(period)
-    )
+    return free, comes
+
+
+def has_a_way(
+    itinerary: Itinerary,
+    roadmap: Roadmap,
+    others: PeriodicTimetable,
+    *,
+    headway: int,
+    books_ahead: bool,
+) -> bool:
+    """Tell whether one lap fits in among others on any way, by trying all ways tick by tick.
+
+    The last stage of the itinerary is at home and the one before it is not.
+    """
+    period, home = int(others.period), itinerary.home
+    free, comes = _taken(others, headway=headway, books_ahead=books_ahead)
+    turn = itinerary.stages[-1].work + itinerary.stages[-1].turn
+
+    def steps(vertex: int, stage: int, enter: int, dwell: int, end: int) -> Iterator[_State]:
+        """Yield all that may follow a visit that lasts so long at least and is left by the end."""
+        for head in roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist():
+            drive = edge_ticks(roadmap, itinerary, vertex, head)
+            ahead = drive if books_ahead else 0
+            for leave in range(enter + dwell + drive, end + 1):
+                if not free(vertex, enter, leave + headway):
+                    break
+                swaps = (leave % period, head, vertex) in comes and not headway and not ahead
+                if free(head, leave - ahead, leave + 1 + headway) and not swaps:
+                    yield head, stage, leave
+        following = itinerary.stages[stage]
+        if stage < len(itinerary.stages) - 1 and following.vertex == vertex:
+            yield from steps(vertex, stage + 1, enter, dwell + following.work + following.turn, end)
+
+    def closes(start: int) -> bool:
+        last, end = len(itinerary.stages) - 1, start + period
+        states = _reached(
+            steps(home, 0, start, turn, end),
+            lambda state: steps(*state, 0, end),
+        )
+        # At home again it waits there.
+        return free(home, start, start + 1 + headway) and any(
+            (vertex, stage) == (home, last) and free(home, enter, end + 1 + headway)
+            for vertex, stage, enter in states
+        )
+
+    return any(map(closes, range(period)))
+
+
+_State = tuple[int, int, int]
+
+
+def _reached(first: Iterable[_State], steps: Callable[[_State], Iterable[_State]]) -> set[_State]:
+    """Return all states that some steps lead to."""
+    known = set(first)
+    todo = list(known)
+    while todo:
+        new = set(steps(todo.pop())) - known
+        known |= new
+        todo += new
+    return known
 
 
 def _closes(

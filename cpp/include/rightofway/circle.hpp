@@ -39,10 +39,24 @@ class Circle {
   public:
     using IsOver = std::function<bool()>;
 
+    // What lies between two bookings of a vertex, on unrolled time.
+    struct Gap {
+        Tick start;
+        Tick end;
+        RobotId before;  // who leaves the vertex when it starts, none if nobody ever does
+        RobotId after;   // who comes to it when it ends
+        bool operator==(const Gap&) const = default;
+    };
+
     // Throws std::invalid_argument if a number is out of its range.
     Circle(VertexId n_vertices, Tick period, Tick headway, bool books_ahead);
 
+    VertexId n_vertices() const { return static_cast<VertexId>(at_.size()); }
     Tick period() const { return period_; }
+    Tick headway() const { return headway_; }
+    bool books_ahead() const { return books_ahead_; }
+    // The same tick in the first period.
+    Tick fold(Tick tick) const;
 
     // Books all visits of a robot, entered at these ticks. Throws std::invalid_argument if the
     // arrays do not fit, the robot is there already, or a booking overlaps another's (nothing is
@@ -57,6 +71,15 @@ class Circle {
     // `is_over` said so. Among gaps of its home those that begin after the phase come first.
     bool search(const Round& round, Tick phase, std::vector<Tick>& enter, const IsOver& is_over);
 
+    // Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in
+    // order, until it returns false. Gaps may be empty where one robot follows another at once.
+    template <class Use>
+    void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;
+
+    // When a robot that waits in one gap enters another, driving at least until `soonest` and at
+    // most until `last`, and books the way there `approach` ahead; infinity if it never can.
+    Tick enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach) const;
+
     // Which visit of its round the last search has reached: what comes next is where it got stuck.
     std::size_t reached() const { return reached_; }
 
@@ -65,12 +88,6 @@ class Circle {
         Tick start;  // in [0, period)
         Tick end;    // at most a period later
         RobotId robot;
-    };
-    struct Gap {
-        Tick start;
-        Tick end;
-        RobotId before;  // who leaves the vertex when it starts, none if nobody ever does
-        RobotId after;   // who comes to it when it ends
     };
     // The earliest enter into a gap of one visit's vertex.
     struct Stay {
@@ -84,12 +101,9 @@ class Circle {
     // The first booking of a row that starts at a tick or after it.
     static std::vector<Booking>::const_iterator first_from(const std::vector<Booking>& row,
                                                            Tick tick);
-    Tick fold(Tick tick) const;
     Booking folded(const Round& round, std::span<const Tick> enter, std::size_t k,
                    RobotId robot) const;
     bool is_free(VertexId vertex, const Booking& booking) const;
-    template <class Use>
-    void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;
     Tick run(const Round& round, const Gap& home, Tick start, Tick latest);
     void go_on(const Round& round, std::size_t k, std::int32_t from, Tick latest);
     void arrive(std::size_t k, const Stay& stay);
@@ -107,5 +121,28 @@ class Circle {
     std::int32_t closing_ = nobody;
     std::size_t reached_ = 0;
 };
+
+template <class Use>
+void Circle::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
+    const auto& row = at_[static_cast<std::size_t>(vertex)];
+    if (row.empty()) {
+        use(Gap{-infinity, infinity, nobody, nobody});
+        return;
+    }
+    // The first gap is that before the first booking that starts at `from` or after it.
+    const Tick turn = from - fold(from);
+    auto k = static_cast<std::size_t>(first_from(row, from - turn) - row.begin());
+    for (Tick shift = turn;; ++k) {
+        if (k == row.size()) {
+            k = 0;
+            shift += period_;
+        }
+        const Booking& before = k > 0 ? row[k - 1] : row.back();
+        const Tick start = before.end + shift - (k > 0 ? 0 : period_);
+        if (start > to || !use(Gap{start, row[k].start + shift, before.robot, row[k].robot})) {
+            return;
+        }
+    }
+}
 
 }  // namespace rightofway

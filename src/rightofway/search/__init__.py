@@ -8,6 +8,7 @@ from rightofway.search.fleet import FleetSearch
 from rightofway.search.joint import joint_steps
 from rightofway.search.native import compiler
 from rightofway.search.sipp import earliest_track
+from rightofway.search.tours import Tour
 from rightofway.search.traffic import Traffic
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Distances",
     "FleetSearch",
     "Path",
+    "Tour",
     "Traffic",
     "compiler",
     "earliest_track",

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Tick
+from rightofway.model import Lap, Tick, VertexId
+from rightofway.search.tours import Tour
 
 __all__ = ["Circle"]
 
@@ -68,6 +69,39 @@ class Circle:
         """
         enter = self._kernel.search(*_round(lap, count), phase, time_limit)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
+
+    def find_way(
+        self, tour: Tour, phase: int, *, time_limit: float | None = None
+    ) -> tuple[Lap, NDArray[np.int64]] | None:
+        """Return a way for one lap in a period, and when each visit can begin, or None.
+
+        Notes
+        -----
+        Complete among all ways, but as `search` from a home that nobody else visits. From this
+        phase, no way is home again earlier.
+        """
+        found = self._kernel.find_way(
+            tour.roadmap.indptr,
+            tour.roadmap.heads,
+            tour.roadmap.length_class,
+            tour.pace,
+            int(tour.home),
+            np.array([stage.vertex for stage in tour.stages], np.int32),
+            np.array([stage.work for stage in tour.stages], np.int64),
+            np.array([stage.turn for stage in tour.stages], np.int64),
+            list(tour.tables),
+            phase,
+            time_limit,
+        )
+        if found is None:
+            return None
+        vertices, dwell, drive, enter = found
+        lap = Lap(
+            vertices=tuple(map(VertexId, vertices.tolist())),
+            dwell=tuple(map(Tick, dwell.tolist())),
+            drive=tuple(map(Tick, drive.tolist())),
+        )
+        return lap, enter - enter[0] // int(self.period) * int(self.period)
 
     def in_the_way(self, lap: Lap) -> set[int]:
         """Return the robots that visit the place where the last search, for this lap, got stuck."""

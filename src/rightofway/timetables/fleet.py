@@ -12,13 +12,15 @@ from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.groups import independent_groups
 from rightofway.model import Lap, Scenario, VertexId
 from rightofway.planners import Deadline, planning_headway
+from rightofway.search import Distances, Tour
 from rightofway.timetables.group import GroupTimetable, choose
+from rightofway.timetables.jointly import one_lap
 from rightofway.timetables.shift import Shift
 
 __all__ = ["best_timetable"]
 
 MOST_WITH_WAYS = 200
-"""Larger fleets have no time to choose between clear and shortest routes: they take the clear."""
+"""Larger fleets have no time to choose among ways: they take the clear routes."""
 
 
 def best_timetable(
@@ -116,12 +118,21 @@ class _Wish:
             books_ahead=self.scenario.rules.books_ahead,
             robots=tuple(one.robot for one in group),
             ways=tuple(_ways(one.lap, others[one.robot], taken) for one in group),
+            tours=self.tours([one.robot for one in group], taken),
             forbidden=frozenset(taken),
             weights=tuple(self.weights[one.robot] for one in group),
             least_fairness=self.least_fairness,
             deadline=self.deadline,
             draw=random.Random(f"{self.seed} {index}"),  # noqa: S311 (no secret depends on it)
         )
+
+    def tours(self, robots: Sequence[int], taken: set[VertexId]) -> tuple[Tour, ...]:
+        """Return what robots have to do in a lap, on any way; none in large fleets."""
+        if len(self.scenario.robots) > MOST_WITH_WAYS:
+            return ()
+        distances = Distances(self.scenario.roadmap)
+        once = (one_lap(self.scenario, robot) for robot in robots)
+        return tuple(Tour.of(itinerary, distances, forbidden=taken) for itinerary in once)
 
 
 def _by_groups(

@@ -40,7 +40,7 @@ CLOSING_SHARE = 0.8
 CUT, SHORT = 2, 4_000
 """How many more are kept than the best; how many visits they have at most: these improve soon."""
 
-BUILDING_SHARE = 0.3
+BUILDING_SHARE = 0.2
 """The part of what is left then that goes into first timetables."""
 
 MANY, FILLING_SHARE = 300, 0.3
@@ -51,6 +51,10 @@ PLACING_SHARE = 0.7
 
 TRYING_SHARE = 0.5
 """The part of what is left then that shows which of those kept is worth going on with."""
+
+GOING_ON_SHARE = 0.7
+"""The part of the rest in which the best of those is improved; what remains is for the best of all.
+"""
 
 LONGEST_PERIOD = 5
 """First timetables have periods of at most so many of the longest laps."""
@@ -227,15 +231,16 @@ def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
 
 
 def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Choice:
-    """Improve all that are short a little, and go on with the best of these; return the best."""
+    """Improve all that are short a little, go on with the best of these, then with the best."""
     short = [start for start in starts if start.visits <= SHORT] or starts
     trying = shift.deadline.sooner(TRYING_SHARE)
     tried = []
     for index, start in enumerate(short):
         share = shift.until(trying.sooner(1 / (len(short) - index)))
         tried.append(improve(share, start, steps=rounds))
-    best = improve(shift, max(tried, key=shift.value), steps=rounds)
-    return max(*starts, best, key=shift.value)
+    going_on = shift.until(shift.deadline.sooner(GOING_ON_SHARE))
+    best = improve(going_on, max(tried, key=shift.value), steps=rounds)
+    return improve(shift, max(*starts, best, key=shift.value), steps=rounds)
 
 
 def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:

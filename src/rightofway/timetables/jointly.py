@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Lap, Plan, Scenario, Track, lap_of, route_of
+from rightofway.model import Itinerary, Lap, Plan, Scenario, Track, lap_of, route_of
 from rightofway.precedence import PeriodicTimetable
 from rightofway.solve import solve
 from rightofway.timetables.shift import Choice, Shift, Work
 
-__all__ = ["jointly"]
+__all__ = ["jointly", "one_lap"]
 
 MOST_SECONDS = 60
 """For a plan, where time is not limited."""
@@ -81,6 +81,11 @@ def _places(plan: Plan) -> set[int]:
 
 
 def _lap(scenario: Scenario, robot: int, track: Track) -> Lap:
-    itinerary = scenario.timing.itineraries[robot]
-    once = replace(itinerary, stages=itinerary.stages[: len(scenario.robots[robot].stops) + 1])
+    once = one_lap(scenario, robot)
     return lap_of(once, route_of(scenario.roadmap, once, track))
+
+
+def one_lap(scenario: Scenario, robot: int) -> Itinerary:
+    """Return what a robot has to do in one lap."""
+    itinerary = scenario.timing.itineraries[robot]
+    return replace(itinerary, stages=itinerary.stages[: len(scenario.robots[robot].stops) + 1])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rightofway.model import Lap, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import EventGraph, PeriodicTimetable
-from rightofway.search import Circle
+from rightofway.search import Circle, Tour
 
 __all__ = ["Choice", "Shift", "Work"]
 
@@ -71,6 +71,9 @@ class Shift:
         The numbers of the robots.
     ways
         For each of them the laps to choose from; the first is the usual one.
+    tours
+        For each of them what it has to do, so that it can look for a way of its own; none where
+        that would take too long.
     forbidden
         Vertices of other groups.
     weights
@@ -88,6 +91,7 @@ class Shift:
     books_ahead: bool
     robots: tuple[int, ...]
     ways: tuple[tuple[Lap, ...], ...]
+    tours: tuple[Tour, ...]
     forbidden: frozenset[int]
     weights: tuple[Fraction, ...]
     least_fairness: Fraction
@@ -110,7 +114,7 @@ class Shift:
 
     def has_ways(self, place: int) -> bool:
         """Tell whether a robot has more than one way to choose from."""
-        return len(self.ways[place]) > 1
+        return bool(self.tours) or len(self.ways[place]) > 1
 
     def worth(self, counts: Sequence[int]) -> Fraction:
         """Return what the laps of a period are worth."""
@@ -191,12 +195,31 @@ class Shift:
     def place(
         self, circle: Circle, place: int, count: int, *, lap: Lap | None = None, tries: int = 3
     ) -> Work | None:
-        """Return a way round the circle for a robot, on one of its laps; None if none is found."""
+        """Return a way round the circle for a robot; None if none is found.
+
+        On the lap that is given, or on one of its laps, and if there is no room on these, on any
+        way at all.
+        """
         ways = [lap] if lap else self.draw.sample(self.ways[place], len(self.ways[place]))
         for way in ways:
             for _ in range(tries):
-                phase = self.draw.randrange(int(circle.period))
-                enter = circle.search(way, count, phase, time_limit=self.deadline.seconds_left())
-                if enter is not None:
-                    return Work(way, count, enter)
-        return None
+                found = self._on(circle, way, count)
+                if found is not None:
+                    return found
+        return None if lap else self.place_anywhere(circle, place, count)
+
+    def place_anywhere(self, circle: Circle, place: int, count: int) -> Work | None:
+        """Return a way that is chosen for one lap among the bookings, and repeated for all."""
+        if not self.tours:
+            return None
+        phase = self.draw.randrange(int(circle.period))
+        seconds = self.deadline.seconds_left()
+        found = circle.find_way(self.tours[place], phase, time_limit=seconds)
+        if found is None:
+            return None
+        return Work(found[0], 1, found[1]) if count == 1 else self._on(circle, found[0], count)
+
+    def _on(self, circle: Circle, lap: Lap, count: int) -> Work | None:
+        phase = self.draw.randrange(int(circle.period))
+        enter = circle.search(lap, count, phase, time_limit=self.deadline.seconds_left())
+        return None if enter is None else Work(lap, count, enter)

@@ -1,0 +1,108 @@
+"""A way on the circle is found exactly where there is one, and it keeps all rules."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rightofway.laps.endless import endless_routes
+from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, edge_ticks
+from rightofway.planners import planning_headway
+from rightofway.precedence import PeriodicTimetable
+from rightofway.search import Circle, Distances, Tour
+from tests.fleets import grid_fleet, random_fleet
+from tests.oracles import circle as oracle
+from tests.periodic import timetable_of
+
+law = settings(max_examples=60, derandomize=True, deadline=None)
+RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]
+
+
+def crowd(scenario: Scenario, draw: random.Random) -> tuple[Circle, PeriodicTimetable, list[Lap]]:
+    """Put robots on a circle, all but the first, as far as they find a place; return all laps."""
+    laps = [one.lap for one in endless_routes(scenario, draw.choice(("clear", "shortest")))]
+    period = Tick(int(laps[0].duration) + draw.randrange(25))
+    circle = Circle(
+        scenario.roadmap.n_vertices,
+        period,
+        headway=planning_headway(scenario),
+        books_ahead=scenario.rules.books_ahead,
+    )
+    there = []
+    for robot in range(1, len(laps)):
+        enter = circle.search(laps[robot], 1, draw.randrange(period))
+        if enter is not None:
+            circle.add(robot, laps[robot], 1, enter)
+            there.append((laps[robot], enter.tolist()))
+    assume(there)
+    others = timetable_of([lap for lap, _ in there], [enter for _, enter in there], period=period)
+    return circle, others, laps
+
+
+def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
+    """Tell whether a lap of one stop is on the roadmap and serves what is to be done."""
+    n, [stop, home] = len(lap), itinerary.stages
+    drives = [
+        edge_ticks(scenario.roadmap, itinerary, lap.vertices[k - 1], lap.vertices[k])
+        for k in range(n)
+    ]
+    served = [(v, dwell) for v, dwell in zip(lap.vertices, lap.dwell, strict=True) if dwell]
+    due = [(one.vertex, one.work + one.turn) for one in (home, stop)]
+    return (
+        list(lap.drive) == drives
+        and served == [one for one in due if one[1]]
+        and stop.vertex in lap.vertices
+    )
+
+
+@law
+@given(st.integers(0, 10**6), st.integers(2, 4), st.sampled_from(RULES))
+def test_a_way_is_found_exactly_where_there_is_one(seed: int, robots: int, rules: Rules) -> None:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    size = 3 if robots == 2 else 4
+    scenario = random_fleet(seed, size=size, robots=robots, rules=rules)
+    assume(all(robot.stops[0].at != robot.home for robot in scenario.robots))
+    circle, others, laps = crowd(scenario, draw)
+    itinerary = scenario.timing.itineraries[0]
+    tour = Tour.of(itinerary, Distances(scenario.roadmap))
+    headway, ahead = int(planning_headway(scenario)), scenario.rules.books_ahead
+    passed = any(itinerary.home in other.vertices for other in others.laps)
+    period = int(circle.period)
+    ways = []
+    for phase in [draw.randrange(period)] if passed else range(period):
+        found, usual = circle.find_way(tour, phase), circle.search(laps[0], 1, phase)
+        if found is not None:
+            ways.append(found)
+        if usual is not None:
+            assert found is not None
+            if not passed:
+                assert (found[1][0] - phase - 1) % period <= (usual[0] - phase - 1) % period
+    for lap, enter in ways:
+        assert does_its_work(scenario, itinerary, lap)
+        whole = replace(
+            others,
+            robots=(*others.robots, len(others.robots)),
+            laps=(*others.laps, lap),
+            counts=(*others.counts, 1),
+            enter=(*others.enter, enter),
+        )
+        assert oracle.faults(whole, headway=headway, books_ahead=ahead) == []
+        circle.add(0, lap, 1, enter)
+        circle.remove(0)
+    assert bool(ways) == oracle.has_a_way(
+        itinerary, scenario.roadmap, others, headway=headway, books_ahead=ahead
+    )
+
+
+def test_it_does_not_enter_what_is_forbidden() -> None:
+    scenario = grid_fleet(["...", "...", "..."], [("N0", "N8")])
+    itinerary, distances = scenario.timing.itineraries[0], Distances(scenario.roadmap)
+    circle = Circle(9, Tick(20), headway=Tick(0), books_ahead=False)
+    forbidden = {1, 5, 4}
+    found = circle.find_way(Tour.of(itinerary, distances, forbidden=forbidden), 0)
+    assert found is not None
+    assert found[0].vertices == (0, 3, 6, 7, 8, 7, 6, 3)
