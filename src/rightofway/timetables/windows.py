@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise, zip_longest
+from itertools import pairwise, product, zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -189,7 +189,9 @@ class _Part:
 def _joined(shift: Shift, parts: list[_Part], period: int) -> Choice | None:
     """Put all on the circle, with some laps less where they overlap; None if that is no help."""
     circle, works = shift.circle(period), {}
-    for place in shift.draw.sample(range(len(parts)), len(parts)):
+    # Robots that others pass at home cannot wait there as they like: they come first.
+    passed = [sum(part.lap.vertices[0] in other.lap.vertices for other in parts) for part in parts]
+    for place in sorted(range(len(parts)), key=lambda place: -passed[place]):
         work = _added(circle, place, parts[place], period)
         if work is None:
             return None
@@ -200,8 +202,8 @@ def _joined(shift: Shift, parts: list[_Part], period: int) -> Choice | None:
 def _added(circle: Circle, place: int, part: _Part, period: int) -> Work | None:
     """Leave laps out at the seam until a robot overlaps no other, and add it."""
     for less in range(min(MOST_LEFT_OUT + 1, part.count)):
-        for head in range(less + 1):
-            work = part.without(head, less - head).work(period)
+        for head, early in product(range(less + 1), (True, False)):
+            work = part.without(head, less - head).work(period, early=early)
             try:
                 circle.add(place, work.lap, work.count, work.enter)
             except ValueError:
