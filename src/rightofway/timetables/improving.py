@@ -39,11 +39,8 @@ CROWDS_AFTER = 10
 PATIENCE = 60
 """After so many steps in vain a period becomes two, so that laps can be shared out more finely."""
 
-MOST_VISITS = 20_000
-"""No period gets more visits than this by becoming two."""
-
-TOO_MANY_VISITS = 60_000
-"""On a period of more visits laps are added at most: anything else takes too long."""
+MOST_VISITS = 8_000
+"""No period gets more visits by becoming two; on a longer one laps are added at most."""
 
 
 def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice:
@@ -53,7 +50,7 @@ def improve(shift: Shift, choice: Choice, *, steps: int | None = None) -> Choice
         while (steps is None or step < steps) and shift.value(best) < shift.bound:
             shift.deadline.check("improving a timetable")
             step += 1
-            crowds = step % CROWDS_AFTER == 0 or choice.visits > TOO_MANY_VISITS
+            crowds = step % CROWDS_AFTER == 0 or choice.visits > MOST_VISITS
             found = crowded(shift, choice) if crowds else _step(shift, choice)
             in_vain += 1
             if found is None or not shift.is_fair(found.timetable.counts, found.cycle_time):
