@@ -52,6 +52,9 @@ PLACING_SHARE = 0.7
 TRYING_SHARE = 0.5
 """The part of what is left then that shows which of those kept is worth going on with."""
 
+LEAST_HOPE = Fraction(7, 10)
+"""What is worth less, by the best that there is to start from, is not improved."""
+
 GOING_ON_SHARE = 0.7
 """The part of the rest in which the best of those is improved; what remains is for the best of all.
 """
@@ -232,7 +235,9 @@ def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
 
 def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Choice:
     """Improve all that are short a little, go on with the best of these, then with the best."""
-    short = [start for start in starts if start.visits <= SHORT] or starts
+    least = LEAST_HOPE * max(map(shift.value, starts))
+    hopeful = [start for start in starts if shift.value(start) >= least]
+    short = [start for start in hopeful if start.visits <= SHORT] or hopeful
     trying = shift.deadline.sooner(TRYING_SHARE)
     tried = []
     for index, start in enumerate(short):
