@@ -4,13 +4,14 @@ A run that does not repeat itself in any reasonable time still makes good use of
 of it are the laps that the robots begin from some tick on and end within a period each, and the
 order of their visits at each vertex is kept, round the seam as well. What that costs is known
 exactly: it is the cycle time of these orders. Where robots would wait for each other for ever at
-the seam, most keep their times instead, and those that overlap others look for another place, with
-a lap or two less if need be. A seam costs the same however long the window is, so a long one is
+the seam, they keep their times instead, and who would overlap others there leaves out a lap or two.
+A seam costs the same however long the window is, so a long one is
 hardly worse than the run; among many short ones some are better.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -108,7 +109,8 @@ def _promising(watched: _Watched) -> list[_Window]:
         for score, most_closed in CLOSED.items():
             best = sorted((one.best(score) for one in some), key=lambda found: -found[0])
             ranked.append(list(dict.fromkeys(window for _, window in best))[:most_closed])
-    return [one for row in zip_longest(*reversed(ranked)) for one in row if one is not None]
+    in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
+    return list(dict.fromkeys(in_turn))
 
 
 class _Candidates:
@@ -190,8 +192,8 @@ def _joined(shift: Shift, parts: list[_Part], period: int) -> Choice | None:
     """Put all on the circle, with some laps less where they overlap; None if that is no help."""
     circle, works = shift.circle(period), {}
     # Robots that others pass at home cannot wait there as they like: they come first.
-    passed = [sum(part.lap.vertices[0] in other.lap.vertices for other in parts) for part in parts]
-    for place in sorted(range(len(parts)), key=lambda place: -passed[place]):
+    users = Counter(vertex for part in parts for vertex in set(part.lap.vertices))
+    for place in sorted(range(len(parts)), key=lambda place: -users[parts[place].lap.vertices[0]]):
         work = _added(circle, place, parts[place], period)
         if work is None:
             return None
