@@ -116,3 +116,24 @@ def test_what_is_on_no_critical_circuit_does_not_matter() -> None:
     graph = door(turn=9)
     effect = sensitivity(graph, share_of_work(graph))
     assert told(effect.gain, effect.loss, effect.at_best) == [0, 0, 15]
+
+
+def ring(robots: int) -> EventGraph:
+    """Each robot goes round a ring as long as the fleet, all moving on at the same ticks."""
+    laps = [
+        Lap(
+            vertices=tuple(VertexId((robot + k) % robots) for k in range(robots)),
+            dwell=(Tick(0),) * robots,
+            drive=(Tick(1),) * robots,
+        )
+        for robot in range(robots)
+    ]
+    enter = [[3 * k for k in range(robots)]] * robots
+    timetable = timetable_of(laps, enter, period=3 * robots)
+    return EventGraph(timetable, headway=Tick(0), books_ahead=False)
+
+
+def test_a_swap_is_told_from_a_rotation() -> None:
+    assert ring(2).has_swaps()
+    assert not ring(3).has_swaps()
+    assert not door().has_swaps()
