@@ -38,7 +38,10 @@ def run_of(scenario: Scenario, chosen: Sequence[GroupTimetable]) -> LapsRun:
 
 
 def _group_run(scenario: Scenario, timetable: PeriodicTimetable) -> GroupRun:
-    begins = min(_beginnings(timetable), key=lambda tick: (_in_the_way(timetable, tick), tick))
+    passes = _passes(timetable)
+    begins = min(
+        _beginnings(timetable), key=lambda tick: (_in_the_way(timetable, passes, tick), tick)
+    )
     history = tuple(_history(timetable, robot, begins) for robot in range(len(timetable.laps)))
     counts, lengths = timetable.counts, tuple(map(len, timetable.laps))
     pattern = Pattern(
@@ -71,30 +74,31 @@ def _beginnings(timetable: PeriodicTimetable) -> list[int]:
 
 def _first_home(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, int]:
     """Return the visit and the tick at which a robot is first at home from a tick on."""
-    period, length = int(timetable.period), len(timetable.laps[robot])
-    enter = timetable.enter[robot].tolist()
-    return min(
-        ((tick - begins) % period + begins, visit)
-        for visit, tick in enumerate(enter)
-        if visit % length == 0
-    )[::-1]
+    length = len(timetable.laps[robot])
+    later = (timetable.enter[robot][::length] - begins) % int(timetable.period)
+    lap = int(np.argmin(later))
+    return lap * length, int(later[lap]) + begins
 
 
-def _in_the_way(timetable: PeriodicTimetable, begins: int) -> int:
+def _passes(timetable: PeriodicTimetable) -> list[tuple[int, int]]:
+    """Return (whose home, tick) of all visits that others make to homes in a period."""
+    owner = {lap.vertices[0]: robot for robot, lap in enumerate(timetable.laps)}
+    return [
+        (owner[vertex], tick)
+        for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True))
+        for index, vertex in enumerate(lap.vertices)
+        if owner.get(vertex, robot) != robot
+        for tick in enter[index :: len(lap)].tolist()
+    ]
+
+
+def _in_the_way(
+    timetable: PeriodicTimetable, passes: Sequence[tuple[int, int]], begins: int
+) -> int:
     """Return how many visits others make to homes whose robots still wait there."""
-    until = {
-        lap.vertices[0]: (robot, _first_home(timetable, robot, begins)[1])
-        for robot, lap in enumerate(timetable.laps)
-    }
-    period, visits = int(timetable.period), 0
-    for robot, (lap, count, enter) in enumerate(
-        zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
-    ):
-        for vertex, tick in zip(lap.vertices * count, enter.tolist(), strict=True):
-            owner, waits = until.get(vertex, (robot, 0))
-            when = (tick - begins) % period + begins
-            visits += owner != robot and when < waits
-    return visits
+    period = int(timetable.period)
+    until = {robot: _first_home(timetable, robot, begins)[1] for robot, _ in passes}
+    return sum((tick - begins) % period + begins < until[robot] for robot, tick in passes)
 
 
 def _history(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, ...]:
