@@ -34,7 +34,7 @@ OTHERS_SHARE = 0.05
 CUTTING_SHARE = 0.25
 """The part of what is left that goes into timetables cut out of that run."""
 
-CLOSING_SHARE = 0.8
+CLOSING_SHARE = 0.6
 """The part of that in which they are cut; in the rest the best get more laps."""
 
 CUT, SHORT = 2, 4_000
@@ -51,9 +51,6 @@ PLACING_SHARE = 0.7
 
 TRYING_SHARE = 0.5
 """The part of what is left then that shows which of those kept is worth going on with."""
-
-LEAST_HOPE = Fraction(7, 10)
-"""What is worth less, by the best that there is to start from, is not improved."""
 
 GOING_ON_SHARE = 0.7
 """The part of the rest in which the best of those is improved; what remains is for the best of all.
@@ -235,9 +232,8 @@ def _first_timetables(shift: Shift, rounds: int | None) -> Iterator[Choice]:
 
 def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Choice:
     """Improve all that are short a little, go on with the best of these, then with the best."""
-    least = LEAST_HOPE * max(map(shift.value, starts))
-    hopeful = [start for start in starts if shift.value(start) >= least]
-    short = [start for start in hopeful if start.visits <= SHORT] or hopeful
+    net = max(starts, key=shift.value)
+    short = [start for start in starts if start.visits <= SHORT] or [net]
     trying = shift.deadline.sooner(TRYING_SHARE)
     tried = []
     for index, start in enumerate(short):
@@ -245,7 +241,7 @@ def _improved(shift: Shift, starts: Sequence[Choice], rounds: int | None) -> Cho
         tried.append(improve(share, start, steps=rounds))
     going_on = shift.until(shift.deadline.sooner(GOING_ON_SHARE))
     best = improve(going_on, max(tried, key=shift.value), steps=rounds)
-    return improve(shift, max(*starts, best, key=shift.value), steps=rounds)
+    return improve(shift, max(net, best, key=shift.value), steps=rounds)
 
 
 def _whole(shift: Shift, choice: Choice) -> PeriodicTimetable:
