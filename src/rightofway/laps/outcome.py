@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -9,12 +11,15 @@ from typing import Literal
 from rightofway.laps.bottleneck import Bottleneck, bottleneck_of
 from rightofway.laps.conflicts import Bookings, Conflict
 from rightofway.laps.endless import Endless
+from rightofway.laps.measured import Measured, measure
 from rightofway.laps.pattern import Pattern
 from rightofway.model import Scenario
 from rightofway.planners import planning_headway
 from rightofway.precedence import EventGraph, PeriodicTimetable, event_graph
 
 __all__ = ["GroupRun", "LapsRun"]
+
+BILLION = 10**9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,7 +44,7 @@ class GroupRun:
     ends: Literal["repeats", "deadlock", "open"]
     why: str
     group: tuple[Endless, ...]
-    history: tuple[tuple[int, ...], ...]
+    history: tuple[Sequence[int], ...]
     pattern: Pattern | None
 
     @property
@@ -62,15 +67,16 @@ class GroupRun:
     def mean_laps(self) -> tuple[Fraction | None, ...]:
         """Return how long a lap of each robot takes on average [ticks]; None if it makes none.
 
-        In the long run if the group repeats itself, otherwise of the laps that were made.
+        In the long run if the group repeats itself, otherwise as `measured`.
         """
         if self.pattern:
             period = self.pattern.period
             return tuple(Fraction(period, n) if n else None for n in self.pattern.counts)
-        return tuple(
-            Fraction(past[laps * len(endless.lap)], laps) if laps else None
-            for endless, past, laps in zip(self.group, self.history, self.laps_made(), strict=True)
-        )
+        return self.measured().means
+
+    def measured(self) -> Measured:
+        """Return what the laps that were seen say; of use where nothing is known to repeat."""
+        return measure(self.group, self.history)
 
     def waiting_shares(self) -> tuple[Fraction | None, ...]:
         """Return which part of its time each robot waits for others; None if it makes no lap."""
@@ -124,10 +130,19 @@ class LapsRun:
         return event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
 
     def throughput(self) -> Fraction:
-        """Return how many laps all robots complete in a time unit of the scenario."""
+        """Return how many laps all robots complete in a time unit of the scenario.
+
+        Exact where groups repeat themselves; what is measured is rounded to a billionth, as an
+        exact sum of a thousand fractions has thousands of digits.
+        """
+        return sum((self._throughput(group) for group in self.groups), Fraction(0))
+
+    def _throughput(self, group: GroupRun) -> Fraction:
         tick = self.scenario.timing.clock.tick
-        means = (mean for group in self.groups for mean in group.mean_laps())
-        return sum((1 / (mean * tick) for mean in means if mean), Fraction(0))
+        rates = (1 / (mean * tick) for mean in group.mean_laps() if mean)
+        if group.pattern:
+            return sum(rates, Fraction(0))
+        return Fraction(round(math.fsum(map(float, rates)) * BILLION), BILLION)
 
     def _bookings(self, group: GroupRun) -> Bookings:
         return Bookings(

@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp, InputError
 from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.giving import Deadlock
 from rightofway.laps.groups import independent_groups
+from rightofway.laps.native import Native
 from rightofway.laps.outcome import GroupRun, LapsRun
 from rightofway.laps.pattern import pattern_of
 from rightofway.laps.rolling import Rolling
-from rightofway.laps.rules import RULES
+from rightofway.laps.rules import FAR_SIGHTED, RULES
 from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 
-__all__ = ["ROUTES", "run_group", "run_laps"]
+__all__ = ["ROUTES", "each_its_share", "run_group", "run_laps"]
 
 ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
 
 LEAST_SHARE = 0.05
-"""The part of the time left that a group may take, however small it is."""
+"""The part of the time left that a group may take at first, however small it is."""
 
 
 def run_laps(
@@ -46,7 +48,8 @@ def run_laps(
     routes
         How the round trips are chosen, once and for all laps: ``clear`` or ``shortest``.
     time_limit
-        When to stop [s]; None for no limit. Groups get shares of it by their size.
+        When to stop [s]; None for no limit. Groups get shares of it by their size; those that are
+        open then go on with what is left.
     report
         Takes sentences on the progress.
 
@@ -72,25 +75,34 @@ def run_laps(
     _refuse_unknown("routes", routes, ROUTES)
     deadline = Deadline.after(time_limit)
     groups = independent_groups(endless_routes(scenario, routes))
-    found: dict[int, GroupRun] = {}
-    left = sum(map(len, groups))
-    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
-        group = groups[index]
-        if report:
-            report(f"{len(found)} of {len(groups)} groups done, next one of {len(group)} robots")
-        task = Task(
-            scenario=scenario,
-            options={"swaps": "resolve"},
-            deadline=deadline.sooner(max(len(group) / left, LEAST_SHARE)),
-        )
-        left -= len(group)
-        found[index] = run_group(task, group, rule)
+    going = [_going(Task(scenario=scenario), group, rule) for group in groups]
     return LapsRun(
         scenario=scenario,
         rule=rule,
         routes=routes,
-        groups=tuple(found[index] for index in range(len(groups))),
+        groups=tuple(each_its_share(going, deadline, report or (lambda _: None))),
     )
+
+
+def each_its_share(
+    going: Sequence[Rolling | Native], deadline: Deadline, report: Callable[[str], None]
+) -> list[GroupRun]:
+    """Let all groups go on, small ones first, and those that are open again with what is left."""
+    found: dict[int, GroupRun] = {}
+    sizes = [len(one.ground.group) for one in going]
+    open_ones = sorted(range(len(going)), key=lambda index: sizes[index])
+    while open_ones:
+        left = sum(sizes[index] for index in open_ones)
+        for index in open_ones:
+            known = sum(one.ends != "open" for one in found.values())
+            report(f"{known} of {len(going)} groups done, next one of {sizes[index]} robots")
+            share = deadline.sooner(max(sizes[index] / left, LEAST_SHARE))
+            left -= sizes[index]
+            found[index] = _go_on(going[index], share)
+        open_ones = [index for index in open_ones if found[index].ends == "open"]
+        if deadline.seconds_left() == 0:
+            break
+    return [found[index] for index in range(len(going))]
 
 
 def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
@@ -100,30 +112,32 @@ def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
 
 def run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
     """Let one group repeat its round trips until its pattern repeats; see `run_laps`."""
+    return _go_on(_going(task, group, rule), task.deadline)
+
+
+def _going(task: Task, group: Sequence[Endless], rule: str) -> Rolling | Native:
+    """Return a group at its beginning."""
     ground = Ground(
-        task=task,
+        task=replace(task, options={"swaps": "resolve"}),
         group=group,
         headway=planning_headway(task.scenario),
         books_ahead=task.scenario.rules.books_ahead,
     )
-    rolling, pattern = Rolling(ground, rule), None
+    return Rolling(ground, rule) if rule in FAR_SIGHTED else Native(ground, rule)
+
+
+def _go_on(going: Rolling | Native, deadline: Deadline) -> GroupRun:
     ends: Literal["repeats", "deadlock", "open"] = "repeats"
-    why = ""
+    group, pattern, why = going.ground.group, None, ""
     try:
-        known = rolling.until_it_repeats()
-        lengths = [len(endless.lap) for endless in group]
-        pattern = pattern_of(rolling.cut.history, lengths, known)
+        known = going.until_it_repeats(deadline)
+        pattern = pattern_of(going.history, [len(endless.lap) for endless in group], known)
     except Deadlock as deadlock:
-        ends, why = "deadlock", _explain(deadlock, ground)
+        ends, why = "deadlock", _explain(deadlock, going.ground)
     except GaveUp:
         ends, why = "open", "no state came again within the time limit"
-    return GroupRun(
-        ends=ends,
-        why=why,
-        group=tuple(group),
-        history=tuple(map(tuple, rolling.cut.history)),
-        pattern=pattern,
-    )
+    history = pattern.history if pattern else going.history
+    return GroupRun(ends=ends, why=why, group=tuple(group), history=tuple(history), pattern=pattern)
 
 
 def _explain(deadlock: Deadlock, ground: Ground) -> str:
