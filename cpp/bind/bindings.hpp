@@ -55,6 +55,7 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
 
 void bind_circle(nb::module_& module);
 void bind_distance_tables(nb::module_& module);
+void bind_endless_run(nb::module_& module);
 void bind_event_graph(nb::module_& module);
 void bind_event_lacam(nb::module_& module);
 void bind_event_pibt(nb::module_& module);

@@ -27,6 +27,7 @@ NB_MODULE(_core, module) {
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
     rightofway::bind::bind_circle(module);
     rightofway::bind::bind_distance_tables(module);
+    rightofway::bind::bind_endless_run(module);
     rightofway::bind::bind_event_graph(module);
     rightofway::bind::bind_event_lacam(module);
     rightofway::bind::bind_event_pibt(module);

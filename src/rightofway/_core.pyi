@@ -207,6 +207,104 @@ class DistanceTables:
     def n_edges(self) -> int:
         """The number of edges, E."""
 
+class EndlessRun:
+    """
+    Robots that repeat their laps under a rule that sees two of them, until a state comes again.
+
+    Parameters
+    ----------
+    first_place : int32[R + 1]
+        Robot ``r`` has the places ``first_place[r]`` up to ``first_place[r + 1]`` of a lap.
+    vertex : int32[N]
+        Where each place is; the first of a lap is home.
+    least : int64[N]
+        The least ticks from the enter of a place to that of the next, round the lap.
+    approach : int64[N]
+        How long before its enter a visit books its vertex. [ticks]
+    first_least : int64[R]
+        The least ticks of the very first visit, which nobody turns for.
+    headway : int
+        How long after its leave a visit books its vertex. [ticks]
+    pacemaker, lag : int
+        Cuts are made where this robot is home; what meets less than the lag after that is settled
+        before. [ticks]
+    most_lag, patience : int
+        How long the lag may get, and how long a pacemaker may stay away. [ticks]
+    reach : int
+        How long before a cut visits may have been left that still matter. [ticks]
+    memory : int
+        How many cuts can be taken back.
+    fixed_order : bool
+        Whether the robot listed first goes first, or that which would enter the segment first.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together; the message names array, index and value.
+
+    Notes
+    -----
+    Exact and deterministic: the decisions of ``laps.rolling``. The GIL is released while it goes on;
+    Ctrl-C is obeyed.
+    """
+
+    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, fixed_order: bool) -> None: ...
+
+    def go_on(self, time_limit: float | None = None) -> int:
+        """
+        Go on until a state comes again, a deadlock, or time is over.
+
+        Parameters
+        ----------
+        time_limit : float or None
+            After so many seconds it stops, and can go on later.
+
+        Returns
+        -------
+        int
+            0 if time ran out, 1 if a state came again, 2 in a deadlock.
+        """
+
+    def forget(self) -> None:
+        """Forget the states seen, so that it goes on where one came again."""
+
+    @property
+    def cut(self) -> int:
+        """Up to when all is settled. [ticks]"""
+
+    @property
+    def came_before(self) -> int:
+        """When the state that came again at the cut was there before. [ticks]"""
+
+    def begun(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Return how many visits of each robot have begun, int32[R]."""
+
+    def waits(self, robot: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return which visits of a robot were late.
+
+        Returns
+        -------
+        tuple of (int32[K], int64[K])
+            Their numbers, and how long the robot had waited by then in all. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If there is no such robot.
+        """
+
+    def deadlock(self) -> tuple[int, int, int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+        """
+        Return the deadlock that it ran into.
+
+        Returns
+        -------
+        tuple of (int, int, int, int, int32[K])
+            The two robots that cannot be kept apart, the vertex, the tick, and the robots that would each
+            wait for the next.
+        """
+
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
     """
     Find the circuit with the largest mean: the cycle time of events that repeat.

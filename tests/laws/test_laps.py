@@ -142,15 +142,13 @@ def test_what_comes_after_is_what_was_foretold(rule: str, seed: int, rules: Rule
     for group in independent_groups(endless_routes(scenario)):
         rolling = rolling_on(scenario, group, rule)
         try:
-            known = rolling.until_it_repeats()
-            pattern = pattern_of(
-                rolling.cut.history, [len(endless.lap) for endless in group], known
-            )
-            rolling._seen.clear()
-            rolling.until_it_repeats()
+            known = rolling.until_it_repeats(Deadline.after(2))
+            pattern = pattern_of(rolling.history, [len(endless.lap) for endless in group], known)
+            rolling.forget()
+            rolling.until_it_repeats(Deadline.after(2))
         except (Deadlock, GaveUp):
             continue
-        for robot, past in enumerate(rolling.cut.history):
+        for robot, past in enumerate(rolling.history):
             known_visits = len(pattern.history[robot])
             if pattern.counts[robot]:
                 assert past[known_visits:] == [

@@ -6,6 +6,7 @@ the very tick from which another one lets it.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -64,10 +65,12 @@ class Bookings:
 
     def in_first_laps(self, history: History) -> tuple[Conflict, ...]:
         """Return who waits for whom in the first lap of each robot, by tick."""
-        seen = [range(len(past) - 1) for past in history]
         first = [
-            visits[: len(endless.lap)] for visits, endless in zip(seen, self.group, strict=True)
+            range(min(len(past) - 1, len(endless.lap)))
+            for past, endless in zip(history, self.group, strict=True)
         ]
+        until = max(past[visits.stop] for past, visits in zip(history, first, strict=True))
+        seen = [range(min(len(past) - 1, bisect_right(past, until))) for past in history]
         return self._conflicts(lambda robot, visit: history[robot][visit], seen, first)
 
     def in_period(self, pattern: Pattern) -> tuple[Conflict, ...]:

@@ -7,6 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.errors import InputError, Problem
 from rightofway.laps.homes import keep_off_homes
 from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_of
@@ -54,6 +57,13 @@ class Endless:
     def least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's."""
         return self.lap.least(self.place(visit)) if visit else self.first_least
+
+    def free(self, visits: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return when visits begin if nobody is ever in the way [ticks]."""
+        laps, places = np.divmod(visits, len(self.lap))
+        within = np.array(self._within, np.int64)
+        later = laps * within[-1] + within[places] - within[1] + self.first_least
+        return np.where(visits > 0, later, 0)
 
     def lasting(self, visit: int, ticks: int) -> int:
         """Return how many visits from a later one than 0 on last that long at least."""

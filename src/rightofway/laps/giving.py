@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 
 from rightofway.laps.rules import EndlessRule
 from rightofway.laps.window import Numbered, Window
+from rightofway.model import Tick, VertexId
 from rightofway.planners.giving_way import Right, rights_if_waits
 from rightofway.precedence import Meeting
 
@@ -53,10 +54,12 @@ class Deadlock(Exception):
         one of the two stays, or has come already, where the other has to be.
     """
 
-    def __init__(self, window: Window, meeting: Meeting, circle: Sequence[int]) -> None:
-        self.robots = meeting.robots
-        self.vertex = window.graph.vertex(meeting.visits[0])
-        self.tick = window.begins + meeting.tick
+    def __init__(
+        self, robots: tuple[int, int], vertex: VertexId, tick: Tick, circle: Sequence[int]
+    ) -> None:
+        self.robots = robots
+        self.vertex = vertex
+        self.tick = tick
         self.circle = tuple(circle)
         super().__init__()
 
@@ -104,7 +107,7 @@ class Decisions:
         window = self.window
         segment = window.segment_of(meeting)
         if window.is_endless(meeting, segment):
-            raise Deadlock(window, meeting, meeting.robots)
+            raise self._deadlock(meeting, meeting.robots)
         waits = rule(window, meeting, segment)
         ways = [
             self._numbered(rights_if_waits(window.graph, meeting, segment, who))
@@ -117,11 +120,16 @@ class Decisions:
                 return
             culprits |= self._culprits()
         if not self._go_back(culprits):
-            raise Deadlock(window, meeting, self._circle)
+            raise self._deadlock(meeting, self._circle)
 
     def orders(self) -> list[Order]:
         """Return all decisions, to be carried on to the next window."""
         return [step.order for step in self.steps]
+
+    def _deadlock(self, meeting: Meeting, circle: Sequence[int]) -> Deadlock:
+        vertex = self.window.graph.vertex(meeting.visits[0])
+        tick = Tick(self.window.begins + meeting.tick)
+        return Deadlock(meeting.robots, vertex, tick, circle)
 
     def _take(
         self, order: Order, *, turned: bool = False, culprits: set[int] | None = None

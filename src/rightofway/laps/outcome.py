@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -39,7 +40,7 @@ class GroupRun:
     ends: Literal["repeats", "deadlock", "open"]
     why: str
     group: tuple[Endless, ...]
-    history: tuple[tuple[int, ...], ...]
+    history: tuple[Sequence[int], ...]
     pattern: Pattern | None
 
     @property

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.laps.endless import Endless
 from rightofway.model import Tick
@@ -17,6 +18,9 @@ __all__ = ["History", "Pattern", "pattern_of"]
 
 History = Sequence[Sequence[int]]
 """For each robot the ticks at which its visits began, from visit 0 on."""
+
+Enters = NDArray[np.int64]
+"""The same of one robot."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +46,7 @@ class Pattern:
     transient: Tick
     period: Tick
     counts: tuple[int, ...]
-    history: tuple[tuple[int, ...], ...]
+    history: tuple[Sequence[int], ...]
     lengths: tuple[int, ...]
     regular: tuple[int, ...]
 
@@ -104,56 +108,56 @@ def pattern_of(history: History, lengths: Sequence[int], known: tuple[int, int])
     known
         Two ticks of which it is known that everything after the one comes again after the other.
     """
-    past = tuple(map(tuple, history))
-    shifts, period = _least(past, lengths, known)
+    pasts = [np.asarray(past, np.int64) for past in history]
+    shifts, period = _least(pasts, lengths, known)
     regular = tuple(
-        _regular(enter, shift, period) for enter, shift in zip(past, shifts, strict=True)
+        _regular(enter, shift, period) for enter, shift in zip(pasts, shifts, strict=True)
     )
     return Pattern(
-        transient=Tick(max(map(_last_exception, past, shifts, regular, [period] * len(past)))),
+        transient=Tick(max(map(_last_exception, pasts, shifts, regular, [period] * len(pasts)))),
         period=Tick(period),
         counts=tuple(shift // length for shift, length in zip(shifts, lengths, strict=True)),
-        history=past,
+        history=tuple(history),
         lengths=tuple(lengths),
         regular=regular,
     )
 
 
-def _least(past: History, lengths: Sequence[int], known: tuple[int, int]) -> tuple[list[int], int]:
+def _least(
+    pasts: Sequence[Enters], lengths: Sequence[int], known: tuple[int, int]
+) -> tuple[list[int], int]:
     """Return by how many visits each robot goes on in the least period, and the period."""
     begins, again = known
-    first = [bisect_right(enter, begins) for enter in past]
-    shifts = [len(enter) - start for enter, start in zip(past, first, strict=True)]
+    first = [int(np.searchsorted(enter, begins, side="right")) for enter in pasts]
+    shifts = [len(enter) - start for enter, start in zip(pasts, first, strict=True)]
     laps = [shift // length for shift, length in zip(shifts, lengths, strict=True)]
     period, most = again - begins, math.gcd(*laps)
     for parts in range(most, 1, -1):
         smaller = [shift // parts for shift in shifts]
         if most % parts == period % parts == 0 and all(
             _repeats(enter[start:], shift, period // parts)
-            for enter, start, shift in zip(past, first, smaller, strict=True)
+            for enter, start, shift in zip(pasts, first, smaller, strict=True)
         ):
             return smaller, period // parts
     return shifts, period
 
 
-def _repeats(enter: Sequence[int], shift: int, period: int) -> bool:
-    return all(
-        later == sooner + period for sooner, later in zip(enter, enter[shift:], strict=False)
-    )
+def _repeats(enter: Enters, shift: int, period: int) -> bool:
+    return bool(np.all(enter[shift:] == enter[: len(enter) - shift] + period))
 
 
-def _regular(enter: Sequence[int], shift: int, period: int) -> int:
+def _regular(enter: Enters, shift: int, period: int) -> int:
     """Return the first visit from which on all begin again a period later."""
-    visit = len(enter) - shift
-    while visit and enter[visit - 1 + shift] == enter[visit - 1] + period:
-        visit -= 1
-    return visit if shift else len(enter) - 1
+    if not shift:
+        return len(enter) - 1
+    [others] = np.nonzero(enter[shift:] != enter[:-shift] + period)
+    return int(others[-1]) + 1 if len(others) else 0
 
 
-def _last_exception(enter: Sequence[int], shift: int, regular: int, period: int) -> int:
+def _last_exception(enter: Enters, shift: int, regular: int, period: int) -> int:
     """Return from when on the robot is where it will be a period later."""
     if not shift:
-        return enter[-1]
+        return int(enter[-1])
     if not regular:
         return 0
-    return max(enter[regular - 1], enter[regular - 1 + shift] - period, 0)
+    return max(int(enter[regular - 1]), int(enter[regular - 1 + shift]) - period, 0)

@@ -11,16 +11,18 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
 
+from rightofway.laps.endless import Endless
 from rightofway.laps.giving import Deadlock, Decisions, Order
 from rightofway.laps.rules import FAR_SIGHTED, RULES
 from rightofway.laps.window import Cut, Ground, TooShort, Window
+from rightofway.planners import Deadline
 
-__all__ = ["Rolling"]
+__all__ = ["MEMORY", "MOST_LAG", "PATIENCE", "Pace", "Rolling"]
 
 PATIENCE = 8
 """How many of the longest laps a pacemaker may stay away before somebody else becomes it."""
@@ -33,6 +35,34 @@ MOST_LAG = 4
 
 MEMORY = 32
 """How many windows can be taken back."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pace:
+    """How a group goes on.
+
+    Attributes
+    ----------
+    pacemaker
+        The robot that is home again at each cut, at first.
+    ticks
+        How long its lap takes alone; as long is the lag [ticks].
+    longest
+        How long the longest lap of the group takes alone [ticks].
+    """
+
+    pacemaker: int
+    ticks: int
+    longest: int
+
+    @classmethod
+    def of(cls, group: Sequence[Endless], rule: str) -> Pace:
+        """Return the pace of a group under a rule."""
+        durations = [endless.lap.duration for endless in group]
+        longest = max(durations)
+        least = longest if rule in FAR_SIGHTED else -(-longest // PARTS)
+        ticks = min(duration for duration in durations if duration >= least)
+        return cls(pacemaker=durations.index(ticks), ticks=ticks, longest=longest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,19 +95,22 @@ class Rolling:
         self.cut = Cut(0, [[0] for _ in ground.group])
         self._rule = RULES[rule]
         self._orders: tuple[Order, ...] = ()
-        durations = [endless.lap.duration for endless in ground.group]
-        self._longest = max(durations)
-        least = self._longest if rule in FAR_SIGHTED else -(-self._longest // PARTS)
-        pace = min(duration for duration in durations if duration >= least)
-        self._pacemaker = durations.index(pace)
-        self._pace = pace
-        self._lag: int = pace
+        pace = Pace.of(ground.group, rule)
+        self._longest = pace.longest
+        self._pacemaker = pace.pacemaker
+        self._pace = pace.ticks
+        self._lag: int = pace.ticks
         self._trouble = 0
         self._seen: dict[Hashable, int] = {}
         self._past: deque[_Moment] = deque(maxlen=MEMORY)
         self._back = 1
 
-    def until_it_repeats(self) -> tuple[int, int]:
+    @property
+    def history(self) -> list[list[int]]:
+        """For each robot when its visits so far began."""
+        return self.cut.history
+
+    def until_it_repeats(self, deadline: Deadline) -> tuple[int, int]:
         """Go on until the state at a cut is the same as at an earlier one; return both ticks.
 
         Raises
@@ -85,8 +118,9 @@ class Rolling:
         Deadlock
             If the rule runs into one.
         GaveUp
-            If time runs out.
+            If time runs out; it can be asked again.
         """
+        self.ground = replace(self.ground, task=replace(self.ground.task, deadline=deadline))
         while True:
             self.ground.task.deadline.check("waiting for a state to come again")
             in_trouble = self.cut.tick < self._trouble
@@ -167,6 +201,10 @@ class Rolling:
             if meeting is None or tick >= limit:
                 return
             decisions.settle(meeting, self._rule)
+
+    def forget(self) -> None:
+        """Forget the states seen, so that it goes on where one came again."""
+        self._seen.clear()
 
     def _change_pacemaker(self, window: Window) -> int:
         """Let the robot set the pace that is home again first; this one seems to wait for ever."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp, InputError
 from rightofway.laps.endless import Endless, endless_routes
 from rightofway.laps.giving import Deadlock
 from rightofway.laps.groups import independent_groups
+from rightofway.laps.native import Native
 from rightofway.laps.outcome import GroupRun, LapsRun
 from rightofway.laps.pattern import pattern_of
 from rightofway.laps.rolling import Rolling
-from rightofway.laps.rules import RULES
+from rightofway.laps.rules import FAR_SIGHTED, RULES
 from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
@@ -23,7 +25,7 @@ ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
 
 LEAST_SHARE = 0.05
-"""The part of the time left that a group may take, however small it is."""
+"""The part of the time left that a group may take at first, however small it is."""
 
 
 def run_laps(
@@ -46,7 +48,8 @@ def run_laps(
     routes
         How the round trips are chosen, once and for all laps: ``clear`` or ``shortest``.
     time_limit
-        When to stop [s]; None for no limit. Groups get shares of it by their size.
+        When to stop [s]; None for no limit. Groups get shares of it by their size; those that are
+        open then go on with what is left.
     report
         Takes sentences on the progress.
 
@@ -72,19 +75,22 @@ def run_laps(
     _refuse_unknown("routes", routes, ROUTES)
     deadline = Deadline.after(time_limit)
     groups = independent_groups(endless_routes(scenario, routes))
+    going = [_going(Task(scenario=scenario), group, rule) for group in groups]
     found: dict[int, GroupRun] = {}
-    left = sum(map(len, groups))
-    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
-        group = groups[index]
-        if report:
-            report(f"{len(found)} of {len(groups)} groups done, next one of {len(group)} robots")
-        task = Task(
-            scenario=scenario,
-            options={"swaps": "resolve"},
-            deadline=deadline.sooner(max(len(group) / left, LEAST_SHARE)),
-        )
-        left -= len(group)
-        found[index] = run_group(task, group, rule)
+    open_ones = sorted(range(len(groups)), key=lambda index: len(groups[index]))
+    while open_ones:
+        left = sum(len(groups[index]) for index in open_ones)
+        for index in open_ones:
+            size = len(groups[index])
+            if report:
+                known = sum(one.ends != "open" for one in found.values())
+                report(f"{known} of {len(groups)} groups done, next one of {size} robots")
+            share = deadline.sooner(max(size / left, LEAST_SHARE))
+            left -= size
+            found[index] = _go_on(going[index], share)
+        open_ones = [index for index in open_ones if found[index].ends == "open"]
+        if deadline.seconds_left() == 0:
+            break
     return LapsRun(
         scenario=scenario,
         rule=rule,
@@ -100,30 +106,32 @@ def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
 
 def run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
     """Let one group repeat its round trips until its pattern repeats; see `run_laps`."""
+    return _go_on(_going(task, group, rule), task.deadline)
+
+
+def _going(task: Task, group: Sequence[Endless], rule: str) -> Rolling | Native:
+    """Return a group at its beginning."""
     ground = Ground(
-        task=task,
+        task=replace(task, options={"swaps": "resolve"}),
         group=group,
         headway=planning_headway(task.scenario),
         books_ahead=task.scenario.rules.books_ahead,
     )
-    rolling, pattern = Rolling(ground, rule), None
+    return Rolling(ground, rule) if rule in FAR_SIGHTED else Native(ground, rule)
+
+
+def _go_on(going: Rolling | Native, deadline: Deadline) -> GroupRun:
     ends: Literal["repeats", "deadlock", "open"] = "repeats"
-    why = ""
+    group, pattern, why = going.ground.group, None, ""
     try:
-        known = rolling.until_it_repeats()
-        lengths = [len(endless.lap) for endless in group]
-        pattern = pattern_of(rolling.cut.history, lengths, known)
+        known = going.until_it_repeats(deadline)
+        pattern = pattern_of(going.history, [len(endless.lap) for endless in group], known)
     except Deadlock as deadlock:
-        ends, why = "deadlock", _explain(deadlock, ground)
+        ends, why = "deadlock", _explain(deadlock, going.ground)
     except GaveUp:
         ends, why = "open", "no state came again within the time limit"
-    return GroupRun(
-        ends=ends,
-        why=why,
-        group=tuple(group),
-        history=tuple(map(tuple, rolling.cut.history)),
-        pattern=pattern,
-    )
+    history = pattern.history if pattern else going.history
+    return GroupRun(ends=ends, why=why, group=tuple(group), history=tuple(history), pattern=pattern)
 
 
 def _explain(deadlock: Deadlock, ground: Ground) -> str:

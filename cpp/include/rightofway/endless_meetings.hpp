@@ -1,0 +1,69 @@
+// Who meets next on endless routes: a sweep in order of time that goes no further than it is asked.
+//
+// Visits are swept in the order in which their bookings start, into a list for each vertex. A visit
+// that is swept finds its conflicts with those in the list; they wait in a heap until everything
+// that starts before them is swept too. Where times change, the robot's visits from there on are
+// taken out and swept anew, so a conflict is known as soon as both its visits are. What is in the
+// heap and does not hold any more is dropped when it comes out on top.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rightofway/conflict.hpp"
+#include "rightofway/endless_routes.hpp"
+#include "rightofway/endless_timetable.hpp"
+#include "rightofway/types.hpp"
+
+namespace rightofway {
+
+class EndlessMeetings {
+  public:
+    // Both are borrowed and must outlive this.
+    EndlessMeetings(const EndlessRoutes& routes, const EndlessTimetable& timetable);
+
+    // The earliest conflict in view before a tick, in the order of `Conflict`; visits by number.
+    std::optional<Conflict> next(Tick limit);
+
+    // Must be told where times have changed,
+    void change(std::span<const EndlessTimetable::Changed> changed);
+    // how far a robot's visits were shown before the view has moved,
+    void show(RobotId robot, std::int32_t old_end);
+    // and when everything is another.
+    void restart();
+
+    // How many visits were swept so far.
+    std::int64_t n_swept() const { return n_swept_; }
+
+  private:
+    struct Booked {
+        EndlessVisit visit;
+        Booking booking;
+    };
+    struct Ahead {
+        Tick start;
+        EndlessVisit visit;
+        auto operator<=>(const Ahead&) const = default;
+    };
+
+    Booking booking(EndlessVisit visit) const;
+    bool is_shown(EndlessVisit visit) const;
+    bool holds(const Conflict& conflict) const;
+    void look_ahead(RobotId robot);
+    void take_out(RobotId robot, std::int32_t from);
+    void sweep(EndlessVisit visit);
+    void compare(const Booked& own, const Booked& other);
+    void add(EndlessVisit one, EndlessVisit other, Tick tick, ConflictKind kind);
+
+    const EndlessRoutes& routes_;
+    const EndlessTimetable& timetable_;
+    std::vector<std::vector<Booked>> at_;  // per vertex
+    std::vector<std::int32_t> swept_;      // per robot: the first visit that is not
+    std::vector<Ahead> ahead_;             // a heap
+    std::vector<Conflict> conflicts_;      // a heap
+    std::int64_t n_swept_ = 0;
+};
+
+}  // namespace rightofway

@@ -1,0 +1,257 @@
+#include "rightofway/endless_giving.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace rightofway {
+
+EndlessGiving::EndlessGiving(const EndlessRoutes& routes, EndlessTimetable& timetable,
+                             EndlessMeetings& meetings, EndlessRule rule)
+    : routes_(routes), timetable_(timetable), meetings_(meetings), rule_(rule) {}
+
+EndlessGiving::Outcome EndlessGiving::settle(const Conflict& conflict) {
+    const EndlessVisit i{conflict.robot_a, conflict.visit_a};
+    EndlessVisit j{conflict.robot_b, conflict.visit_b};
+    if (conflict.kind == ConflictKind::swap) {
+        j = j.before();  // the visit that j ends as i enters
+    }
+    met_ = {i, j};
+    circle_.clear();
+    const Segment segment = segment_of(i, j);
+    if (segment.is_head_on && reaches_the_end(segment)) {
+        const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
+        // Two endless routes that run together for as many visits as both laps do so for ever
+        // (Fine and Wilf 1965).
+        if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
+            return Outcome::too_short;
+        }
+        circle_ = {i.robot, j.robot};
+        return Outcome::deadlock;
+    }
+    const bool waits = i_waits(segment);
+    std::vector<Owner> culprits;
+    for (const bool turned : {false, true}) {
+        EndlessOrder order{rights_if(segment, waits != turned),
+                           rights_if(segment, waits == turned)};
+        if (take(std::move(order), turned, culprits)) {
+            return Outcome::settled;
+        }
+        blame(culprits, next_serial_);
+    }
+    return go_back(std::move(culprits)) ? Outcome::settled : Outcome::deadlock;
+}
+
+// The longest run of vertices around two visits that one has in reverse order of the other, or else
+// in the same.
+EndlessGiving::Segment EndlessGiving::segment_of(EndlessVisit i, EndlessVisit j) const {
+    for (const std::int32_t step : {-1, 1}) {
+        const std::int32_t before = run(i, j, -1, -step);
+        const std::int32_t after = run(i, j, 1, step);
+        if (before == 0 && after == 0) {
+            continue;
+        }
+        const auto at = [](EndlessVisit visit, std::int32_t later) {
+            return EndlessVisit{visit.robot, visit.number + later};
+        };
+        const bool is_head_on = step < 0;
+        return {is_head_on,
+                !is_head_on,
+                at(i, -before),
+                at(i, after),
+                at(j, is_head_on ? -after : -before),
+                at(j, is_head_on ? before : after)};
+    }
+    return {false, false, i, i, j, j};
+}
+
+std::int32_t EndlessGiving::run(EndlessVisit i, EndlessVisit j, std::int32_t i_step,
+                                std::int32_t j_step) const {
+    const auto [i_start, j_start] = std::pair(timetable_.start(i.robot), timetable_.start(j.robot));
+    const auto [i_end, j_end] = std::pair(timetable_.end(i.robot), timetable_.end(j.robot));
+    std::int32_t length = 0;
+    for (;; ++length) {
+        i.number += i_step;
+        j.number += j_step;
+        if (i.number < i_start || i.number >= i_end || j.number < j_start || j.number >= j_end ||
+            routes_.vertex(i) != routes_.vertex(j)) {
+            return length;
+        }
+    }
+}
+
+bool EndlessGiving::reaches_the_end(const Segment& segment) const {
+    return segment.i_last.number == timetable_.end(segment.i_last.robot) - 1 ||
+           segment.j_last.number == timetable_.end(segment.j_last.robot) - 1;
+}
+
+// On a tie the first listed goes first.
+bool EndlessGiving::i_waits(const Segment& segment) const {
+    return rule_ == EndlessRule::first_come &&
+           seen_enter(segment.j_first) < seen_enter(segment.i_first);
+}
+
+// What was entered before the view begins is there from its beginning.
+Tick EndlessGiving::seen_enter(EndlessVisit visit) const {
+    return std::max(timetable_.enter(visit), timetable_.begins());
+}
+
+// Head-on, the last visit of one and the first of the other say it all.
+std::vector<EndlessRight> EndlessGiving::rights_if(const Segment& segment, bool i_waits) {
+    if (!segment.is_following) {
+        return {i_waits ? EndlessRight{segment.j_last, segment.i_first}
+                        : EndlessRight{segment.i_last, segment.j_first}};
+    }
+    std::vector<EndlessRight> rights;
+    EndlessVisit j = segment.j_first;
+    for (EndlessVisit i = segment.i_first; i <= segment.i_last; i = i.next(), j = j.next()) {
+        rights.push_back(i_waits ? EndlessRight{j, i} : EndlessRight{i, j});
+    }
+    return rights;
+}
+
+bool EndlessGiving::take(EndlessOrder&& order, bool is_turned, const std::vector<Owner>& culprits) {
+    const Owner serial = next_serial_;
+    const EndlessTimetable::Mark mark = timetable_.mark();
+    auto& changed = timetable_.changed();
+    const std::size_t n_changed = changed.size();
+    for (const auto& [first, second] : order.rights) {
+        if (!timetable_.precede(first, second, serial)) {
+            const auto owners = timetable_.cycle_owners();
+            blamed_.assign(owners.begin(), owners.end());
+            timetable_.rollback(mark);
+            changed.resize(n_changed);  // all is as it was
+            return false;
+        }
+    }
+    ++next_serial_;
+    tell();
+    steps_.push_back({serial, mark, false, is_turned, culprits, std::move(order)});
+    return true;
+}
+
+// Adds the decisions that made the last right of way impossible.
+void EndlessGiving::blame(std::vector<Owner>& culprits, Owner below) {
+    const auto cycle = timetable_.cycle();
+    if (!cycle.empty()) {
+        circle_.clear();
+        for (auto x = cycle.rbegin(); x != cycle.rend(); ++x) {
+            if (circle_.empty() || circle_.back() != x->robot) {
+                circle_.push_back(x->robot);
+            }
+        }
+    }
+    for (const Owner owner : blamed_) {
+        if (owner < below) {
+            culprits.push_back(owner);
+        }
+    }
+    std::sort(culprits.begin(), culprits.end());
+    culprits.erase(std::unique(culprits.begin(), culprits.end()), culprits.end());
+}
+
+// Turns the latest decision that helps; false if none does.
+bool EndlessGiving::go_back(std::vector<Owner> culprits) {
+    while (!culprits.empty()) {
+        Step step = forget_from(culprits.back());
+        culprits.pop_back();
+        culprits.insert(culprits.end(), step.culprits.begin(), step.culprits.end());
+        std::sort(culprits.begin(), culprits.end());
+        culprits.erase(std::unique(culprits.begin(), culprits.end()), culprits.end());
+        if (step.is_turned || step.order.others.empty()) {
+            continue;
+        }
+        std::swap(step.order.rights, step.order.others);
+        if (take(std::move(step.order), true, culprits)) {
+            return true;
+        }
+        blame(culprits, step.serial);
+    }
+    return false;
+}
+
+EndlessGiving::Step EndlessGiving::forget_from(Owner serial) {
+    const auto from = std::find_if(steps_.begin(), steps_.end(),
+                                   [serial](const Step& step) { return step.serial == serial; });
+    Step step = *from;
+    if (!step.is_carried) {
+        timetable_.rollback(step.mark);
+        steps_.erase(from, steps_.end());
+    } else {
+        for (auto one = from; one != steps_.end(); ++one) {
+            for (const EndlessRight& right : one->order.rights) {
+                timetable_.take_away(right, one->serial);
+            }
+        }
+        steps_.erase(from, steps_.end());
+        run_again();
+    }
+    tell();
+    return step;
+}
+
+void EndlessGiving::run_again() {
+    held_.clear();
+    for (const Step& step : steps_) {
+        held_.insert(held_.end(), step.order.rights.begin(), step.order.rights.end());
+    }
+    timetable_.run_again(held_);
+    carry_on();
+}
+
+void EndlessGiving::tell() {
+    meetings_.change(timetable_.changed());
+    timetable_.changed().clear();
+}
+
+// What was given before the view moved on is taken back one by one.
+void EndlessGiving::carry_on() {
+    for (Step& step : steps_) {
+        step.is_carried = true;
+    }
+}
+
+void EndlessGiving::drop_past() {
+    const auto is_past = [this](const EndlessRight& right) {
+        return timetable_.is_frozen(right.second);
+    };
+    const auto is_out = [this](const EndlessRight& right) {
+        return right.first.number < timetable_.start(right.first.robot);
+    };
+    for (Step& step : steps_) {
+        auto& [rights, others] = step.order;
+        std::erase_if(rights, [&](const auto& right) { return is_past(right) || is_out(right); });
+        if (std::any_of(others.begin(), others.end(), is_past)) {
+            others.clear();
+        }
+        std::erase_if(others, is_out);
+    }
+    std::erase_if(steps_, [](const Step& step) { return step.order.rights.empty(); });
+    look_again();
+}
+
+void EndlessGiving::look_again() {
+    for (Step& step : steps_) {
+        step.is_turned = false;
+        step.culprits.clear();
+    }
+    carry_on();
+}
+
+void EndlessGiving::put(const std::vector<EndlessOrder>& orders) {
+    steps_.clear();
+    for (const EndlessOrder& order : orders) {
+        steps_.push_back({next_serial_++, {}, true, false, {}, order});
+    }
+}
+
+void EndlessGiving::give() {
+    for (const Step& step : steps_) {
+        for (const auto& [first, second] : step.order.rights) {
+            timetable_.precede(first, second, step.serial);
+        }
+    }
+    tell();
+}
+
+}  // namespace rightofway
