@@ -7,59 +7,85 @@
 namespace rightofway {
 
 EndlessMeetings::EndlessMeetings(const EndlessRoutes& routes, const EndlessTimetable& timetable)
-    : routes_(routes),
-      timetable_(timetable),
-      at_(routes.n_vertices()),
-      swept_(routes.n_robots(), 0) {
+    : routes_(routes), timetable_(timetable), at_(routes.n_vertices()), sweeps_(routes.n_robots()) {
     restart();
 }
 
 void EndlessMeetings::restart() {
-    for (auto& list : at_) {
-        list.clear();
+    for (Place& place : at_) {
+        place.booked.clear();
     }
     ahead_.clear();
     conflicts_.clear();
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
-        swept_[r] = timetable_.start(r);
+        sweeps_[r].number = timetable_.start(r);
         look_ahead(r);
+        push_ahead(r);
     }
 }
 
 void EndlessMeetings::show(RobotId robot, std::int32_t old_end) {
-    if (timetable_.end(robot) < swept_[robot]) {
+    const std::int32_t swept = sweeps_[robot].number;
+    if (timetable_.end(robot) < swept) {
         take_out(robot, timetable_.end(robot));
-    } else if (swept_[robot] == old_end) {
+    } else if (swept == old_end || swept == timetable_.end(robot)) {
         look_ahead(robot);
+        push_ahead(robot);
     }
 }
 
 // A visit that is entered at another time was left at another one before.
 void EndlessMeetings::change(std::span<const EndlessTimetable::Changed> changed) {
     for (const auto& [robot, from] : changed) {
-        if (from <= swept_[robot]) {
+        if (from <= sweeps_[robot].number) {
             take_out(robot, from - 1);
         }
     }
 }
 
 void EndlessMeetings::take_out(RobotId robot, std::int32_t from) {
-    for (; swept_[robot] > from; --swept_[robot]) {
-        const EndlessVisit visit{robot, swept_[robot] - 1};
-        auto& list = at_[routes_.vertex(visit)];
+    std::int32_t& swept = sweeps_[robot].number;
+    for (; swept > from; --swept) {
+        const EndlessVisit visit{robot, swept - 1};
+        auto& booked = at_[routes_.vertex(visit)].booked;
         const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
-        *std::find_if(list.begin(), list.end(), is_it) = list.back();
-        list.pop_back();
+        booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
     }
     look_ahead(robot);
+    push_ahead(robot);
 }
 
 void EndlessMeetings::look_ahead(RobotId robot) {
-    const EndlessVisit visit{robot, swept_[robot]};
-    if (visit.number < timetable_.end(robot)) {
-        ahead_.push_back({booking(visit).start, visit});
+    Sweep& sweep = sweeps_[robot];
+    const EndlessVisit visit{robot, sweep.number};
+    sweep.place = routes_.place_in_lap(visit);
+    sweep.start = visit.number < timetable_.end(robot)
+                      ? timetable_.enter(visit) - routes_.approach(visit)
+                      : infinity;
+}
+
+void EndlessMeetings::push_ahead(RobotId robot) {
+    const Sweep& sweep = sweeps_[robot];
+    if (sweep.start < infinity) {
+        ahead_.push_back({sweep.start, {robot, sweep.number}});
         std::push_heap(ahead_.begin(), ahead_.end(), std::greater<>());
     }
+}
+
+// The robot that was swept goes on, most often by little: one way down the heap will do.
+void EndlessMeetings::replace_first_ahead(RobotId robot) {
+    const Ahead own{sweeps_[robot].start, {robot, sweeps_[robot].number}};
+    const std::size_t size = ahead_.size();
+    std::size_t at = 0;
+    for (std::size_t child = 1; child < size; child = 2 * at + 1) {
+        child += child + 1 < size && ahead_[child + 1] < ahead_[child];
+        if (own <= ahead_[child]) {
+            break;
+        }
+        ahead_[at] = ahead_[child];
+        at = child;
+    }
+    ahead_[at] = own;
 }
 
 Booking EndlessMeetings::booking(EndlessVisit visit) const {
@@ -100,35 +126,54 @@ std::optional<Conflict> EndlessMeetings::next(Tick limit) {
         if (swept_to >= limit) {
             return std::nullopt;
         }
-        const Ahead top = ahead_.front();
-        std::pop_heap(ahead_.begin(), ahead_.end(), std::greater<>());
-        ahead_.pop_back();
-        const EndlessVisit visit = top.visit;
-        const bool is_next = visit.number == swept_[visit.robot] &&
-                             visit.number < timetable_.end(visit.robot) &&
-                             top.start == booking(visit).start;
-        if (is_next) {
-            sweep(visit);
+        const auto& [start, visit] = ahead_.front();
+        const Sweep& own = sweeps_[visit.robot];
+        if (start < infinity && start == own.start && visit.number == own.number) {
+            sweep(visit.robot);
+        } else {
+            std::pop_heap(ahead_.begin(), ahead_.end(), std::greater<>());
+            ahead_.pop_back();
         }
     }
 }
 
-void EndlessMeetings::sweep(EndlessVisit visit) {
+// Sweeps the visit that is first of all ahead.
+void EndlessMeetings::sweep(RobotId robot) {
     ++n_swept_;
-    const Booked own{visit, booking(visit)};
-    auto& list = at_[routes_.vertex(visit)];
-    for (std::size_t k = 0; k < list.size();) {
-        if (list[k].visit.number < timetable_.start(list[k].visit.robot)) {
-            list[k] = list.back();
-            list.pop_back();
-            continue;
-        }
-        compare(own, list[k]);
-        ++k;
+    Sweep& sweep = sweeps_[robot];
+    const Tick leave = timetable_.enter({robot, sweep.number + 1});
+    const Booked own{{robot, sweep.number}, {sweep.start, leave + routes_.headway()}};
+    Place& place = at_[routes_.vertex_at(robot, sweep.place)];
+    auto& booked = place.booked;
+    place.longest = std::max(place.longest, own.booking.end - own.booking.start);
+    if (booked.size() == booked.capacity()) {
+        forget_past(booked);
     }
-    list.push_back(own);
-    ++swept_[visit.robot];
-    look_ahead(visit.robot);
+    std::size_t after = booked.size();
+    for (std::size_t k = after; k-- > 0;) {
+        const Booking& booking = booked[k].booking;
+        if (booking.start + place.longest < own.booking.start) {
+            break;
+        }
+        if (booking.start < own.booking.end && booking.end >= own.booking.start) {
+            compare(own, booked[k]);
+        }
+        after = booking.start > own.booking.start ? k : after;
+    }
+    booked.insert(booked.begin() + static_cast<std::ptrdiff_t>(after), own);
+    ++sweep.number;
+    sweep.place = sweep.place + 1 == routes_.length(robot) ? 0 : sweep.place + 1;
+    sweep.start = sweep.number < timetable_.end(robot)
+                      ? leave - routes_.approach_at(robot, sweep.place)
+                      : infinity;
+    replace_first_ahead(robot);
+}
+
+// Before a list grows: most often the first ones in it are long over.
+void EndlessMeetings::forget_past(std::vector<Booked>& booked) const {
+    const Tick begins = timetable_.begins();
+    const auto is_now = [begins](const Booked& one) { return one.booking.end > begins; };
+    booked.erase(booked.begin(), std::find_if(booked.begin(), booked.end(), is_now));
 }
 
 // A swap shows at the vertex that the other one leaves as this one enters.

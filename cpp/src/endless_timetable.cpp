@@ -254,7 +254,7 @@ void EndlessTimetable::run_on() {
     }
 }
 
-// Raises a visit and those after it, for as long as they move by as much.
+// Raises a visit and those after it, for as long as they have to move by as much.
 void EndlessTimetable::run_from(EndlessVisit visit, Tick delta) {
     const RobotId robot = visit.robot;
     Line& line = lines_[robot];
@@ -263,20 +263,28 @@ void EndlessTimetable::run_from(EndlessVisit visit, Tick delta) {
     std::int32_t place = routes_.place_in_lap(visit);
     Node* own = &line.nodes[visit.number - line.base];
     std::int32_t k = visit.number;
+    EndlessVisit last{nobody, 0};  // pushed from here, and until when its robot stays there
+    Tick last_leave = 0;
     for (;; ++k, ++own) {
         own->enter += delta;
         for (std::int32_t arc = (own - 1)->rights; arc != none; arc = arcs_[arc].next) {
             const EndlessVisit second = arcs_[arc].second;
-            const Tick raise = own->enter + routes_.gap_before(second) - enter(second);
-            if (raise > 0) {
+            const Tick least_enter = own->enter + routes_.gap_before(second);
+            const Tick raise = least_enter - enter(second);
+            const bool follows = last.next() == second && last_leave >= least_enter;
+            if (raise > 0 && !follows) {  // else the push before will lead there
                 push(raise, second);
+            }
+            if (raise > 0) {
+                last_leave = (follows ? last_leave : least_enter) + routes_.least(second);
+                last = second;
             }
         }
         if (k == line.end) {
             break;
         }
         const Tick raise = own->enter + least[place] - (own + 1)->enter;
-        if (raise < delta) {
+        if (raise != delta) {
             if (raise > 0) {
                 push(raise, {robot, k + 1});
             }

@@ -42,10 +42,19 @@ class EndlessMeetings {
         EndlessVisit visit;
         Booking booking;
     };
+    struct Place {
+        std::vector<Booked> booked;  // in order of start
+        Tick longest = 0;            // of all bookings that were ever here
+    };
     struct Ahead {
         Tick start;
         EndlessVisit visit;
         auto operator<=>(const Ahead&) const = default;
+    };
+    struct Sweep {  // of a robot: the first visit that is not swept
+        std::int32_t number = 0;
+        std::int32_t place = 0;
+        Tick start = infinity;  // of its booking; never, if it is not shown
     };
 
     Booking booking(EndlessVisit visit) const;
@@ -53,16 +62,19 @@ class EndlessMeetings {
     bool holds(const Conflict& conflict) const;
     void look_ahead(RobotId robot);
     void take_out(RobotId robot, std::int32_t from);
-    void sweep(EndlessVisit visit);
+    void sweep(RobotId robot);
+    void push_ahead(RobotId robot);
+    void replace_first_ahead(RobotId robot);
+    void forget_past(std::vector<Booked>& booked) const;
     void compare(const Booked& own, const Booked& other);
     void add(EndlessVisit one, EndlessVisit other, Tick tick, ConflictKind kind);
 
     const EndlessRoutes& routes_;
     const EndlessTimetable& timetable_;
-    std::vector<std::vector<Booked>> at_;  // per vertex
-    std::vector<std::int32_t> swept_;      // per robot: the first visit that is not
-    std::vector<Ahead> ahead_;             // a heap
-    std::vector<Conflict> conflicts_;      // a heap
+    std::vector<Place> at_;            // per vertex
+    std::vector<Sweep> sweeps_;        // per robot
+    std::vector<Ahead> ahead_;         // a heap
+    std::vector<Conflict> conflicts_;  // a heap
     std::int64_t n_swept_ = 0;
 };
 

@@ -61,9 +61,15 @@ class EndlessRoutes {
     // How many visits from a later one than 0 on last that long at least.
     std::int32_t lasting(EndlessVisit visit, Tick ticks) const;
 
-    // For loops along one route: the least ticks by place, and the place of a visit.
+    // For loops along one route: all by place, and the place of a visit.
     std::span<const Tick> leasts(RobotId robot) const {
         return std::span(least_).subspan(first_place_[robot], length(robot));
+    }
+    VertexId vertex_at(RobotId robot, std::int32_t place) const {
+        return vertex_[first_place_[robot] + place];
+    }
+    Tick approach_at(RobotId robot, std::int32_t place) const {
+        return approach_[first_place_[robot] + place];
     }
     std::int32_t place_in_lap(EndlessVisit visit) const {
         return visit.number % length(visit.robot);
