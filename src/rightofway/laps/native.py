@@ -1,30 +1,24 @@
 """The rules that see two robots only, on endless routes, by the native kernel.
 
-It decides what `rolling` decides with the same rule, so that one is the other's oracle; but instead
-of a window for each cut it keeps one precedence graph, and drops what is past.
+It decides what `Rolling` decides with the same rule, so the two are held against each other; but
+instead of a window for each cut it keeps one graph, and it can be stopped in between.
 """
 
 from __future__ import annotations
 
-import numpy as np
-
-from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.laps.giving import Deadlock
 from rightofway.laps.past import Past
 from rightofway.laps.rolling import MEMORY, MOST_LAG, PATIENCE, Pace
 from rightofway.laps.window import Ground
-from rightofway.model import Tick, VertexId
 from rightofway.planners import Deadline
+from rightofway.precedence import EndlessRun, Look
 
 __all__ = ["Native"]
 
-OPEN, REPEATS = 0, 1
-"""How the kernel ends; otherwise in a deadlock."""
-
 
 class Native:
-    """A group of robots that go on and on, and can be stopped in between.
+    """A group of robots that go on and on.
 
     Parameters
     ----------
@@ -36,32 +30,31 @@ class Native:
 
     def __init__(self, ground: Ground, rule: str) -> None:
         self.ground = ground
-        pace, laps = Pace.of(ground.group, rule), [endless.lap for endless in ground.group]
-        drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
-        self._kernel = _core.EndlessRun(
-            np.cumsum([0, *map(len, laps)], dtype=np.int32),
-            np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
-            np.array([lap.least(place) for lap in laps for place in range(len(lap))], np.int64),
-            drive if ground.books_ahead else np.zeros_like(drive),
-            np.array([endless.first_least for endless in ground.group], np.int64),
-            headway=int(ground.headway),
-            pacemaker=pace.pacemaker,
-            lag=pace.ticks,
-            most_lag=MOST_LAG * pace.longest,
-            patience=PATIENCE * pace.longest,
-            reach=ground.reach,
-            memory=MEMORY,
+        pace = Pace.of(ground.group, rule)
+        self._run = EndlessRun(
+            [endless.lap for endless in ground.group],
+            [endless.first_least for endless in ground.group],
+            Look(
+                pacemaker=pace.pacemaker,
+                lag=pace.ticks,
+                most_lag=MOST_LAG * pace.longest,
+                patience=PATIENCE * pace.longest,
+                reach=ground.reach,
+                memory=MEMORY,
+            ),
+            headway=ground.headway,
+            books_ahead=ground.books_ahead,
             fixed_order=rule == "fixed-order",
         )
 
     @property
-    def history(self) -> tuple[Past, ...]:
+    def history(self) -> list[Past]:
         """For each robot when its visits so far began."""
-        pasts = zip(self.ground.group, self._kernel.begun().tolist(), strict=True)
-        return tuple(
-            Past(endless, begun, *self._kernel.waits(robot))
-            for robot, (endless, begun) in enumerate(pasts)
-        )
+        begun = self._run.begun()
+        return [
+            Past(endless, begun[robot], *self._run.waits(robot))
+            for robot, endless in enumerate(self.ground.group)
+        ]
 
     def until_it_repeats(self, deadline: Deadline) -> tuple[int, int]:
         """Go on until the state at a cut is the same as at an earlier one; return both ticks.
@@ -73,10 +66,13 @@ class Native:
         GaveUp
             If time runs out; it can be asked again.
         """
-        end = self._kernel.go_on(deadline.seconds_left())
-        if end == REPEATS:
-            return self._kernel.came_before, self._kernel.cut
-        if end == OPEN:
+        ends = self._run.go_on(deadline.seconds_left())
+        if ends == "open":
             raise GaveUp("time ran out before a state came again (give a longer time limit)")
-        i, j, vertex, tick, circle = self._kernel.deadlock()
-        raise Deadlock((i, j), VertexId(vertex), Tick(tick), circle.tolist())
+        if ends == "deadlock":
+            raise Deadlock(*self._run.standstill())
+        return self._run.came_again()
+
+    def forget(self) -> None:
+        """Forget the states seen, so that it goes on where one came again."""
+        self._run.forget()

@@ -9,6 +9,7 @@ from rightofway.precedence.delayed import (
     Setbacks,
     order_of,
 )
+from rightofway.precedence.endless import EndlessRun, Look, Standstill
 from rightofway.precedence.event_graph import (
     Arcs,
     Circuit,
@@ -31,9 +32,11 @@ __all__ = [
     "Arcs",
     "Circuit",
     "DelayedPlan",
+    "EndlessRun",
     "EventGraph",
     "Execution",
     "Hazards",
+    "Look",
     "Meeting",
     "PeriodicTimetable",
     "PrecedenceGraph",
@@ -41,6 +44,7 @@ __all__ = [
     "Segment",
     "Sensitivity",
     "Setbacks",
+    "Standstill",
     "critical_circuit",
     "crossing",
     "cycle_time_without",
