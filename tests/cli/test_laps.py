@@ -88,7 +88,16 @@ def test_a_standstill_ends_with_1_and_says_who(cli: Cli, tmp_path: Path) -> None
 def test_time_that_runs_out_ends_with_3_and_says_what_was_seen(cli: Cli) -> None:
     ended = cli("laps", EXAMPLES / "warehouse.yaml", "--time-limit", "0.5")
     assert ended.code == 3
-    assert "no state came again within the time limit. Their laps so far:" in ended.out
+    told = " ".join(ended.out.split())
+    assert "no state came again within the time limit. Means of " in told
+    assert " laps each, from time " in told
+    found = json.loads(
+        cli("laps", EXAMPLES / "warehouse.yaml", "--time-limit", "0.5", "--json").out
+    )
+    [group] = [group for group in found["groups"] if group["ends"] == "open"]
+    assert group["measured"]["laps"].keys() == group["mean_lap"].keys()
+    assert all(group["measured"]["laps"].values())
+    assert None not in group["mean_lap"].values()
 
 
 @pytest.mark.parametrize(

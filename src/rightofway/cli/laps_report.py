@@ -67,11 +67,23 @@ def _group_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
         "laps_made": dict(zip(names, group.laps_made(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
+        "measured": _measured_data(run, group),
         "waiting_share": dict(zip(names, shares, strict=True)),
         "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
         "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
         "bottleneck": _bottleneck_data(run, run.bottleneck(group)),
         "sensitivity": sensitivity_data(run, group),
+    }
+
+
+def _measured_data(run: LapsRun, group: GroupRun) -> dict[str, Any] | None:
+    """Return what the means are of, where nothing is known to repeat."""
+    if group.pattern:
+        return None
+    measured, names = group.measured(), _names(run, group)
+    return {
+        "from": str(run.scenario.timing.clock.time(measured.warm_up)),
+        "laps": dict(zip(names, measured.laps, strict=True)),
     }
 
 
@@ -137,7 +149,7 @@ def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     time = run.scenario.timing.clock.time
     who = f"{len(group.robots)} robots"
     if group.pattern is None:
-        yield from wrapped(f"{who}: {group.why}. Their laps so far:")
+        yield from wrapped(f"{who}: {group.why}. {_so_far(run, group)}:")
         yield from _robot_lines(run, group)
         return
     transient, period = time(group.pattern.transient), time(group.pattern.period)
@@ -150,12 +162,22 @@ def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
         yield from sensitivity_lines(run, group)
 
 
+def _so_far(run: LapsRun, group: GroupRun) -> str:
+    """Say what the means of laps are of, where nothing is known to repeat."""
+    if group.ends == "deadlock":
+        return "Their laps so far"
+    measured = group.measured()
+    laps = sum(measured.laps) / len(measured.laps)
+    since = _short(run.scenario.timing.clock.time(measured.warm_up))
+    return f"Means of {laps:.1f} laps each, from time {since} on, not proven to stay so"
+
+
 def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     names, tick = _names(run, group), run.scenario.timing.clock.tick
-    counts = group.pattern.counts if group.pattern else group.laps_made()
-    title = "laps/period" if group.pattern else "laps so far"
+    counts = group.pattern.counts if group.pattern else group.measured().laps
+    title = "laps/period" if group.pattern else "laps"
     width = max(map(len, ("robot", *names[:MOST_LINES])))
-    yield f"{'robot':{width}}  {title}  mean lap     alone  waiting"
+    yield f"{'robot':{width}}  {title:>11}  mean lap     alone  waiting"
     rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), group.group, strict=True)
     for name, laps, mean, share, endless in list(rows)[:MOST_LINES]:
         lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)

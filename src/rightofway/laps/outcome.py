@@ -10,6 +10,7 @@ from typing import Literal
 from rightofway.laps.bottleneck import Bottleneck, bottleneck_of
 from rightofway.laps.conflicts import Bookings, Conflict
 from rightofway.laps.endless import Endless
+from rightofway.laps.measured import Measured, measure
 from rightofway.laps.pattern import Pattern
 from rightofway.model import Scenario
 from rightofway.planners import planning_headway
@@ -63,15 +64,16 @@ class GroupRun:
     def mean_laps(self) -> tuple[Fraction | None, ...]:
         """Return how long a lap of each robot takes on average [ticks]; None if it makes none.
 
-        In the long run if the group repeats itself, otherwise of the laps that were made.
+        In the long run if the group repeats itself, otherwise as `measured`.
         """
         if self.pattern:
             period = self.pattern.period
             return tuple(Fraction(period, n) if n else None for n in self.pattern.counts)
-        return tuple(
-            Fraction(past[laps * len(endless.lap)], laps) if laps else None
-            for endless, past, laps in zip(self.group, self.history, self.laps_made(), strict=True)
-        )
+        return self.measured().means
+
+    def measured(self) -> Measured:
+        """Return what the laps that were seen say; of use where nothing is known to repeat."""
+        return measure(self.group, self.history)
 
     def waiting_shares(self) -> tuple[Fraction | None, ...]:
         """Return which part of its time each robot waits for others; None if it makes no lap."""
