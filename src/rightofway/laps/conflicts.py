@@ -7,8 +7,12 @@ the very tick from which another one lets it.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.laps.endless import Endless
 from rightofway.laps.pattern import History, Pattern
@@ -71,42 +75,90 @@ class Bookings:
         ]
         until = max(past[visits.stop] for past, visits in zip(history, first, strict=True))
         seen = [range(min(len(past) - 1, bisect_right(past, until))) for past in history]
-        return self._conflicts(lambda robot, visit: history[robot][visit], seen, first)
+        return self._conflicts(
+            lambda robot, visits: np.array(history[robot][visits.start : visits.stop], np.int64),
+            seen,
+            first,
+        )
 
     def in_period(self, pattern: Pattern) -> tuple[Conflict, ...]:
         """Return who waits for whom in each period, by offset."""
         firsts = (pattern.visits(robot) for robot in range(len(self.group)))
         # in the second period nobody leaves home for the first time, without a turn
         visits = [range(first.stop, first.stop + len(first)) for first in firsts]
-        return self._conflicts(pattern.enter, visits, visits, pattern.begins, pattern.period)
+        return self._conflicts(pattern.enters, visits, visits, pattern.begins, pattern.period)
 
     def _conflicts(
         self,
-        enter: Callable[[int, int], int],
+        enters: Callable[[int, range], NDArray[np.int64]],
         seen: Sequence[range],
         asked: Sequence[range],
         begins: int = 0,
         period: int = 2**62,
     ) -> tuple[Conflict, ...]:
-        frees = {
-            (endless.vertex(visit), (enter(robot, visit + 1) + self.headway) % period): endless
-            for robot, endless in enumerate(self.group)
-            for visit in seen[robot]
-        }
+        waits = [
+            wait
+            for robot, visits in enumerate(asked)
+            if visits
+            for wait in self._waits(enters, robot, visits)
+        ]
+        frees = self._frees(enters, seen, {wait.let_in % period for wait in waits}, period)
         found = []
-        for robot, endless in enumerate(self.group):
-            for visit in asked[robot]:
-                could = enter(robot, visit) + endless.least(visit)
-                enters, vertex = enter(robot, visit + 1), endless.vertex(visit + 1)
-                approach = endless.drive(visit + 1) if self.books_ahead else 0
-                other = frees.get((vertex, (enters - approach) % period))
-                if could < enters and other:  # without: it waits for its time in a timetable
-                    conflict = Conflict(
-                        vertex=vertex,
-                        waits=endless.robot,
-                        for_robot=other.robot,
-                        tick=Tick((could - begins) % period),
-                        ticks=Tick(enters - could),
-                    )
-                    found.append(conflict)
+        for wait in waits:
+            other = frees.get((wait.vertex, wait.let_in % period))
+            if other is not None:  # without: it waits for its time in a timetable
+                conflict = Conflict(
+                    vertex=wait.vertex,
+                    waits=self.group[wait.robot].robot,
+                    for_robot=self.group[other].robot,
+                    tick=Tick((wait.could - begins) % period),
+                    ticks=Tick(wait.enters - wait.could),
+                )
+                found.append(conflict)
         return tuple(sorted(found, key=lambda one: (one.tick, one.waits)))
+
+    def _waits(
+        self, enters: Callable[[int, range], NDArray[np.int64]], robot: int, visits: range
+    ) -> Iterator[_Wait]:
+        """Yield where a robot enters later than it could."""
+        endless = self.group[robot]
+        enter = enters(robot, range(visits.start, visits.stop + 1))
+        could = enter[:-1] + endless.leasts(visits)
+        for index in np.flatnonzero(could < enter[1:]).tolist():
+            visit = visits[index] + 1
+            approach = endless.drive(visit) if self.books_ahead else 0
+            yield _Wait(
+                robot=robot,
+                vertex=endless.vertex(visit),
+                could=int(could[index]),
+                enters=int(enter[index + 1]),
+                let_in=int(enter[index + 1]) - approach,
+            )
+
+    def _frees(
+        self,
+        enters: Callable[[int, range], NDArray[np.int64]],
+        seen: Sequence[range],
+        asked: set[int],
+        period: int,
+    ) -> dict[tuple[VertexId, int], int]:
+        """Return who lets others in at those ticks that are asked for, by place and tick."""
+        ticks, frees = np.array(sorted(asked), np.int64), {}
+        for robot, visits in enumerate(seen):
+            if not visits:
+                continue
+            leave = enters(robot, range(visits.start + 1, visits.stop + 1))
+            free = (leave + self.headway) % period
+            for index in np.flatnonzero(np.isin(free, ticks)).tolist():
+                frees[self.group[robot].vertex(visits[index]), int(free[index])] = robot
+        return frees
+
+
+class _Wait(NamedTuple):
+    """A robot enters a vertex later than it could, as soon as it is let in."""
+
+    robot: int
+    vertex: VertexId
+    could: int
+    enters: int
+    let_in: int

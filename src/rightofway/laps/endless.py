@@ -39,8 +39,7 @@ class Endless:
     _within: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        least = (self.lap.least(place) for place in range(len(self.lap)))
-        object.__setattr__(self, "_within", tuple(accumulate(least, initial=0)))
+        object.__setattr__(self, "_within", tuple(accumulate(self.lap.leasts(), initial=0)))
 
     def place(self, visit: int) -> int:
         """Return the place of a visit in the lap."""
@@ -57,6 +56,12 @@ class Endless:
     def least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's."""
         return self.lap.least(self.place(visit)) if visit else self.first_least
+
+    def leasts(self, visits: range) -> NDArray[np.int64]:
+        """Return the least ticks of visits one behind the other."""
+        numbers = np.arange(visits.start, visits.stop)
+        least = np.diff(np.array(self._within, np.int64))[numbers % len(self.lap)]
+        return np.where(numbers > 0, least, self.first_least)
 
     def free(self, visits: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return when visits begin if nobody is ever in the way [ticks]."""

@@ -27,9 +27,9 @@ def independent_groups(fleet: Sequence[Endless]) -> list[list[Endless]]:
 
     first_at: dict[VertexId, int] = {}
     for index, endless in enumerate(fleet):
-        for vertex in endless.lap.vertices:
-            one, other = sorted((lead(first_at.setdefault(vertex, index)), lead(index)))
-            leader[other] = one
+        for vertex in set(endless.lap.vertices):
+            one, other = lead(first_at.setdefault(vertex, index)), lead(index)
+            leader[max(one, other)] = min(one, other)
     groups: dict[int, list[Endless]] = {}
     for index, endless in enumerate(fleet):
         groups.setdefault(lead(index), []).append(endless)

@@ -68,6 +68,15 @@ class Pattern:
         periods = -(-(visit + 1 - len(past)) // shift)
         return past[visit - periods * shift] + periods * self.period
 
+    def enters(self, robot: int, visits: range) -> Enters:
+        """Return when visits one behind the other begin, as far ahead as you like [ticks]."""
+        past = np.asarray(self.history[robot], np.int64)
+        numbers = np.arange(visits.start, visits.stop)
+        shift = self.counts[robot] * self.lengths[robot]
+        periods = np.maximum(-(-(numbers + 1 - len(past)) // max(shift, 1)), 0)
+        enters: Enters = past[numbers - periods * shift] + periods * self.period
+        return enters
+
     def visits(self, robot: int) -> range:
         """Return the numbers of a robot's visits in the first period, from home on."""
         home = self._home(robot, self.begins)
@@ -83,9 +92,7 @@ class Pattern:
             counts=self.counts,
             period=self.period,
             enter=tuple(
-                np.array([self.enter(robot, visit) for visit in self.visits(robot)], np.int64)
-                - self.begins
-                for robot in range(len(group))
+                self.enters(robot, self.visits(robot)) - self.begins for robot in range(len(group))
             ),
         )
 

@@ -43,6 +43,11 @@ class Lap:
         """Return the least ticks from a visit's enter to the next one's."""
         return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
 
+    def leasts(self) -> tuple[Tick, ...]:
+        """Return the least ticks of all visits."""
+        drives = (*self.drive[1:], self.drive[0])
+        return tuple(Tick(dwell + drive) for dwell, drive in zip(self.dwell, drives, strict=True))
+
 
 def lap_of(itinerary: Itinerary, route: Route) -> Lap:
     """Wrap a round trip into a lap.

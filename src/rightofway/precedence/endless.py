@@ -92,7 +92,7 @@ class EndlessRun:
         self._kernel = _core.EndlessRun(
             np.cumsum([0, *map(len, laps)], dtype=np.int32),
             np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
-            np.array([lap.least(place) for lap in laps for place in range(len(lap))], np.int64),
+            np.array([ticks for lap in laps for ticks in lap.leasts()], np.int64),
             drive if books_ahead else np.zeros_like(drive),
             np.array(first_least, np.int64),
             headway=int(headway),
