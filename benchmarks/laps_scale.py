@@ -58,6 +58,7 @@ def main() -> None:
         "250 rooms of 4": in_rooms(4),
         "125 rooms of 8": in_rooms(8),
         "one floor, 200 x 200": on_one_floor(200),
+        "one floor, 100 x 100": on_one_floor(100),
     }
     for name, scenario in fleets.items():
         began = time.perf_counter()
@@ -67,8 +68,9 @@ def main() -> None:
         for group in run.groups:
             ends[group.ends] += len(group.robots)
         laps = sum(sum(group.laps_made()) for group in run.groups) / ROBOTS
+        hour = float(3600 * run.throughput())
         told = ", ".join(f"{number} robots {end}" for end, number in sorted(ends.items()))
-        print(f"{name}: {seconds:.1f} s: {told}; {laps:.1f} laps each")  # noqa: T201
+        print(f"{name}: {seconds:.1f} s: {told}; {laps:.1f} laps each, {hour:.0f} in 3600")  # noqa: T201
 
 
 if __name__ == "__main__":

@@ -20,10 +20,14 @@ MOST_LEVERS = 3
 """How many things that would help a person is told; --json has more."""
 
 
+MOST_VISITS = 200_000
+"""In periods of more visits nobody looks for what would help: each search takes long."""
+
+
 def sensitivity_data(run: LapsRun, group: GroupRun) -> list[dict[str, Any]]:
     """Return what would help, for programs; times are exact fractions of the unit."""
     graph = run.graph(group)
-    if graph is None:
+    if graph is None or len(graph.vertex) > MOST_VISITS:
         return []
     return [_lever_data(run.scenario, lever) for lever in levers_of(run.scenario, graph)]
 
@@ -46,6 +50,9 @@ def sensitivity_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     """Say what would make a period shorter."""
     graph = run.graph(group)
     if graph is None:
+        return
+    if len(graph.vertex) > MOST_VISITS:
+        yield "  what would help is not looked for in a period as long as this"
         return
     levers = levers_of(run.scenario, graph, most=MOST_LEVERS)
     helps = [lever for lever in levers if lever.ten_per_cent < lever.effect.cycle_time]
