@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include "rightofway/prefetch.hpp"
+
 namespace rightofway {
 
 EndlessMeetings::EndlessMeetings(const EndlessRoutes& routes, const EndlessTimetable& timetable)
@@ -167,6 +169,20 @@ void EndlessMeetings::sweep(RobotId robot) {
                       ? leave - routes_.approach_at(robot, sweep.place)
                       : infinity;
     replace_first_ahead(robot);
+    prepare(robot);
+}
+
+// Each visit is at another place in memory. Others are swept before this robot's next one, time
+// enough to fetch what that needs; and the list of the one after it, to see where its entries are.
+void EndlessMeetings::prepare(RobotId robot) const {
+    const std::int32_t place = sweeps_[robot].place;
+    const std::int32_t next = place + 1 == routes_.length(robot) ? 0 : place + 1;
+    const auto& booked = at_[routes_.vertex_at(robot, place)].booked;
+    if (!booked.empty()) {
+        prefetch(&booked.back());
+    }
+    prefetch(&at_[routes_.vertex_at(robot, next)]);
+    timetable_.prepare({robot, sweeps_[robot].number + 1});
 }
 
 // Before a list grows: most often the first ones in it are long over.

@@ -65,6 +65,7 @@ class EndlessMeetings {
     void sweep(RobotId robot);
     void push_ahead(RobotId robot);
     void replace_first_ahead(RobotId robot);
+    void prepare(RobotId robot) const;
     void forget_past(std::vector<Booked>& booked) const;
     void compare(const Booked& own, const Booked& other);
     void add(EndlessVisit one, EndlessVisit other, Tick tick, ConflictKind kind);

@@ -13,12 +13,14 @@
 // DPLL(T), SAT 2006.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "rightofway/endless_routes.hpp"
+#include "rightofway/prefetch.hpp"
 #include "rightofway/types.hpp"
 
 namespace rightofway {
@@ -43,6 +45,10 @@ class EndlessTimetable {
     std::int32_t end(RobotId robot) const { return lines_[robot].end; }
     Tick begins() const { return begins_; }
     Tick enter(EndlessVisit visit) const { return node(visit).enter; }
+    // Makes it quick to ask soon when a visit enters, or the last one in view.
+    void prepare(EndlessVisit visit) const {
+        prefetch(&node({visit.robot, std::min(visit.number, end(visit.robot))}));
+    }
     bool is_frozen(EndlessVisit visit) const { return visit.number < lines_[visit.robot].frozen; }
 
     // Shows the visits below `end`, which is beyond all that is frozen or has a right of way.
