@@ -30,16 +30,37 @@ EndlessGiving::Outcome EndlessGiving::settle(const Conflict& conflict) {
         return Outcome::deadlock;
     }
     const bool waits = i_waits(segment);
-    std::vector<Owner> culprits;
+    culprits_.clear();
     for (const bool turned : {false, true}) {
         EndlessOrder order{rights_if(segment, waits != turned),
                            rights_if(segment, waits == turned)};
-        if (take(std::move(order), turned, culprits)) {
+        if (take(std::move(order), turned)) {
             return Outcome::settled;
         }
-        blame(culprits, next_serial_);
+        blame(next_serial_);
     }
-    return go_back(std::move(culprits)) ? Outcome::settled : Outcome::deadlock;
+    is_going_back_ = true;
+    return Outcome::going_back;
+}
+
+EndlessGiving::Outcome EndlessGiving::go_back() {
+    is_going_back_ = false;
+    if (culprits_.empty()) {
+        return Outcome::deadlock;
+    }
+    Step step = forget_from(culprits_.back());
+    culprits_.pop_back();
+    culprits_.insert(culprits_.end(), step.culprits.begin(), step.culprits.end());
+    sort_culprits();
+    if (!step.is_turned && !step.order.others.empty()) {
+        std::swap(step.order.rights, step.order.others);
+        if (take(std::move(step.order), true)) {
+            return Outcome::settled;
+        }
+        blame(step.serial);
+    }
+    is_going_back_ = true;
+    return Outcome::going_back;
 }
 
 // The longest run of vertices around two visits that one has in reverse order of the other, or else
@@ -110,7 +131,7 @@ std::vector<EndlessRight> EndlessGiving::rights_if(const Segment& segment, bool 
     return rights;
 }
 
-bool EndlessGiving::take(EndlessOrder&& order, bool is_turned, const std::vector<Owner>& culprits) {
+bool EndlessGiving::take(EndlessOrder&& order, bool is_turned) {
     const Owner serial = next_serial_;
     const EndlessTimetable::Mark mark = timetable_.mark();
     auto& changed = timetable_.changed();
@@ -126,12 +147,12 @@ bool EndlessGiving::take(EndlessOrder&& order, bool is_turned, const std::vector
     }
     ++next_serial_;
     tell();
-    steps_.push_back({serial, mark, false, is_turned, culprits, std::move(order)});
+    steps_.push_back({serial, mark, false, is_turned, culprits_, std::move(order)});
     return true;
 }
 
 // Adds the decisions that made the last right of way impossible.
-void EndlessGiving::blame(std::vector<Owner>& culprits, Owner below) {
+void EndlessGiving::blame(Owner below) {
     const auto cycle = timetable_.cycle();
     if (!cycle.empty()) {
         circle_.clear();
@@ -143,31 +164,15 @@ void EndlessGiving::blame(std::vector<Owner>& culprits, Owner below) {
     }
     for (const Owner owner : blamed_) {
         if (owner < below) {
-            culprits.push_back(owner);
+            culprits_.push_back(owner);
         }
     }
-    std::sort(culprits.begin(), culprits.end());
-    culprits.erase(std::unique(culprits.begin(), culprits.end()), culprits.end());
+    sort_culprits();
 }
 
-// Turns the latest decision that helps; false if none does.
-bool EndlessGiving::go_back(std::vector<Owner> culprits) {
-    while (!culprits.empty()) {
-        Step step = forget_from(culprits.back());
-        culprits.pop_back();
-        culprits.insert(culprits.end(), step.culprits.begin(), step.culprits.end());
-        std::sort(culprits.begin(), culprits.end());
-        culprits.erase(std::unique(culprits.begin(), culprits.end()), culprits.end());
-        if (step.is_turned || step.order.others.empty()) {
-            continue;
-        }
-        std::swap(step.order.rights, step.order.others);
-        if (take(std::move(step.order), true, culprits)) {
-            return true;
-        }
-        blame(culprits, step.serial);
-    }
-    return false;
+void EndlessGiving::sort_culprits() {
+    std::sort(culprits_.begin(), culprits_.end());
+    culprits_.erase(std::unique(culprits_.begin(), culprits_.end()), culprits_.end());
 }
 
 EndlessGiving::Step EndlessGiving::forget_from(Owner serial) {

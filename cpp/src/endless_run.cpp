@@ -128,6 +128,15 @@ Tick EndlessRun::earliest_end() const {
 // Settles what has to be before the next cut.
 EndlessRun::Step EndlessRun::settle(const IsOver& is_over) {
     for (int count = 1;; ++count) {
+        if (giving_.is_going_back()) {
+            if (is_over()) {
+                return Step::over;
+            }
+            if (giving_.go_back() == EndlessGiving::Outcome::deadlock) {
+                return Step::deadlock;
+            }
+            continue;
+        }
         if (count % asked_every == 0 && is_over()) {
             return Step::over;
         }
@@ -141,15 +150,17 @@ EndlessRun::Step EndlessRun::settle(const IsOver& is_over) {
             show_longer(tick);
         } else if (!meeting) {
             return Step::go_on;
-        } else if (const auto outcome = giving_.settle(*meeting);
-                   outcome == EndlessGiving::Outcome::settled) {
-            continue;
-        } else if (outcome == EndlessGiving::Outcome::deadlock) {
-            deadlock_ = *meeting;
-            return Step::deadlock;
         } else {
-            ahead_[meeting->robot_a] *= 2;
-            ahead_[meeting->robot_b] *= 2;
+            met_ = *meeting;
+            const auto outcome = giving_.settle(met_);
+            if (outcome == EndlessGiving::Outcome::deadlock) {
+                return Step::deadlock;
+            }
+            if (outcome != EndlessGiving::Outcome::too_short) {
+                continue;
+            }
+            ahead_[met_.robot_a] *= 2;
+            ahead_[met_.robot_b] *= 2;
         }
         giving_.look_again();
         show();

@@ -33,15 +33,19 @@ struct EndlessOrder {
 
 class EndlessGiving {
   public:
-    enum class Outcome { settled, too_short, deadlock };
+    enum class Outcome { settled, going_back, too_short, deadlock };
 
     // All are borrowed and must outlive this.
     EndlessGiving(const EndlessRoutes& routes, EndlessTimetable& timetable,
                   EndlessMeetings& meetings, EndlessRule rule);
 
-    // Keeps two robots apart, if need be by other decisions than so far. Too short: the view does
-    // not show whether the segment ends. In a deadlock, circle() has who would wait for whom.
+    // Keeps two robots apart. Going back: that takes other decisions than so far. Too short: the
+    // view does not show whether the segment ends. In a deadlock, circle() has who would wait for
+    // whom.
     Outcome settle(const Conflict& conflict);
+    // Goes back to the latest decision that may help, and turns it if it can be.
+    Outcome go_back();
+    bool is_going_back() const { return is_going_back_; }
     std::span<const RobotId> circle() const { return circle_; }
     std::array<EndlessVisit, 2> met() const { return met_; }
 
@@ -84,9 +88,9 @@ class EndlessGiving {
     bool i_waits(const Segment& segment) const;
     Tick seen_enter(EndlessVisit visit) const;
     static std::vector<EndlessRight> rights_if(const Segment& segment, bool i_waits);
-    bool take(EndlessOrder&& order, bool is_turned, const std::vector<Owner>& culprits);
-    void blame(std::vector<Owner>& culprits, Owner below);
-    bool go_back(std::vector<Owner> culprits);
+    bool take(EndlessOrder&& order, bool is_turned);
+    void blame(Owner below);
+    void sort_culprits();
     Step forget_from(Owner serial);
     void carry_on();
     void run_again();
@@ -100,6 +104,8 @@ class EndlessGiving {
     Owner next_serial_ = 0;
     std::vector<RobotId> circle_;
     std::vector<Owner> blamed_;
+    std::vector<Owner> culprits_;  // in order; of the meeting that is being settled
+    bool is_going_back_ = false;
     std::vector<EndlessRight> held_;
     std::array<EndlessVisit, 2> met_{};
 };

@@ -54,7 +54,7 @@ class EndlessRun {
     const EndlessWaits& waits() const { return waits_; }
 
     // Of a deadlock: where and when two robots cannot be kept apart, and who would wait for whom.
-    const Conflict& deadlock() const { return deadlock_; }
+    const Conflict& deadlock() const { return met_; }
     VertexId deadlock_at() const { return routes_.vertex(giving_.met()[0]); }
     std::span<const RobotId> circle() const { return giving_.circle(); }
 
@@ -105,7 +105,7 @@ class EndlessRun {
     std::vector<std::int32_t> shown_;
     std::vector<std::int32_t> state_;
     Tick came_before_ = 0;
-    Conflict deadlock_{};
+    Conflict met_{};  // settled last
 };
 
 }  // namespace rightofway
