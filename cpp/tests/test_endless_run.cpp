@@ -1,6 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <map>
 #include <numeric>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "rightofway/endless_run.hpp"
@@ -95,6 +99,53 @@ TEST_CASE("a run that was stopped goes on as if it had not been") {
     CHECK(stopped > 0);
     CHECK(parts.cut() == whole.cut());
     CHECK(parts.came_before() == whole.came_before());
+}
+
+// From one cell of a square floor to another, along the row and then along the column.
+std::vector<VertexId> way_of(int from, int to, int size) {
+    std::vector<VertexId> way{from};
+    while (way.back() != to) {
+        const int here = way.back();
+        const int right = to % size - here % size;
+        const int step = right != 0 ? (right > 0 ? 1 : -1) : (to > here ? size : -size);
+        way.push_back(here + step);
+    }
+    return way;
+}
+
+TEST_CASE("on crowded floors no two robots are ever at one place, however a run ends") {
+    constexpr int size = 9;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        std::mt19937 draw(seed);
+        std::vector<int> cells(size * size);
+        std::iota(cells.begin(), cells.end(), 0);
+        std::shuffle(cells.begin(), cells.end(), draw);
+        std::vector<std::vector<VertexId>> ways;
+        Ticks speeds;
+        for (int r = 0; r < 10; ++r) {
+            ways.push_back(way_of(cells[2 * r], cells[2 * r + 1], size));
+            speeds.push_back(1 + static_cast<Tick>(draw() % 3));
+        }
+        const Laps laps{ways, speeds};
+        const Ticks approach(laps.vertex.size(), 0);
+        EndlessRun run(laps.arrays(approach), {0, 40, 400, 800, 1, 32}, EndlessRule::first_come);
+        int asked = 0;
+        run.go_on([&asked] { return ++asked > 200; });
+        std::map<VertexId, std::vector<std::pair<Tick, Tick>>> at;
+        for (RobotId r = 0; r < run.n_robots(); ++r) {
+            for (std::int32_t k = 0; k + 1 < run.waits().n_begun(r); ++k) {
+                const auto length = laps.first_place[r + 1] - laps.first_place[r];
+                at[laps.vertex[laps.first_place[r] + k % length]].emplace_back(
+                    run.waits().enter({r, k}), run.waits().enter({r, k + 1}));
+            }
+        }
+        for (auto& [vertex, visits] : at) {
+            std::sort(visits.begin(), visits.end());
+            for (std::size_t k = 1; k < visits.size(); ++k) {
+                REQUIRE(visits[k - 1].second <= visits[k].first);
+            }
+        }
+    }
 }
 
 TEST_CASE("laps that lead nowhere are refused") {
