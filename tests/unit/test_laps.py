@@ -1,15 +1,21 @@
 """Repeated work by hand: the paper's cases, who meets whom, dead ends, whole laps as a plan."""
 
+import time
 from fractions import Fraction
+from typing import cast
 
 import pytest
 
 from rightofway import GaveUp, InputError, check, plan_of, run_laps
 from rightofway.laps import endless_routes
 from rightofway.laps.groups import independent_groups
+from rightofway.laps.native import Native
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.pattern import pattern_of
-from rightofway.model import Robot, Rules, Scenario, Stop, roadmap_of_grid
+from rightofway.laps.run import each_its_share
+from rightofway.laps.window import Ground
+from rightofway.model import Robot, Rules, Scenario, Stop, Tick, roadmap_of_grid
+from rightofway.planners import Deadline, Task
 from tests.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: paper_scenario(case) for case in PAPER}
@@ -86,6 +92,36 @@ def test_a_robot_between_two_others_joins_them_in_one_group() -> None:
     scenario = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2"), ("N1", "N2")])
     groups = independent_groups(endless_routes(scenario, "shortest"))
     assert [[endless.robot for endless in group] for group in groups] == [[0, 1, 2]]
+
+
+class Restless:
+    """A robot that does not come back to a state for as long as it is watched."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground = ground
+        self.history = [[0]]
+        self.watched: list[float] = []
+
+    def until_it_repeats(self, deadline: Deadline) -> tuple[int, int]:
+        self.watched.append(deadline.seconds_left() or 0.0)
+        time.sleep(self.watched[-1])
+        raise GaveUp("time ran out")
+
+
+def test_time_that_others_leave_over_goes_to_a_group_that_is_open() -> None:
+    """One robot of three may take a third of the time at first; the other two are soon done."""
+    scenario = CASES["door-1"]
+    routes = endless_routes(scenario, "shortest")
+    two, one = (
+        Ground(task=Task(scenario=scenario), group=group, headway=Tick(0), books_ahead=False)
+        for group in (routes, routes[:1])
+    )
+    restless = Restless(one)
+    going = [cast(Native, restless), Native(two, "first-come")]
+    runs = each_its_share(going, Deadline.after(0.6), lambda _: None)
+    assert [run.ends for run in runs] == ["open", "repeats"]
+    assert restless.watched[0] < 0.21
+    assert sum(restless.watched) > 0.5
 
 
 def test_robots_that_live_in_each_others_corridor_come_to_a_standstill() -> None:

@@ -19,7 +19,7 @@ from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 
-__all__ = ["ROUTES", "run_group", "run_laps"]
+__all__ = ["ROUTES", "each_its_share", "run_group", "run_laps"]
 
 ROUTES = ("clear", "shortest")
 """How round trips may be chosen."""
@@ -76,27 +76,33 @@ def run_laps(
     deadline = Deadline.after(time_limit)
     groups = independent_groups(endless_routes(scenario, routes))
     going = [_going(Task(scenario=scenario), group, rule) for group in groups]
-    found: dict[int, GroupRun] = {}
-    open_ones = sorted(range(len(groups)), key=lambda index: len(groups[index]))
-    while open_ones:
-        left = sum(len(groups[index]) for index in open_ones)
-        for index in open_ones:
-            size = len(groups[index])
-            if report:
-                known = sum(one.ends != "open" for one in found.values())
-                report(f"{known} of {len(groups)} groups done, next one of {size} robots")
-            share = deadline.sooner(max(size / left, LEAST_SHARE))
-            left -= size
-            found[index] = _go_on(going[index], share)
-        open_ones = [index for index in open_ones if found[index].ends == "open"]
-        if deadline.seconds_left() == 0:
-            break
     return LapsRun(
         scenario=scenario,
         rule=rule,
         routes=routes,
-        groups=tuple(found[index] for index in range(len(groups))),
+        groups=tuple(each_its_share(going, deadline, report or (lambda _: None))),
     )
+
+
+def each_its_share(
+    going: Sequence[Rolling | Native], deadline: Deadline, report: Callable[[str], None]
+) -> list[GroupRun]:
+    """Let all groups go on, small ones first, and those that are open again with what is left."""
+    found: dict[int, GroupRun] = {}
+    sizes = [len(one.ground.group) for one in going]
+    open_ones = sorted(range(len(going)), key=lambda index: sizes[index])
+    while open_ones:
+        left = sum(sizes[index] for index in open_ones)
+        for index in open_ones:
+            known = sum(one.ends != "open" for one in found.values())
+            report(f"{known} of {len(going)} groups done, next one of {sizes[index]} robots")
+            share = deadline.sooner(max(sizes[index] / left, LEAST_SHARE))
+            left -= sizes[index]
+            found[index] = _go_on(going[index], share)
+        open_ones = [index for index in open_ones if found[index].ends == "open"]
+        if deadline.seconds_left() == 0:
+            break
+    return [found[index] for index in range(len(going))]
 
 
 def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
