@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.laps import endless_routes
+from rightofway.laps import GroupRun, LapsRun, endless_routes
 from rightofway.laps.measured import measure, warm_up_of
 from rightofway.laps.past import Past
 from tests.fleets import grid_fleet
@@ -57,3 +57,15 @@ def test_the_past_is_told_by_the_visits_that_were_late() -> None:
     assert past[-1] == 20
     assert past[::8] == (0, 14)
     assert np.array(past).tolist() == expected
+
+
+def test_laps_of_many_robots_in_an_hour_are_told_in_few_digits() -> None:
+    """Means of 101 to 400 ticks: an exact sum of their inverses has over a hundred digits."""
+    scenario = grid_fleet(["....."], [("N0", "N4")])
+    groups = tuple(
+        GroupRun(ends="open", why="", group=(ALONE,), history=(visits(ticks),), pattern=None)
+        for ticks in range(101, 401)
+    )
+    found = LapsRun(scenario=scenario, rule="first-come", routes="clear", groups=groups)
+    assert abs(found.throughput() - Fraction(sum(1 / ticks for ticks in range(101, 401)))) < 1e-6
+    assert found.throughput().denominator <= 10**9

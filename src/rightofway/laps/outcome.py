@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,6 +18,8 @@ from rightofway.planners import planning_headway
 from rightofway.precedence import EventGraph, PeriodicTimetable, event_graph
 
 __all__ = ["GroupRun", "LapsRun"]
+
+BILLION = 10**9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -127,10 +130,19 @@ class LapsRun:
         return event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
 
     def throughput(self) -> Fraction:
-        """Return how many laps all robots complete in a time unit of the scenario."""
+        """Return how many laps all robots complete in a time unit of the scenario.
+
+        Exact where groups repeat themselves; what is measured is rounded to a billionth, as an
+        exact sum of a thousand fractions has thousands of digits.
+        """
+        return sum((self._throughput(group) for group in self.groups), Fraction(0))
+
+    def _throughput(self, group: GroupRun) -> Fraction:
         tick = self.scenario.timing.clock.tick
-        means = (mean for group in self.groups for mean in group.mean_laps())
-        return sum((1 / (mean * tick) for mean in means if mean), Fraction(0))
+        rates = (1 / (mean * tick) for mean in group.mean_laps() if mean)
+        if group.pattern:
+            return sum(rates, Fraction(0))
+        return Fraction(round(math.fsum(map(float, rates)) * BILLION), BILLION)
 
     def _bookings(self, group: GroupRun) -> Bookings:
         return Bookings(
