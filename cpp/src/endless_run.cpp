@@ -52,7 +52,7 @@ bool EndlessRun::begin() {
         lag_ = pace_.lag;
         back_ = 1;
     }
-    timetable_.begin_at(std::max(cut_ - pace_.reach, Tick{0}));
+    timetable_.begin_at(std::max(cut_ - pace_.reach, Tick{0}), cut_);
     std::fill(ahead_.begin(), ahead_.end(), 3 * lag_);
     show();
     if (has_returned_) {
@@ -217,7 +217,7 @@ void EndlessRun::return_to(const Moment& moment) {
         }
         timetable_.put(r, start, enters);
     }
-    timetable_.begin_at(begins);
+    timetable_.begin_at(begins, cut_);
     meetings_.restart();
     giving_.put(moment.orders);
     has_returned_ = true;
@@ -258,8 +258,9 @@ void EndlessRun::write_state() {
         for (std::int32_t k = start; k < frozen; ++k) {
             const EndlessVisit visit{r, k};
             const Tick enter = std::max(timetable_.enter(visit), timetable_.begins());
-            const Tick leave = k + 1 < frozen ? timetable_.enter(visit.next())
-                                              : timetable_.enter(visit) + routes_.least(visit);
+            const Tick leave =
+                k + 1 < frozen ? timetable_.enter(visit.next())
+                               : std::max(timetable_.enter(visit) + routes_.least(visit), cut_ + 1);
             write_tick(std::max(leave - enter, Tick{1}));
         }
     }

@@ -46,8 +46,8 @@ void EndlessTimetable::run_freely(RobotId robot, std::int32_t from) {
     for (std::int32_t k = from; k < line.end; ++k) {
         Node* const own = &line.nodes[k - line.base];
         Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[place];
-        if (k == line.start && k + 1 == line.frozen) {  // the view begins within this visit
-            lasts = std::max(lasts, begins_ + 1 - own->enter);
+        if (k + 1 == line.frozen) {  // by the cut it has not left
+            lasts = std::max(lasts, cut_ + 1 - own->enter);
         }
         (own + 1)->enter = own->enter + lasts;
         place = place + 1 == static_cast<std::int32_t>(least.size()) ? 0 : place + 1;
@@ -61,8 +61,9 @@ void EndlessTimetable::freeze(RobotId robot, Tick tick) {
     }
 }
 
-void EndlessTimetable::begin_at(Tick tick) {
+void EndlessTimetable::begin_at(Tick tick, Tick cut) {
     begins_ = tick;
+    cut_ = cut;
     for (Line& line : lines_) {
         while (line.start + 1 < line.frozen &&
                line.nodes[line.start + 1 - line.base].enter <= tick) {

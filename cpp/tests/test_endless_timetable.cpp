@@ -132,7 +132,7 @@ TEST_CASE("what is frozen is not delayed, and the view moves on without losing a
         timetable.show(r, n_shown);
         timetable.freeze(r, 20);
     }
-    timetable.begin_at(18);
+    timetable.begin_at(18, 20);
     const auto expected = times(timetable);
     for (RobotId r = 0; r < n_robots; ++r) {
         timetable.show(r, 2 * n_shown);

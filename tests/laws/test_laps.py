@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
@@ -163,6 +163,7 @@ def test_who_waits_for_whom_adds_up_to_the_time_lost(rule: str, seed: int, rules
 
 @every_rule
 @settings(max_examples=60, deadline=None)
+@example(seed=304, rules=Rules(headway=1))  # type: ignore[arg-type]  # goes back to before a cut
 @given(seed=st.integers(0, 2**32), rules=some_rules)
 def test_the_period_by_theory_is_that_of_the_simulation(rule: str, seed: int, rules: Rules) -> None:
     run = small_run(seed, rule, rules)

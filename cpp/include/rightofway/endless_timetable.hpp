@@ -55,8 +55,8 @@ class EndlessTimetable {
     void show(RobotId robot, std::int32_t end);
     // Freezes a robot's visits that have begun by a tick; they are all in view.
     void freeze(RobotId robot, Tick tick);
-    // Drops what was left by a tick; right of way can not be taken back to before this.
-    void begin_at(Tick tick);
+    // Drops what was left by a tick, after freezing all that has begun by the cut.
+    void begin_at(Tick tick, Tick cut);
     // Begins anew at a tick, where `enters` are those of visits from `start` on, all frozen. Gives
     // up all rights of way of the robot and shows nothing more.
     void put(RobotId robot, std::int32_t start, std::span<const Tick> enters);
@@ -152,6 +152,7 @@ class EndlessTimetable {
 
     const EndlessRoutes& routes_;
     Tick begins_ = 0;
+    Tick cut_ = 0;
     std::vector<Line> lines_;
     std::vector<Arc> arcs_;
     std::vector<std::int32_t> free_arcs_;

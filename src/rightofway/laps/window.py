@@ -226,5 +226,7 @@ class Window(Fleet):
         past = self.cut.history[robot]
         enter = past[visit]
         known = visit + 1 < len(past)
+        still_there = self.cut.tick + 1  # no later right of way lets it go before
         leave = past[visit + 1] if known else enter + self.group[robot].least(visit)
+        leave = leave if known else max(leave, still_there)
         return max(leave - max(enter, self.begins), 1)
