@@ -122,7 +122,11 @@ void Improver::attempt(Worker& worker, Task& task, Random& random,
     task.arm = draw_arm(random);
     const auto kind = static_cast<NeighbourhoodKind>(task.arm / sizes.size());
     task.robots = worker.neighbourhoods.choose(kind, sizes[task.arm % sizes.size()], random);
+    const RobotId seed = task.robots.front();
     random.shuffle(task.robots);
+    if (random.below(2) == 0) {  // the robot that it began with goes first
+        std::swap(task.robots.front(), *std::find(task.robots.begin(), task.robots.end(), seed));
+    }
     const std::int64_t before = worker.search.n_expanded();
     replan(worker, task, is_over);
     task.effort = worker.search.n_expanded() - before + 1;

@@ -1,11 +1,12 @@
 // Anytime improvement of a plan by large neighbourhood search, on several threads.
 //
 // Again and again a few robots give up their tracks and get new ones, one after another in random
-// order; the better plan stays. Work goes in rounds of a fixed number of tasks. Each task draws
-// from a stream of its own, made of seed, round and place in the round, and starts from the plan at
-// the beginning of the round; each thread has a replica of the plan. After a round the results are
-// taken in their order, as far as they still fit together. So the outcome depends on the seed and
-// the number of tasks, not on threads or their speed.
+// order, half of the time with the one first for whose sake they were chosen; the better plan
+// stays. Work goes in rounds of a fixed number of tasks. Each task draws from a stream of its own,
+// made of seed, round and place in the round, and starts from the plan at the beginning of the
+// round; each thread has a replica of the plan. After a round the results are taken in their order,
+// as far as they still fit together. So the outcome depends on the seed and the number of tasks,
+// not on threads or their speed.
 //
 // Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021;
 // Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
