@@ -7,9 +7,11 @@ tick is a better beginning; the one with the fewest of these is taken.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.laps.endless import Endless
 from rightofway.laps.outcome import GroupRun, LapsRun
@@ -80,25 +82,26 @@ def _first_home(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[
     return lap * length, int(later[lap]) + begins
 
 
-def _passes(timetable: PeriodicTimetable) -> list[tuple[int, int]]:
-    """Return (whose home, tick) of all visits that others make to homes in a period."""
+def _passes(timetable: PeriodicTimetable) -> dict[int, NDArray[np.int64]]:
+    """Return when others visit each robot's home in a period, where they do."""
     owner = {lap.vertices[0]: robot for robot, lap in enumerate(timetable.laps)}
-    return [
-        (owner[vertex], tick)
-        for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True))
-        for index, vertex in enumerate(lap.vertices)
-        if owner.get(vertex, robot) != robot
-        for tick in enter[index :: len(lap)].tolist()
-    ]
+    passes = defaultdict(list)
+    for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True)):
+        for index, vertex in enumerate(lap.vertices):
+            if owner.get(vertex, robot) != robot:
+                passes[owner[vertex]].append(enter[index :: len(lap)])
+    return {robot: np.concatenate(ticks) for robot, ticks in passes.items()}
 
 
 def _in_the_way(
-    timetable: PeriodicTimetable, passes: Sequence[tuple[int, int]], begins: int
+    timetable: PeriodicTimetable, passes: Mapping[int, NDArray[np.int64]], begins: int
 ) -> int:
     """Return how many visits others make to homes whose robots still wait there."""
-    period = int(timetable.period)
-    until = {robot: _first_home(timetable, robot, begins)[1] for robot, _ in passes}
-    return sum((tick - begins) % period + begins < until[robot] for robot, tick in passes)
+    period, visits = int(timetable.period), 0
+    for robot, ticks in passes.items():
+        until = _first_home(timetable, robot, begins)[1]
+        visits += np.count_nonzero((ticks - begins) % period < until - begins)
+    return visits
 
 
 def _history(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, ...]:
