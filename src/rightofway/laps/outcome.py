@@ -19,8 +19,6 @@ from rightofway.precedence import EventGraph, PeriodicTimetable, event_graph
 
 __all__ = ["GroupRun", "LapsRun"]
 
-BILLION = 10**9
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GroupRun:
@@ -73,6 +71,18 @@ class GroupRun:
             period = self.pattern.period
             return tuple(Fraction(period, n) if n else None for n in self.pattern.counts)
         return self.measured().means
+
+    def rate(self, weights: Sequence[Fraction] | None = None) -> Fraction:
+        """Return how many laps its robots complete per tick, each counted by its weight.
+
+        Exact if the group repeats itself; what is measured has twelve digits, as an exact sum
+        of a thousand fractions has thousands.
+        """
+        means = zip(weights or [Fraction(1)] * len(self.group), self.mean_laps(), strict=True)
+        rates = [weight / mean for weight, mean in means if mean]
+        if self.pattern:
+            return sum(rates, Fraction(0))
+        return Fraction(f"{math.fsum(map(float, rates)):.12g}")
 
     def measured(self) -> Measured:
         """Return what the laps that were seen say; of use where nothing is known to repeat."""
@@ -130,19 +140,9 @@ class LapsRun:
         return event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
 
     def throughput(self) -> Fraction:
-        """Return how many laps all robots complete in a time unit of the scenario.
-
-        Exact where groups repeat themselves; what is measured is rounded to a billionth, as an
-        exact sum of a thousand fractions has thousands of digits.
-        """
-        return sum((self._throughput(group) for group in self.groups), Fraction(0))
-
-    def _throughput(self, group: GroupRun) -> Fraction:
-        tick = self.scenario.timing.clock.tick
-        rates = (1 / (mean * tick) for mean in group.mean_laps() if mean)
-        if group.pattern:
-            return sum(rates, Fraction(0))
-        return Fraction(round(math.fsum(map(float, rates)) * BILLION), BILLION)
+        """Return how many laps all robots complete in a time unit of the scenario."""
+        ticks = 1 / self.scenario.timing.clock.tick
+        return sum((group.rate() * ticks for group in self.groups), Fraction(0))
 
     def _bookings(self, group: GroupRun) -> Bookings:
         return Bookings(

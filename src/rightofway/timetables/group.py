@@ -126,7 +126,8 @@ def choose(
         alone = _alone(shift)
         return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
     rival = _run(scenario, group, shift, "first-come", RIVAL_SHARE)
-    worth, pattern = _worth(shift, rival), rival.timetable
+    worth = Fraction(0) if rival.ends == "deadlock" else rival.rate(shift.weights)
+    pattern = rival.timetable
     starves = rival.ends == "repeats" and pattern is None
     ends: FirstComeEnds = "starves" if starves else rival.ends
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
@@ -196,14 +197,6 @@ def _cut(shift: Shift, run: GroupRun) -> list[Choice]:
     short = [one for one in best if one.visits <= SHORT]
     kept = dict.fromkeys((*best[:1], *short[:CUT]))
     return [max(one, filled(part, *part.on_circle(one)), key=shift.value) for one in kept]
-
-
-def _worth(shift: Shift, run: GroupRun) -> Fraction:
-    """Return what the laps of a run are worth per tick."""
-    if run.ends == "deadlock":
-        return Fraction(0)
-    means = zip(shift.weights, run.mean_laps(), strict=True)
-    return sum((weight / mean for weight, mean in means if mean), Fraction(0))
 
 
 def _value(shift: Shift, timetable: PeriodicTimetable) -> Fraction:

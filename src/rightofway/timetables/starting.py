@@ -100,7 +100,7 @@ def _in_the_way(
     period, visits = int(timetable.period), 0
     for robot, ticks in passes.items():
         until = _first_home(timetable, robot, begins)[1]
-        visits += np.count_nonzero((ticks - begins) % period < until - begins)
+        visits += int(np.count_nonzero((ticks - begins) % period < until - begins))
     return visits
 
 

@@ -63,7 +63,7 @@ class _Watched:
     def homes(self) -> list[NDArray[np.int64]]:
         """For each robot the ticks at which it comes home; at first it is there."""
         laps = zip(self.run.history, self.run.group, strict=True)
-        return [np.array(past, np.int64)[:: len(endless.lap)] for past, endless in laps]
+        return [np.array(past[:: len(endless.lap)], np.int64) for past, endless in laps]
 
     @cached_property
     def known(self) -> int:
