@@ -100,7 +100,7 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
 
 SearchEnd SafeIntervalSearch::run(const Errand& errand, const IsOver& is_over) {
     begin(errand);
-    if (least_f_ > limit_) {
+    if (least_f_ >= infinity || least_f_ > limit_) {
         return SearchEnd::proven_none;
     }
     if (is_worth_aiming()) {
