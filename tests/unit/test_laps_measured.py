@@ -36,11 +36,16 @@ def test_never_more_than_half_is_warm_up() -> None:
     assert warm_up_of([homes], 10, 220) <= 110
 
 
-def test_a_robot_without_a_whole_lap_since_is_told_by_its_last_one() -> None:
-    """The other one sets the warm-up at 30; this one is home at 12 and 17 only."""
+def test_a_robot_that_stands_is_told_by_how_long_it_has_stood() -> None:
+    """The other one sets the warm-up at 30; this one is home at 12 and 17, and then never."""
     measured = measure([ALONE, ALONE], [visits(*range(30, 140, 10)), visits(12, 17)])
     assert measured.warm_up == 30
-    assert (measured.laps[1], measured.means[1]) == (1, Fraction(5))
+    assert (measured.laps[1], measured.means[1]) == (1, Fraction(130 - 12, 2))
+
+
+def test_a_lap_that_is_not_over_counts_only_if_it_is_long_already() -> None:
+    measured = measure([ALONE, ALONE], [visits(*range(10, 140, 10)), visits(*range(10, 130, 10))])
+    assert measured.means == (Fraction(10), Fraction(10))
 
 
 def test_a_robot_that_was_never_home_again_has_no_mean() -> None:

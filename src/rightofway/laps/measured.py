@@ -58,21 +58,25 @@ def measure(group: Sequence[Endless], history: History) -> Measured:
 
     Notes
     -----
-    A robot that made no whole lap since the warm-up is told by its last one.
+    A robot that made no whole lap since the warm-up is told by its last one. The lap that it is on
+    counts as well as soon as it takes longer than the others: a robot may stand for ever, which no
+    lap that ended would show.
     """
     homes = [
         np.array(past[:: len(endless.lap)], np.int64)
         for endless, past in zip(group, history, strict=True)
     ]
-    slot = max(endless.lap.duration for endless in group)
-    warm_up = warm_up_of(homes, slot, max(past[-1] for past in history))
+    slot, until = max(endless.lap.duration for endless in group), max(past[-1] for past in history)
+    warm_up = warm_up_of(homes, slot, until)
     firsts = [min(int(np.searchsorted(home, warm_up)), max(len(home) - 2, 0)) for home in homes]
     laps = [len(home) - 1 - first for home, first in zip(homes, firsts, strict=True)]
     return Measured(
         warm_up=Tick(warm_up),
         laps=tuple(laps),
         means=tuple(
-            Fraction(int(home[-1] - home[first]), n) if n else None
+            max(Fraction(int(home[-1] - home[first]), n), Fraction(int(until - home[first]), n + 1))
+            if n
+            else None
             for home, first, n in zip(homes, firsts, laps, strict=True)
         ),
     )
