@@ -10,16 +10,6 @@ constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
 constexpr std::int64_t states_per_drive = 8;  // as many as there is time for, for aiming
 
-// The first number in the upper bits, the second in the lower ones. No plan comes near these
-// bounds; beyond them only the order would suffer.
-std::uint64_t key(Tick first, Tick second) {
-    constexpr int bits = 26;
-    constexpr Tick most_first = (Tick{1} << (63 - bits)) - 1;
-    constexpr Tick most_second = (Tick{1} << bits) - 1;
-    return (static_cast<std::uint64_t>(std::min(first, most_first)) << bits) |
-           static_cast<std::uint64_t>(std::min(second, most_second));
-}
-
 std::uint64_t scatter(std::uint64_t key) {
     key *= 0x9E3779B97F4A7C15U;
     return key ^ (key >> 32);
@@ -139,7 +129,7 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const IsOver& is_
     first_f_ = rest(first.vertex, 0);
     reach(first, first_f_);
     while (!open_.empty()) {
-        const Open top = pop();
+        const OpenList::Entry top = open_.pop();
         const Node& node = nodes_[static_cast<std::size_t>(top.node)];
         if (node.is_beaten) {
             continue;
@@ -371,8 +361,9 @@ void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
     nodes_.push_back(candidate);
     nodes_.back().next = slot.node;
     slot.node = node;
-    push(
-        {is_aiming_ ? key(way, candidate.ready) : key(f - first_f_ + way * greed_ / 8, way), node});
+    open_.push(is_aiming_ ? OpenList::key(way, candidate.ready)
+                          : OpenList::key(f - first_f_ + way * greed_ / 8, way),
+               node);
 }
 
 // Tells whether a node of the same state is no later and no dearer; marks those of which this one
@@ -386,40 +377,6 @@ bool SafeIntervalSearch::is_known(const Node& candidate, std::int32_t first) {
         known.is_beaten |= candidate.ready <= known.ready && candidate.cost <= known.cost;
     }
     return false;
-}
-
-// A heap of four children a node: half as deep as one of two, and its children share a cache line.
-void SafeIntervalSearch::push(const Open& open) {
-    std::size_t k = open_.size();
-    open_.push_back(open);
-    while (k > 0 && is_before(open, open_[(k - 1) / 4])) {
-        open_[k] = open_[(k - 1) / 4];
-        k = (k - 1) / 4;
-    }
-    open_[k] = open;
-}
-
-SafeIntervalSearch::Open SafeIntervalSearch::pop() {
-    const Open top = open_.front();
-    const Open last = open_.back();
-    open_.pop_back();
-    const std::size_t n = open_.size();
-    std::size_t k = 0;
-    for (std::size_t child = 1; child < n; child = 4 * k + 1) {
-        std::size_t least = child;
-        for (std::size_t other = child + 1; other < std::min(child + 4, n); ++other) {
-            least = is_before(open_[other], open_[least]) ? other : least;
-        }
-        if (!is_before(open_[least], last)) {
-            break;
-        }
-        open_[k] = open_[least];
-        k = least;
-    }
-    if (n > 0) {
-        open_[k] = last;
-    }
-    return top;
 }
 
 SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {

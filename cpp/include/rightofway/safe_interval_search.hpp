@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "rightofway/booking_table.hpp"
+#include "rightofway/open_list.hpp"
 #include "rightofway/search_end.hpp"
 #include "rightofway/trip.hpp"
 #include "rightofway/types.hpp"
@@ -77,10 +78,6 @@ class SafeIntervalSearch {
         std::int32_t drive;  // ticks of the edge driven in; 0: by waiting or serving a stage
         bool is_beaten;
     };
-    struct Open {
-        std::uint64_t key;  // f, then what is left to go: the nearer the better
-        std::int32_t node;  // makes the order total
-    };
     struct Slot {
         std::uint64_t state;
         Tick least;  // time and prices of that node together
@@ -109,11 +106,6 @@ class SafeIntervalSearch {
     Tick price(RobotId robot) const;
     void reach(const Node& candidate, Tick way);
     bool is_known(const Node& candidate, std::int32_t first);
-    static bool is_before(const Open& left, const Open& right) {
-        return left.key != right.key ? left.key < right.key : left.node < right.node;
-    }
-    void push(const Open& open);
-    Open pop();
     void next_generation();
     Slot& slot_of(const Node& node);
     void enlarge_slots();
@@ -128,7 +120,7 @@ class SafeIntervalSearch {
     std::vector<Tick> to_go_;      // from each stage's vertex to completion
     std::int32_t first_last_ = 0;  // from this stage on, all are at the last vertex
     std::vector<Node> nodes_;
-    std::vector<Open> open_;
+    OpenList open_;
     std::vector<Slot> slots_;    // open addressing
     std::size_t mask_ = 0;       // the first so many slots are in use; a search starts with few
     Tick least_drive_ = 1;       // on any edge
