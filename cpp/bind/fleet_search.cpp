@@ -86,6 +86,8 @@ n_searches : int
     After so many searches it gives up.
 time_limit : float or None
     After so many seconds as well.
+with_net : float or None
+    After so many seconds instead, once there is a plan made in haste.
 
 Returns
 -------
@@ -156,14 +158,14 @@ class FleetSearch {
     }
 
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
-                    const Deadline& deadline) {
+                    const Deadline& deadline, const Deadline& with_net) {
         clear();
         in_turn_.emplace(fleet_, plan_, order);
-        return go_on(n_searches, deadline);
+        return go_on(n_searches, deadline, with_net);
     }
 
-    bool go_on(std::int64_t n_searches, const Deadline& deadline) {
-        if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline)) {
+    bool go_on(std::int64_t n_searches, const Deadline& deadline, const Deadline& with_net) {
+        if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
             return false;
         }
         in_turn_.reset();
@@ -292,19 +294,20 @@ void bind_fleet_search(nb::module_& module) {
         .def(
             "prioritize",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
-               std::optional<double> time_limit) {
+               std::optional<double> time_limit, std::optional<double> with_net) {
                 const Deadline deadline(time_limit);
+                const Deadline deadline_with_net(with_net);
                 const nb::gil_scoped_release released;
-                return self.prioritize(view(order), n_searches, deadline);
+                return self.prioritize(view(order), n_searches, deadline, deadline_with_net);
             },
             nb::arg("order").noconvert(), nb::arg("n_searches"), nb::arg("time_limit").none(),
-            prioritize_doc)
+            nb::arg("with_net").none(), prioritize_doc)
         .def(
             "go_on",
             [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {
                 const Deadline deadline(time_limit);
                 const nb::gil_scoped_release released;
-                return self.go_on(n_searches, deadline);
+                return self.go_on(n_searches, deadline, deadline);
             },
             nb::arg("n_searches"), nb::arg("time_limit").none(), go_on_doc)
         .def(

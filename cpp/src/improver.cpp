@@ -7,13 +7,14 @@
 namespace rightofway {
 namespace {
 
-constexpr double memory = 0.97;    // of a record, from use to use
-constexpr double curiosity = 0.3;  // the share of draws that is even
 // Tasks of a round: many, so that threads seldom wait for each other; few where they would get in
 // each other's way.
 constexpr std::size_t robots_per_task = 4;
 constexpr std::size_t least_in_round = 4;
 constexpr std::size_t most_in_round = 32;
+// Of the searches of a task; see Errand. A good track in a hurry is worth more where there is much
+// to gain, the best one where there is little.
+constexpr std::array<Tick, 2> greeds{0, 2};
 constexpr auto between_questions = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -38,8 +39,9 @@ Improver::Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> al
       plan_(plan),
       alone_(alone),
       seed_(seed),
-      is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0) {
-    weights_.fill(1.0 / static_cast<double>(n_arms));
+      is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0),
+      neighbourhood_(n_neighbourhood_kinds * sizes.size()),
+      greed_(greeds.size()) {
     workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
     replicas_.reserve(n_threads);
     while (workers_.size() < n_threads) {
@@ -119,9 +121,11 @@ void Improver::work(Worker& worker, const SafeIntervalSearch::IsOver& is_over) {
 
 void Improver::attempt(Worker& worker, Task& task, Random& random,
                        const SafeIntervalSearch::IsOver& is_over) {
-    task.arm = draw_arm(random);
-    const auto kind = static_cast<NeighbourhoodKind>(task.arm / sizes.size());
-    task.robots = worker.neighbourhoods.choose(kind, sizes[task.arm % sizes.size()], random);
+    task.neighbourhood = neighbourhood_.draw(random);
+    task.greed = greed_.draw(random);
+    const auto kind = static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
+    const std::size_t size = sizes[task.neighbourhood % sizes.size()];
+    task.robots = worker.neighbourhoods.choose(kind, size, random);
     const RobotId seed = task.robots.front();
     random.shuffle(task.robots);
     if (random.below(2) == 0) {  // the robot that it began with goes first
@@ -149,7 +153,11 @@ bool Improver::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOv
     for (std::size_t k = 0; k < n && is_found; ++k) {
         const RobotId robot = task.robots[k];
         const Tick alone = alone_[static_cast<std::size_t>(robot)];
-        const Errand errand{worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
+        const Errand errand{worker.reader.read(robot),
+                            worker.plan.bookings(),
+                            {},
+                            alone + slack,
+                            greeds[task.greed]};
         is_found = worker.search.run(errand, is_over) == SearchEnd::found;
         if (is_found) {
             worker.search.track(worker.found.visits);
@@ -166,16 +174,6 @@ bool Improver::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOv
     return is_found;
 }
 
-std::size_t Improver::draw_arm(Random& random) const {
-    const double drawn = static_cast<double>(random.next() >> 11) * 0x1.0p-53;
-    double left = drawn;
-    std::size_t arm = 0;
-    while (arm + 1 < n_arms && (left -= weights_[arm]) >= 0) {
-        ++arm;
-    }
-    return arm;
-}
-
 // Takes over, in their order, the results that still fit.
 void Improver::settle(std::size_t n) {
     std::fill(is_touched_.begin(), is_touched_.end(), 0);
@@ -188,22 +186,8 @@ void Improver::settle(std::size_t n) {
         learn(task, is_adopted);
         ++n_tasks_;
     }
-    double sum = 0;
-    double total_gain = 0;
-    double total_effort = 1;
-    for (const Record& record : records_) {
-        total_gain += record.gain;
-        total_effort += record.effort;
-    }
-    const double prior = total_effort / static_cast<double>(n_arms) * 0.1 + 1;
-    for (std::size_t arm = 0; arm < n_arms; ++arm) {
-        weights_[arm] = (records_[arm].gain + prior * (total_gain + 1e-9) / total_effort) /
-                        (records_[arm].effort + prior);
-        sum += weights_[arm];
-    }
-    for (double& weight : weights_) {
-        weight = (1 - curiosity) * weight / sum + curiosity / static_cast<double>(n_arms);
-    }
+    neighbourhood_.settle();
+    greed_.settle();
 }
 
 // Takes over a result into all replicas, if robots taken over before leave it possible.
@@ -238,9 +222,10 @@ bool Improver::adopt(Task& task, bool may_clash) {
 }
 
 void Improver::learn(const Task& task, bool is_adopted) {
-    Record& record = records_[task.arm];
-    record.gain = memory * record.gain + (is_adopted ? static_cast<double>(task.gain) : 0.0);
-    record.effort = memory * record.effort + static_cast<double>(task.effort);
+    const double gain = is_adopted ? static_cast<double>(task.gain) : 0.0;
+    const auto effort = static_cast<double>(task.effort);
+    neighbourhood_.learn(task.neighbourhood, gain, effort);
+    greed_.learn(task.greed, gain, effort);
 }
 
 }  // namespace rightofway

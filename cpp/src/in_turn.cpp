@@ -25,6 +25,8 @@ class Beside {
         thread_.join();
     }
 
+    bool has_found() const { return has_ended_ && end_ == SearchEnd::found; }
+
     SearchEnd wait(const SafeIntervalSearch::IsOver& is_over) const {
         while (!has_ended_ && !is_over()) {
             std::this_thread::sleep_for(between_questions);
@@ -51,12 +53,14 @@ InTurn::InTurn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> ord
 }
 
 bool InTurn::run(std::int64_t n_searches, bool has_second_thread,
-                 const SafeIntervalSearch::IsOver& is_over) {
+                 const SafeIntervalSearch::IsOver& is_over,
+                 const SafeIntervalSearch::IsOver& is_late) {
     std::optional<Beside> beside;
     if (has_second_thread) {
         beside.emplace(hasty_, n_searches);
     }
-    if (patient_.run(n_searches, is_over) == SearchEnd::found) {
+    const auto is_enough = [&] { return beside && beside->has_found() ? is_late() : is_over(); };
+    if (patient_.run(n_searches, is_enough) == SearchEnd::found) {
         return true;
     }
     return take(beside ? beside->wait(is_over) : hasty_.run(n_searches, is_over));

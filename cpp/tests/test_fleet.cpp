@@ -158,10 +158,10 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
         FleetPlan one(fleet);
         FleetPlan two(fleet);
         const bool is_found =
-            InTurn(fleet, one, in_turn(fleet)).run(n_searches, false, test::never);
+            InTurn(fleet, one, in_turn(fleet)).run(n_searches, false, test::never, test::never);
         InTurn second(fleet, two, in_turn(fleet));
-        second.run(3, true, test::never);  // and on from there
-        CHECK(second.run(n_searches, true, test::never) == is_found);
+        second.run(3, true, test::never, test::never);  // and on from there
+        CHECK(second.run(n_searches, true, test::never, test::never) == is_found);
         if (is_found) {
             CHECK(is_sound(fleet, two));
             CHECK(one.flowtime() == two.flowtime());
@@ -174,7 +174,7 @@ TEST_CASE("what the caller throws while robots are planned in turn comes back") 
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     FleetPlan plan(fleet);
     const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
-    CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1, true, interrupt),
+    CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1, true, interrupt, interrupt),
                     std::runtime_error);
 }
 

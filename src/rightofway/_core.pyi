@@ -535,7 +535,7 @@ class FleetSearch:
             If they are no tracks of these trips, or overlap.
         """
 
-    def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
+    def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
         """
         Give the robots tracks one after another.
 
@@ -547,6 +547,8 @@ class FleetSearch:
             After so many searches it gives up.
         time_limit : float or None
             After so many seconds as well.
+        with_net : float or None
+            After so many seconds instead, once there is a plan made in haste.
 
         Returns
         -------

@@ -8,9 +8,7 @@
 // as far as they still fit together. So the outcome depends on the seed and the number of tasks,
 // not on threads or their speed.
 //
-// Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021;
-// Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
-// problem with time windows", Transportation Science 2006 (weights).
+// Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021.
 #pragma once
 
 #include <array>
@@ -24,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "rightofway/adaptive_choice.hpp"
 #include "rightofway/fleet_plan.hpp"
 #include "rightofway/neighbourhoods.hpp"
 #include "rightofway/safe_interval_search.hpp"
@@ -49,19 +48,14 @@ class Improver {
 
   private:
     static constexpr std::array<std::size_t, 3> sizes{4, 8, 16};
-    static constexpr std::size_t n_arms = n_neighbourhood_kinds * sizes.size();
 
     struct Task {
         std::vector<RobotId> robots;
         std::vector<TimedTrack> tracks;
-        std::size_t arm = 0;
+        std::size_t neighbourhood = 0;  // its kind and size
+        std::size_t greed = 0;
         Tick gain = -1;  // below 0: nothing found
         std::int64_t effort = 0;
-    };
-    // What a kind of neighbourhood has brought of late, and what that took.
-    struct Record {
-        double gain = 0;
-        double effort = 0;
     };
     struct Worker;
 
@@ -70,7 +64,6 @@ class Improver {
     void attempt(Worker& worker, Task& task, Random& random,
                  const SafeIntervalSearch::IsOver& is_over);
     bool replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over);
-    std::size_t draw_arm(Random& random) const;
     void settle(std::size_t n);
     bool adopt(Task& task, bool may_clash);
     void learn(const Task& task, bool is_adopted);
@@ -83,8 +76,8 @@ class Improver {
     std::vector<std::unique_ptr<Worker>> workers_;
     std::vector<Task> tasks_;
     std::vector<std::uint8_t> is_touched_;
-    std::array<Record, n_arms> records_{};
-    std::array<double, n_arms> weights_{};
+    AdaptiveChoice neighbourhood_;
+    AdaptiveChoice greed_;
     std::atomic<std::size_t> next_task_ = 0;
     std::size_t n_in_round_ = 0;
     std::atomic<bool> is_stopped_ = false;

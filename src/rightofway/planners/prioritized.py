@@ -28,8 +28,11 @@ from rightofway.search import Distances, FleetSearch
 
 __all__ = ["ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
 
-SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.2, 0.5, 0.8
+SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.2, 0.8, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
+
+SHARE_WITH_NET = 0.5
+"""The part of the time left for planning at own speeds where a plan made in haste is there."""
 
 SEARCHES, SEARCHES_AT_ONE_PACE = 3, 20
 """How often robots may be planned so and so, per robot of the fleet.
@@ -98,7 +101,12 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     searches, deadline = SEARCHES * len(turns), task.deadline
-    if search.prioritize(turns, searches=searches, time_limit=_part(deadline, SHARE)):
+    if search.prioritize(
+        turns,
+        searches=searches,
+        time_limit=_part(deadline, SHARE),
+        with_net=_part(deadline, SHARE_WITH_NET),
+    ):
         return _at_own_speeds(task, search)
     drafts = [_at_one_pace(task, turns)]
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
@@ -118,7 +126,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     paced = _paced(task.scenario)
-    search = FleetSearch(paced, headway=paced.timing.headway, seed=task.seed)
+    search = FleetSearch(paced, headway=paced.timing.headway, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):

@@ -70,7 +70,14 @@ class FleetSearch:
         """How many times in a row `improve` has brought no gain."""
         return self._core.n_idle
 
-    def prioritize(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
+    def prioritize(
+        self,
+        order: Sequence[int],
+        *,
+        searches: int,
+        time_limit: float | None,
+        with_net: float | None = None,
+    ) -> bool:
         """Give the robots tracks one after another; tell whether all have one.
 
         Parameters
@@ -81,8 +88,11 @@ class FleetSearch:
             After so many searches it gives up.
         time_limit
             When to stop [s].
+        with_net
+            When to stop [s] once there is a plan made in haste, if that is later.
         """
-        return self._core.prioritize(np.array(order, np.int32), searches, time_limit)
+        with_net = time_limit if with_net is None else with_net
+        return self._core.prioritize(np.array(order, np.int32), searches, time_limit, with_net)
 
     def go_on(self, *, searches: int, time_limit: float | None) -> bool:
         """Go on with `prioritize` where it ended; tell whether all robots have a track now.
