@@ -57,6 +57,26 @@ Notes
 Deterministic. Every answer is kept up to date from what has changed. Calls on a graph are short
 and keep the GIL, so threads that share one take turns.)";
 
+constexpr auto keep_order_doc = R"(Let all visits to a vertex take place in an order, all at once.
+
+Parameters
+----------
+when : int64[N]
+    A number for each visit: of two visits to one vertex the one with the smaller number goes
+    first, of equal ones that with the smaller index. Numbers rise along each route, and nobody
+    has to enter before another one leaves with a greater number. The ticks of a plan, or steps.
+
+Returns
+-------
+bool
+    Whether that is possible. If not, nothing has changed. If so, there is no rollback below this.
+
+Raises
+------
+ValueError
+    If there is not one number for each visit, if numbers do not rise along a route, or if there
+    were changes before.)";
+
 constexpr auto precede_doc = R"(Give visit a the right of way over visit b.
 
 Parameters
@@ -323,6 +343,10 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
     graph.def("precede", &Graph::precede, nb::arg("a"), nb::arg("b"), precede_doc)
         .def(
             "cycle", [](const Graph& self) { return to_numpy(self.cycle()); }, cycle_doc)
+        .def(
+            "keep_order",
+            [](Graph& self, const ArrayIn<Tick>& when) { return self.keep_order(view(when)); },
+            nb::arg("when").noconvert(), keep_order_doc)
         .def("take_back", &Graph::take_back, nb::arg("a"), nb::arg("b"), take_back_doc)
         .def("flip", &Graph::flip, nb::arg("a"), nb::arg("b"), flip_doc)
         .def("checkpoint", &Graph::checkpoint,

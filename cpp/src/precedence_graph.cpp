@@ -77,6 +77,42 @@ bool PrecedenceGraph::precede(VisitId a, VisitId b) {
     return true;
 }
 
+bool PrecedenceGraph::keep_order(std::span<const Tick> when) {
+    require_length("when", when.size(), static_cast<std::size_t>(n_visits()));
+    if (checkpoint() > 0) {
+        reject("when", checkpoint(), "changes have been made already (keep an order first)");
+    }
+    for (VisitId x = 1; x < n_visits(); ++x) {
+        if (!routes_.is_first(x) && when[x] <= when[x - 1]) {
+            reject_entry("when", static_cast<std::size_t>(x), when[x],
+                         "is not after the visit before");
+        }
+    }
+    if (!timetable_.keep_order(when)) {
+        return false;
+    }
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        index_.move(x, timetable_);
+    }
+    conflicts_ = 0;
+    for (RobotId r = 0; r < n_robots(); ++r) {
+        earliest_.forget(r);
+        conflicts_ += conflicts_of_all(r);
+    }
+    conflicts_ /= 2;  // each has two robots
+    n_kept_ = checkpoint();
+    conflicts_before_.assign(timetable_.n_changes(), conflicts_);
+    return true;
+}
+
+Tick PrecedenceGraph::conflicts_of_all(RobotId robot) const {
+    Tick total = 0;
+    for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
+        total += index_.weight(x);
+    }
+    return total;
+}
+
 bool PrecedenceGraph::take_back(VisitId a, VisitId b) {
     check_pair(a, b);
     if (!timetable_.take_back(a, b)) {

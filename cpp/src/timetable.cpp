@@ -1,6 +1,8 @@
 #include "rightofway/timetable.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 namespace rightofway {
 
@@ -43,6 +45,85 @@ bool Timetable::precede(VisitId a, VisitId b) {
     journal_.push_back({rights_.give(a, b), true, trail_.size()});
     accept();
     return true;
+}
+
+bool Timetable::keep_order(std::span<const Tick> when) {
+    changed_.clear();
+    cycle_.clear();
+    const std::vector<Tick> before = enter_;
+    const bool is_possible = give_in_order(when) && sweep(when);
+    if (!is_possible) {
+        enter_ = before;
+        rollback(0);
+        return false;
+    }
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        if (enter_[x] != before[x]) {
+            trail_.push_back({x, before[x]});
+            changed_.push_back(x);
+        }
+    }
+    return true;
+}
+
+bool Timetable::give_in_order(std::span<const Tick> when) {
+    std::vector<VisitId> visits;
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        if (routes_.is_active(routes_.robot(x))) {
+            visits.push_back(x);
+        }
+    }
+    const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[x], x); };
+    std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) { return key(x) < key(y); });
+    for (std::size_t k = 1; k < visits.size(); ++k) {
+        const VisitId a = visits[k - 1];
+        const VisitId b = visits[k];
+        if (routes_.vertex(a) != routes_.vertex(b) || routes_.robot(a) == routes_.robot(b)) {
+            continue;
+        }
+        if (routes_.is_last(a) || routes_.is_first(b) || when[a + 1] > when[b] ||
+            closes_swap(a, b)) {
+            return false;
+        }
+        journal_.push_back({rights_.give(a, b), true, trail_.size()});
+    }
+    return true;
+}
+
+// Visits of one number may hold each other (a rotation), so they are gone through until nothing
+// changes. Where that takes more rounds than there are visits, they raise each other for ever.
+bool Timetable::sweep(std::span<const Tick> when) {
+    std::vector<VisitId> in_order(enter_.size());
+    std::iota(in_order.begin(), in_order.end(), 0);
+    std::sort(in_order.begin(), in_order.end(), [&](VisitId x, VisitId y) {
+        return std::tuple(when[x], x) < std::tuple(when[y], y);
+    });
+    for (std::size_t first = 0, end = 0; first < in_order.size(); first = end) {
+        while (end < in_order.size() && when[in_order[end]] == when[in_order[first]]) {
+            ++end;
+        }
+        std::size_t rounds_left = end - first + 1;
+        for (bool has_changed = true; has_changed;) {
+            if (rounds_left-- == 0) {
+                return false;
+            }
+            has_changed = false;
+            for (std::size_t k = first; k < end; ++k) {
+                has_changed = raise_to_held(in_order[k]) || has_changed;
+            }
+        }
+    }
+    return true;
+}
+
+bool Timetable::raise_to_held(VisitId visit) {
+    if (routes_.is_first(visit)) {
+        return false;
+    }
+    const Tick held = held_to(visit);
+    const bool is_raised = held > enter_[visit];
+    enter_[visit] = std::max(enter_[visit], held);
+    return is_raised;
 }
 
 bool Timetable::take_back(VisitId a, VisitId b) {

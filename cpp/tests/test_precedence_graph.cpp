@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "example.hpp"
 #include "rightofway/precedence_graph.hpp"
 
@@ -42,6 +44,42 @@ TEST_CASE("conflicts of one robot with some others") {
     CHECK(graph.conflicts_of(1, std::vector<std::uint8_t>{1, 0, 0}) == 1);
     CHECK(graph.conflicts_of(1, std::vector<std::uint8_t>{0, 1, 0}) == 0);
     CHECK(graph.next_conflict_between(2, 1)->tick == 2);
+}
+
+TEST_CASE("an order of all visits is kept at once, and is the start of what can be undone") {
+    PrecedenceGraph graph(two_meetings().arrays());
+    REQUIRE(graph.keep_order(Ticks{0, 2, 3, 0, 1, 2, 3, 0, 1, 3, 4}));
+    CHECK(graph.conflicts() == 0);
+    CHECK_FALSE(graph.next_conflict().has_value());
+    CHECK(graph.completion(0) == 3);
+    CHECK(graph.completion(2) == 4);
+    const std::int64_t mark = graph.checkpoint();
+    CHECK(mark == 2);
+    REQUIRE(graph.take_back(4, 1));
+    CHECK(graph.conflicts() == 1);
+    graph.rollback(mark);
+    CHECK(graph.conflicts() == 0);
+    CHECK_THROWS_AS(graph.rollback(mark - 1), std::invalid_argument);
+}
+
+TEST_CASE("robots that change places round a circle keep the order of one instant") {
+    PrecedenceGraph graph(Example({{0, 1, 5}, {1, 2, 6}, {2, 0, 7}}).arrays());
+    REQUIRE(graph.keep_order(Ticks{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+    CHECK(listed(graph.enters()) == Ticks{0, 1, 2, 0, 1, 2, 0, 1, 2});
+    CHECK(graph.conflicts() == 0);
+}
+
+TEST_CASE("an order that cannot be kept changes nothing") {
+    Example turning({{0, 1, 5}, {1, 2, 6}, {2, 0, 7}});
+    PrecedenceGraph graph(turning.book_both().arrays());  // each would wait for the next
+    CHECK_FALSE(graph.keep_order(Ticks{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+    CHECK(graph.checkpoint() == 0);
+    CHECK(graph.rights_of_way().empty());
+    CHECK(listed(graph.enters()) == Ticks{0, 1, 2, 0, 1, 2, 0, 1, 2});
+    CHECK_THROWS_AS(graph.keep_order(Ticks{0, 1, 2}), std::invalid_argument);
+    CHECK_THROWS_AS(graph.keep_order(Ticks{0, 1, 1, 0, 1, 2, 0, 1, 2}), std::invalid_argument);
+    PrecedenceGraph swapping(Example({{0, 1}, {1, 0}}).arrays());
+    CHECK_FALSE(swapping.keep_order(Ticks{0, 1, 0, 1}));
 }
 
 TEST_CASE("a refusal changes nothing") {

@@ -975,6 +975,29 @@ class PrecedenceGraph:
             there was another reason, or no refusal yet.
         """
 
+    def keep_order(self, when: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
+        """
+        Let all visits to a vertex take place in an order, all at once.
+
+        Parameters
+        ----------
+        when : int64[N]
+            A number for each visit: of two visits to one vertex the one with the smaller number goes
+            first, of equal ones that with the smaller index. Numbers rise along each route, and nobody
+            has to enter before another one leaves with a greater number. The ticks of a plan, or steps.
+
+        Returns
+        -------
+        bool
+            Whether that is possible. If not, nothing has changed. If so, there is no rollback below this.
+
+        Raises
+        ------
+        ValueError
+            If there is not one number for each visit, if numbers do not rise along a route, or if there
+            were changes before.
+        """
+
     def take_back(self, a: int, b: int) -> bool:
         """
         Take back one right of way, whenever it was given.

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from rightofway.precedence import graph_of
+from rightofway.precedence import PrecedenceGraph, graph_of
 from rightofway.search import Bookings, Distances, earliest_track
 from tests.fleets import random_fleet
 
@@ -54,6 +54,31 @@ def test_the_timetable_of_a_plan_is_a_plan_and_nobody_is_later(
     for before, after in zip(tracks, retimed, strict=True):
         assert np.array_equal(before.vertices, after.vertices)
         assert (after.enter <= before.enter).all()
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(fleets(), st.lists(st.integers(0, 9), min_size=4, max_size=4))
+def test_an_order_kept_at_once_is_the_same_as_right_of_way_given_one_by_one(
+    scenario: Scenario, delays: list[int]
+) -> None:
+    tracks = late(scenario, delays)
+    if not tracks or not rightofway.check(_plan(scenario, tracks)).ok:
+        return
+    at_once = graph_of(scenario, tracks)
+    one_by_one = PrecedenceGraph(
+        at_once.routes,
+        headway=scenario.timing.headway,
+        books_ahead=scenario.rules.occupancy == "both",
+    )
+    for first, second in at_once.rights_of_way():
+        assert one_by_one.give_way(first, second)
+    assert at_once.tracks() == one_by_one.tracks()
+    assert at_once.conflicts_left() == one_by_one.conflicts_left()
+    for first, second in at_once.rights_of_way()[:3]:
+        assert at_once.take_back(first, second)
+        assert one_by_one.take_back(first, second)
+        assert at_once.tracks() == one_by_one.tracks()
+        assert at_once.conflicts_left() == one_by_one.conflicts_left()
 
 
 def _plan(scenario: Scenario, tracks: list[Track]) -> Plan:

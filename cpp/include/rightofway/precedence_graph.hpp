@@ -54,6 +54,10 @@ class PrecedenceGraph {
     // See Timetable. Throws std::invalid_argument unless a and b are visits of two active robots
     // to one vertex.
     bool precede(VisitId a, VisitId b);
+    // See Timetable; all visits of a vertex in their order at once. A rollback below this is
+    // refused. Throws std::invalid_argument unless there is a number for each visit, rising along
+    // each route, and nobody has any right of way yet.
+    bool keep_order(std::span<const Tick> when);
     std::span<const VisitId> cycle() const { return timetable_.cycle(); }
 
     // Takes back one right of way, whenever it was given; the others get the earliest times that
@@ -76,6 +80,7 @@ class PrecedenceGraph {
 
   private:
     void check_pair(VisitId a, VisitId b) const;
+    Tick conflicts_of_all(RobotId robot) const;
     template <class Use>
     void for_each_touched(Use&& use) const;
     void count_change();

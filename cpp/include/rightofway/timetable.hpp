@@ -45,6 +45,13 @@ class Timetable {
     // would be deadlocked or swap; cycle() then explains. Giving a right of way again does nothing.
     bool precede(VisitId a, VisitId b);
 
+    // Lets all visits to a vertex take place in the order of these numbers, one for each visit,
+    // equal ones by visit: each has the right of way over the next one, if that is of another
+    // robot. All at once, in one sweep over the visits: along a route numbers rise, and nobody has
+    // to enter before another one leaves whose number is greater. False, with nothing changed, if
+    // numbers are not like that or the order is impossible. Nobody has any right of way yet.
+    bool keep_order(std::span<const Tick> when);
+
     // The cycle that the last refused right of way would have closed: visits in order, b first.
     // Empty if it was refused for another reason.
     std::span<const VisitId> cycle() const { return cycle_; }
@@ -89,6 +96,9 @@ class Timetable {
     };
 
     bool closes_swap(VisitId a, VisitId b) const;
+    bool give_in_order(std::span<const Tick> when);
+    bool sweep(std::span<const Tick> when);
+    bool raise_to_held(VisitId visit);
     bool spread(VisitId b, Tick delta, VisitId source);
     bool settle(VisitId source);
     void raise_successors(VisitId visit);

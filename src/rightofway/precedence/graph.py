@@ -168,16 +168,8 @@ class PrecedenceGraph:
             For each robot, a number for each of its visits; of two visits to one vertex, the one
             with the smaller number goes first. The ticks of a plan, or steps.
         """
-        at: dict[VertexId, list[tuple[int, Visit]]] = {}
-        for robot, numbers in enumerate(when):
-            for index, number in enumerate(numbers):
-                visit = self.visit(robot, index)
-                at.setdefault(self.vertex(visit), []).append((number, visit))
-        for visits in at.values():
-            for (_, first), (_, second) in pairwise(sorted(visits)):
-                if self._robot[first] != self._robot[second]:
-                    possible = self.give_way(first, second)
-                    assert possible, "what took place in some order can take place in it again"
+        possible = self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
+        assert possible, "what took place in some order can take place in it again"
 
     def rights_of_way(self) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) in the order they were given."""
