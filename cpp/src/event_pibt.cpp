@@ -44,6 +44,10 @@ EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& 
     for (RobotId r = 0; r < trips.n_robots(); ++r) {
         pace_.push_back(trips.pace(r));
     }
+    for (VertexId v = 0; v < trips.graph.n_vertices(); ++v) {
+        most_heads_ = std::max(most_heads_, trips.graph.heads(v).size());
+    }
+    steps_beside_.resize(trips.home.size() * most_heads_);
 }
 
 void EventPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
@@ -135,9 +139,10 @@ bool EventPibt::choose_one(const FleetState& now, RobotId robot) {
 bool EventPibt::has_to_wait(const FleetState& now, RobotId robot) {
     const Outlook& ahead = outlook(now, robot);
     const auto heads = trips_.graph.heads(ahead.here);
+    const std::int32_t* steps = steps_beside(robot);
     bool are_booked = true;
     for (std::size_t k = 0; k < heads.size(); ++k) {
-        if (ahead.steps_beside[k] <= ahead.steps) {
+        if (steps[k] <= ahead.steps) {
             if (is_open(now, robot, heads[k])) {
                 return false;
             }
@@ -153,10 +158,11 @@ bool EventPibt::has_to_wait(const FleetState& now, RobotId robot) {
 
 bool EventPibt::has_partner(const FleetState& now, RobotId robot) {
     const Outlook& ahead = outlook_[robot];
-    const std::size_t n_heads = ahead.steps_beside.size();
+    const std::size_t n_heads = trips_.graph.heads(ahead.here).size();
+    const std::int32_t* steps = steps_beside(robot);
     Place best = place(now, robot, n_heads);
     for (std::size_t k = 0; k < n_heads; ++k) {
-        if (ahead.steps_beside[k] <= ahead.steps) {  // others rank behind staying
+        if (steps[k] <= ahead.steps) {  // others rank behind staying
             best = std::min(best, place(now, robot, k), ranks_before);
         }
     }
@@ -216,10 +222,9 @@ const EventPibt::Outlook& EventPibt::outlook(const FleetState& now, RobotId robo
     outlook.stage = stage;
     outlook.steps = way(now, robot, here);
     outlook.preferred = paths_.next(stage, here);
-    outlook.steps_beside.clear();
+    std::int32_t* beside = steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
     for (const VertexId head : trips_.graph.heads(here)) {
-        const bool is_preferred = head == outlook.preferred;
-        outlook.steps_beside.push_back(is_preferred ? outlook.steps - 1 : way(now, robot, head));
+        *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
     }
     return outlook;
 }
@@ -228,12 +233,12 @@ const EventPibt::Outlook& EventPibt::outlook(const FleetState& now, RobotId robo
 // preferred path counts as one nearer, and goes first among equals; other ties are at random.
 EventPibt::Place EventPibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
     const Outlook& ahead = outlook_[robot];
-    const bool stays = k == ahead.steps_beside.size();
     const EdgeId edge = trips_.graph.indptr[ahead.here] + static_cast<EdgeId>(k);
+    const bool stays = edge == trips_.graph.indptr[ahead.here + 1];
     const VertexId vertex = stays ? ahead.here : trips_.graph.indices[edge];
     const Tick there =
         stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, trips_.drive(robot, edge));
-    const Tick way_on = (stays ? ahead.steps : ahead.steps_beside[k]) * pace_[robot];
+    const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[robot];
     const bool is_first = !stays && vertex == ahead.preferred;
     const std::uint64_t draw = draw_ + (k + 1) * draw_step;
     std::uint64_t tie = (draw ^ (draw >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -251,7 +256,7 @@ bool EventPibt::ranks_before(const Place& left, const Place& right) {
 // All places to go to, that from where the target is reached soonest first.
 void EventPibt::push_places(const FleetState& now, RobotId robot) {
     const auto begin = static_cast<std::ptrdiff_t>(places_.size());
-    const std::size_t n_places = outlook(now, robot).steps_beside.size() + 1;
+    const std::size_t n_places = trips_.graph.heads(outlook(now, robot).here).size() + 1;
     for (std::size_t k = 0; k < n_places; ++k) {
         places_.push_back(place(now, robot, k));
     }

@@ -52,9 +52,8 @@ class EventPibt {
     struct Outlook {
         VertexId here = -1;
         std::int32_t stage = -1;
-        std::int32_t steps = 0;                  // to the target of the stage
-        VertexId preferred = -1;                 // the neighbour on the preferred path
-        std::vector<std::int32_t> steps_beside;  // from each neighbour
+        std::int32_t steps = 0;   // to the target of the stage
+        VertexId preferred = -1;  // the neighbour on the preferred path
     };
     struct Place {
         std::int64_t cost;
@@ -72,6 +71,9 @@ class EventPibt {
     bool closes_circle(const FleetState& now, RobotId robot, VertexId place) const;
     void take(RobotId robot, VertexId vertex);
     const Outlook& outlook(const FleetState& now, RobotId robot);
+    const std::int32_t* steps_beside(RobotId robot) const {
+        return steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+    }
     Place place(const FleetState& now, RobotId robot, std::size_t k) const;
     static bool ranks_before(const Place& left, const Place& right);
     void push_places(const FleetState& now, RobotId robot);
@@ -88,12 +90,14 @@ class EventPibt {
     const SpreadPaths& paths_;
     std::vector<StepTables::TableId> stage_table_;
     std::vector<Tick> pace_;
-    std::vector<Outlook> outlook_;  // of each robot, when it last chose
-    std::uint64_t draw_;            // state of the random numbers for ties
-    std::vector<RobotId> claim_;    // who will be at each vertex by a choice of this instant
-    std::vector<VertexId> next_;    // where each robot will be by that
-    std::vector<Tick> arrival_;     // of each robot, once it is settled
-    std::vector<RobotId> chosen_;   // this instant
+    std::vector<Outlook> outlook_;            // of each robot, when it last chose
+    std::size_t most_heads_ = 0;              // of any vertex
+    std::vector<std::int32_t> steps_beside_;  // of each robot: from that many neighbours
+    std::uint64_t draw_;                      // state of the random numbers for ties
+    std::vector<RobotId> claim_;   // who will be at each vertex by a choice of this instant
+    std::vector<VertexId> next_;   // where each robot will be by that
+    std::vector<Tick> arrival_;    // of each robot, once it is settled
+    std::vector<RobotId> chosen_;  // this instant
     std::vector<RobotId> queue_;
     std::vector<Place> places_;  // a stack: those of each robot that is choosing
     std::vector<Fixed> fixed_;
