@@ -65,9 +65,7 @@ SearchEnd EventLacam::expand() {
         open_.pop_back();  // every choice from here has been tried
         return SearchEnd::stopped;
     }
-    order_.assign(state_.undecided().begin(), state_.undecided().end());
-    sort_by_urgency(order_);
-    if (pibt_.choose(state_, order_)) {
+    if (pibt_.choose(state_, by_urgency())) {
         go_on(top);
     }
     return SearchEnd::stopped;
@@ -97,14 +95,13 @@ bool EventLacam::next_constraint(Node& node) {
 // Tells one more robot where to go, in every way there is.
 void EventLacam::branch(Node& node, std::int32_t constraint) {
     if (constraint == 0) {
+        const auto undecided = by_urgency();
+        node.order.assign(undecided.begin(), undecided.end());
         for (RobotId r = 0; r < trips_.n_robots(); ++r) {
             if (state_.has_arrived(r)) {
                 node.order.push_back(r);
             }
         }
-        std::vector<RobotId> undecided(state_.undecided().begin(), state_.undecided().end());
-        sort_by_urgency(undecided);
-        node.order.insert(node.order.begin(), undecided.begin(), undecided.end());
     }
     const std::int32_t depth = node.constraints[constraint].depth;
     if (depth == static_cast<std::int32_t>(node.order.size())) {
@@ -119,14 +116,21 @@ void EventLacam::branch(Node& node, std::int32_t constraint) {
 }
 
 // Who has been on its way for long is urgent; between equals, the longer way counts.
-void EventLacam::sort_by_urgency(std::vector<RobotId>& robots) const {
-    std::sort(robots.begin(), robots.end(), [this](RobotId left, RobotId right) {
-        const Tick urgent_left = pibt_.pace(left) * (state_.now() - state_.on_its_way_since(left));
-        const Tick urgent_right =
-            pibt_.pace(right) * (state_.now() - state_.on_its_way_since(right));
-        return urgent_left != urgent_right ? urgent_left > urgent_right
-                                           : rank_[left] < rank_[right];
+std::span<const RobotId> EventLacam::by_urgency() {
+    urgencies_.clear();
+    for (const RobotId robot : state_.undecided()) {
+        const Tick urgency = pibt_.pace(robot) * (state_.now() - state_.on_its_way_since(robot));
+        urgencies_.push_back({urgency, rank_[robot], robot});
+    }
+    std::sort(urgencies_.begin(), urgencies_.end(), [](const Urgency& left, const Urgency& right) {
+        return left.urgency != right.urgency ? left.urgency > right.urgency
+                                             : left.rank < right.rank;
     });
+    order_.clear();
+    for (const Urgency& one : urgencies_) {
+        order_.push_back(one.robot);
+    }
+    return order_;
 }
 
 // Takes the decisions and lets the clock go on to the next state.
@@ -140,21 +144,23 @@ void EventLacam::go_on(std::int32_t from) {
         return;  // nobody moves, so nothing ever changes
     }
     state_of_ = none;
-    const auto known = known_.find(state_.fingerprint());
-    if (known == known_.end()) {
-        add(from, first);
-    } else {
+    if (!add(from, first)) {
         decisions_.resize(first);
-        open_.push_back(known->second);
+        open_.push_back(known_.at(state_.fingerprint()));
     }
 }
 
-void EventLacam::add(std::int32_t parent, std::size_t first_decision) {
-    state_of_ = static_cast<std::int32_t>(nodes_.size());
-    known_.emplace(state_.fingerprint(), state_of_);
+// False if the state is known.
+bool EventLacam::add(std::int32_t parent, std::size_t first_decision) {
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    if (!known_.emplace(state_.fingerprint(), node).second) {
+        return false;
+    }
+    state_of_ = node;
     const std::int32_t level = parent == none ? 0 : nodes_[parent].level + 1;
     nodes_.push_back({parent, level, first_decision, decisions_.size(), 0, {}, {}});
-    open_.push_back(state_of_);
+    open_.push_back(node);
+    return true;
 }
 
 void EventLacam::restore(std::int32_t node) {

@@ -10,6 +10,7 @@ namespace {
 constexpr VertexId nowhere = -1;
 constexpr Tick unsettled = -1;
 constexpr Tick in_queue = -2;
+constexpr std::uint64_t draw_step = 0x9e3779b97f4a7c15U;  // from one random number to the next
 
 }  // namespace
 
@@ -32,6 +33,7 @@ EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& 
     : trips_(trips),
       tables_(tables),
       paths_(paths),
+      outlook_(trips.home.size()),
       draw_(seed),
       claim_(static_cast<std::size_t>(trips.graph.n_vertices()), nobody),
       next_(trips.home.size(), nowhere),
@@ -42,6 +44,10 @@ EventPibt::EventPibt(const Trips& trips, StepTables& tables, const SpreadPaths& 
     for (RobotId r = 0; r < trips.n_robots(); ++r) {
         pace_.push_back(trips.pace(r));
     }
+    for (VertexId v = 0; v < trips.graph.n_vertices(); ++v) {
+        most_heads_ = std::max(most_heads_, trips.graph.heads(v).size());
+    }
+    steps_beside_.resize(trips.home.size() * most_heads_);
 }
 
 void EventPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
@@ -55,10 +61,7 @@ bool EventPibt::choose(const FleetState& now, std::span<const RobotId> order) {
 
 bool EventPibt::take_fixed(const FleetState& now) {
     return std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
-        const RobotId other = now.here(fixed.vertex);
-        const bool is_at_work =
-            other != nobody && now.is_busy(other) && now.to(other) == fixed.vertex;
-        if (is_at_work || !is_open(now, fixed.robot, fixed.vertex)) {
+        if (!is_open(now, fixed.robot, fixed.vertex)) {
             return false;
         }
         take(fixed.robot, fixed.vertex);
@@ -83,13 +86,17 @@ void EventPibt::take(RobotId robot, VertexId vertex) {
     next_[robot] = vertex;
 }
 
-// Nobody else comes there, and the robot that is there does not come here.
+// Nobody else comes there, and the robot that is there is not at work and does not come here.
 bool EventPibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
     if (now.comes(place) != nobody || claim_[place] != nobody) {
         return false;
     }
     const RobotId other = now.here(place);
-    return other == nobody || other == robot || next_[other] != now.at(robot);
+    if (other == nobody || other == robot) {
+        return true;
+    }
+    const bool is_at_work = now.is_busy(other) && now.to(other) == place;
+    return !is_at_work && next_[other] != now.at(robot);
 }
 
 bool EventPibt::closes_circle(const FleetState& now, RobotId robot, VertexId place) const {
@@ -103,6 +110,13 @@ bool EventPibt::closes_circle(const FleetState& now, RobotId robot, VertexId pla
 
 bool EventPibt::choose_one(const FleetState& now, RobotId robot) {
     ++n_choices_;
+    const VertexId here = now.at(robot);
+    if (has_to_wait(now, robot)) {
+        draw_ += draw_step * (trips_.graph.heads(here).size() + 1);  // as if its places were ranked
+        const bool may_stay = is_open(now, robot, here);
+        take(robot, here);
+        return may_stay;
+    }
     const std::size_t first = places_.size();
     push_places(now, robot);
     const Choosing fleet{*this, now};
@@ -113,9 +127,46 @@ bool EventPibt::choose_one(const FleetState& now, RobotId robot) {
     const bool found = try_places(now, robot, first, partner);
     places_.resize(first);
     if (!found) {
-        take(robot, now.at(robot));
+        take(robot, here);
     }
     return found;
+}
+
+// Whether it is plain that the robot stays, without a ranking of its places: so it is for most that
+// have been waiting. Either it may not stay, but nothing beside it is open; or it may, and no place
+// is open that may rank before where it is. It does not change places with anybody then if robots
+// on the move have booked them all: they come first.
+bool EventPibt::has_to_wait(const FleetState& now, RobotId robot) {
+    const Outlook& ahead = outlook(now, robot);
+    const auto heads = trips_.graph.heads(ahead.here);
+    const std::int32_t* steps = steps_beside(robot);
+    bool are_booked = true;
+    for (std::size_t k = 0; k < heads.size(); ++k) {
+        if (steps[k] <= ahead.steps) {
+            if (is_open(now, robot, heads[k])) {
+                return false;
+            }
+            are_booked = are_booked && now.comes(heads[k]) != nobody;
+        }
+    }
+    if (is_open(now, robot, ahead.here)) {
+        return are_booked || !has_partner(now, robot);
+    }
+    return std::none_of(heads.begin(), heads.end(),
+                        [&](VertexId head) { return is_open(now, robot, head); });
+}
+
+bool EventPibt::has_partner(const FleetState& now, RobotId robot) {
+    const Outlook& ahead = outlook_[robot];
+    const std::size_t n_heads = trips_.graph.heads(ahead.here).size();
+    const std::int32_t* steps = steps_beside(robot);
+    Place best = place(now, robot, n_heads);
+    for (std::size_t k = 0; k < n_heads; ++k) {
+        if (steps[k] <= ahead.steps) {  // others rank behind staying
+            best = std::min(best, place(now, robot, k), ranks_before);
+        }
+    }
+    return Swaps(Choosing{*this, now}).partner(robot, best.vertex) != nobody;
 }
 
 bool EventPibt::try_places(const FleetState& now, RobotId robot, std::size_t first,
@@ -125,8 +176,7 @@ bool EventPibt::try_places(const FleetState& now, RobotId robot, std::size_t fir
     for (std::size_t k = first; k < end; ++k) {
         const VertexId place = places_[k].vertex;
         const RobotId other = now.here(place);
-        const bool is_at_work = other != nobody && now.is_busy(other) && now.to(other) == place;
-        if (is_at_work || !is_open(now, robot, place) ||
+        if (!is_open(now, robot, place) ||
             (!trips_.may_rotate && place != here && closes_circle(now, robot, place))) {
             continue;
         }
@@ -160,31 +210,58 @@ Tick EventPibt::soonest(const FleetState& now, RobotId robot, VertexId place, Ti
     return std::max(now.now() + drive, left + trips_.gap(drive));
 }
 
-// All places to go to, that from where the target is reached soonest first; ties at random. A step
-// along the preferred path counts as one nearer, and goes first among equals.
+// How far it is from where a robot is and from the places beside it. Who waits asks many times.
+const EventPibt::Outlook& EventPibt::outlook(const FleetState& now, RobotId robot) {
+    Outlook& outlook = outlook_[robot];
+    const VertexId here = now.at(robot);
+    const std::int32_t stage = now.stage(robot);
+    if (outlook.here == here && outlook.stage == stage) {
+        return outlook;
+    }
+    outlook.here = here;
+    outlook.stage = stage;
+    outlook.steps = way(now, robot, here);
+    outlook.preferred = paths_.next(stage, here);
+    std::int32_t* beside = steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+    for (const VertexId head : trips_.graph.heads(here)) {
+        *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
+    }
+    return outlook;
+}
+
+// The place over the k-th edge from where a robot is, or that one itself. A step along the
+// preferred path counts as one nearer, and goes first among equals; other ties are at random.
+EventPibt::Place EventPibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
+    const Outlook& ahead = outlook_[robot];
+    const EdgeId edge = trips_.graph.indptr[ahead.here] + static_cast<EdgeId>(k);
+    const bool stays = edge == trips_.graph.indptr[ahead.here + 1];
+    const VertexId vertex = stays ? ahead.here : trips_.graph.indices[edge];
+    const Tick there =
+        stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, trips_.drive(robot, edge));
+    const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[robot];
+    const bool is_first = !stays && vertex == ahead.preferred;
+    const std::uint64_t draw = draw_ + (k + 1) * draw_step;
+    std::uint64_t tie = (draw ^ (draw >> 30)) * 0xbf58476d1ce4e5b9U;
+    tie ^= tie >> 27;
+    return {2 * (there - now.now() + way_on) - (is_first ? 1 : 0),
+            static_cast<std::uint32_t>(tie * 0x94d049bb133111ebU >> 32), vertex};
+}
+
+bool EventPibt::ranks_before(const Place& left, const Place& right) {
+    return left.cost != right.cost ? left.cost < right.cost
+           : left.tie != right.tie ? left.tie < right.tie
+                                   : left.vertex < right.vertex;
+}
+
+// All places to go to, that from where the target is reached soonest first.
 void EventPibt::push_places(const FleetState& now, RobotId robot) {
     const auto begin = static_cast<std::ptrdiff_t>(places_.size());
-    const VertexId here = now.at(robot);
-    const std::int32_t from_here = way(now, robot, here);
-    const VertexId preferred = paths_.next(now.stage(robot), here);
-    const auto push = [&](VertexId place, Tick soonest_there, std::int32_t steps, bool first) {
-        draw_ += 0x9e3779b97f4a7c15U;
-        std::uint64_t tie = (draw_ ^ (draw_ >> 30)) * 0xbf58476d1ce4e5b9U;
-        tie ^= tie >> 27;
-        places_.push_back({2 * (soonest_there - now.now() + steps * pace_[robot]) - (first ? 1 : 0),
-                           static_cast<std::uint32_t>(tie * 0x94d049bb133111ebU >> 32), place});
-    };
-    for (EdgeId e = trips_.graph.indptr[here]; e < trips_.graph.indptr[here + 1]; ++e) {
-        const VertexId head = trips_.graph.indices[e];
-        const std::int32_t steps = head == preferred ? from_here - 1 : way(now, robot, head);
-        push(head, soonest(now, robot, head, trips_.drive(robot, e)), steps, head == preferred);
+    const std::size_t n_places = trips_.graph.heads(outlook(now, robot).here).size() + 1;
+    for (std::size_t k = 0; k < n_places; ++k) {
+        places_.push_back(place(now, robot, k));
     }
-    push(here, now.now() + pace_[robot], from_here, false);
-    std::sort(places_.begin() + begin, places_.end(), [](const Place& left, const Place& right) {
-        return left.cost != right.cost ? left.cost < right.cost
-               : left.tie != right.tie ? left.tie < right.tie
-                                       : left.vertex < right.vertex;
-    });
+    draw_ += n_places * draw_step;
+    std::sort(places_.begin() + begin, places_.end(), ranks_before);
 }
 
 bool EventPibt::settle_arrivals(const FleetState& now) {

@@ -45,12 +45,11 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 FleetState::FleetState(const Trips& trips)
     : trips_(&trips),
       robots_(trips.home.size()),
-      here_(static_cast<std::size_t>(trips.graph.n_vertices()), nobody),
-      comes_(here_.size(), nobody),
-      left_(here_.size(), -trips.headway) {
+      vertices_(static_cast<std::size_t>(trips.graph.n_vertices()),
+                {nobody, nobody, -trips.headway}) {
     for (RobotId r = 0; r < trips.n_robots(); ++r) {
         robots_[r] = {trips.home[r], trips.home[r], trips.first_stage[r], busy, 0, 0};
-        here_[trips.home[r]] = r;
+        vertices_[trips.home[r]].here = r;
         begin_stage(r);
     }
 }
@@ -70,7 +69,7 @@ std::uint64_t FleetState::key(RobotId robot) const {
 void FleetState::set_busy(RobotId robot, Tick until) {
     robots_[robot].place = busy;
     robots_[robot].ready = until;
-    sum_busy_ += key(robot) * power(base, until);
+    sum_busy_ += key(robot) * base_to_now_ * power(base, until - now_);
     events_.push_back({until, robot});
     std::push_heap(events_.begin(), events_.end(), is_later);
 }
@@ -121,7 +120,7 @@ void FleetState::decide(const Decision& decision) {
     }
     take_off_list(robot);
     robots_[robot].to = decision.vertex;
-    comes_[decision.vertex] = robot;
+    vertices_[decision.vertex].comes = robot;
     set_busy(robot, decision.arrival);
 }
 
@@ -129,28 +128,30 @@ bool FleetState::advance() {
     if (events_.empty()) {
         return false;
     }
-    now_ = events_.front().tick;
+    const Tick ticks = events_.front().tick - now_;
+    now_ += ticks;
+    base_to_now_ *= power(base, ticks);
+    back_to_now_ *= power(back, ticks);
     finished_.clear();
     while (!events_.empty() && events_.front().tick == now_) {
         std::pop_heap(events_.begin(), events_.end(), is_later);
         finished_.push_back(events_.back().robot);
         events_.pop_back();
     }
-    const std::uint64_t factor = power(base, now_);
     for (const RobotId robot : finished_) {  // all leave before the first arrives
         const Robot& r = robots_[robot];
-        sum_busy_ -= key(robot) * factor;
+        sum_busy_ -= key(robot) * base_to_now_;
         if (r.at != r.to) {
-            here_[r.at] = nobody;
-            left_[r.at] = now_;
+            vertices_[r.at].here = nobody;
+            vertices_[r.at].left = now_;
         }
     }
     for (const RobotId robot : finished_) {
         Robot& r = robots_[robot];
         if (r.at != r.to) {
             r.at = r.to;
-            here_[r.at] = robot;
-            comes_[r.at] = nobody;
+            vertices_[r.at].here = robot;
+            vertices_[r.at].comes = nobody;
         } else {  // its work is done
             ++r.stage;
             r.since = now_;
@@ -161,7 +162,7 @@ bool FleetState::advance() {
 }
 
 std::uint64_t FleetState::fingerprint() const {
-    return mix(mix(sum_busy_ * power(back, now_)) ^ sum_free_);
+    return mix(mix(sum_busy_ * back_to_now_) ^ sum_free_);
 }
 
 }  // namespace rightofway

@@ -130,6 +130,30 @@ def test_a_ring_turns_at_the_pace_of_its_slowest() -> None:
     assert sorted(oracle.choose([0, 1, 2, 3], fixed) or []) == sorted(map(tuple, moves.tolist()))
 
 
+def test_who_wants_where_another_drives_to_waits_and_makes_no_room_behind() -> None:
+    """R1 wants to go into N12, which R3 drives to for three ticks; R2 wants to go past both."""
+    third, one = Fraction(1, 3), Fraction(1)
+    corridor = grid_fleet(
+        ["@@@.@@@", "......."],
+        [("N11", "N12"), ("N10", "N13"), ("N13", "N9"), ("N7", "N8")],
+        rules=Rules(ends="none"),
+        speeds=[one, one, third, one],
+    )
+    kernel, oracle = both(corridor, seed=0)
+    vertex = corridor.roadmap.vertex
+    stay = [(0, int(vertex("N11"))), (1, int(vertex("N10")))]
+    moves = kernel.choose(np.array([2, 3], np.int32), np.array(stay, np.int32))
+    under_way = [(2, int(vertex("N12")), 3), (3, int(vertex("N8")), 1)]
+    assert moves is not None
+    assert sorted(map(tuple, moves.tolist())) == under_way
+    assert oracle.choose([2, 3], stay) == under_way
+    assert kernel.go_on()
+    assert oracle.go_on(under_way)
+    moves = kernel.choose(np.array([0, 1], np.int32), np.zeros((0, 2), np.int32))
+    assert moves is not None
+    assert (moves.tolist(), oracle.choose([0, 1], [])) == ([], [])
+
+
 def test_who_is_busy_or_told_to_jump_is_refused() -> None:
     """The first robot drives from N0 to N1, which takes it two ticks; then the second chooses."""
     speeds = [Fraction(1, 2), Fraction(1)]

@@ -156,20 +156,25 @@ class Fleet:
 
     def _is_open(self, robot: int, place: int) -> bool:
         """Tell whether nobody else comes there, works there, or comes from there to here."""
-        comes = any(
-            other.to == place and other.at != place and other.busy_until for other in self.robots
-        )
         resident = self.here(place)
-        if comes or place in self.next.values():
+        if self._is_driven_to(place) or place in self.next.values():
             return False
         if resident is None or resident == robot:
             return True
         works = self.busy(resident) and self.robots[resident].to == place
         return not works and self.next.get(resident) != self.robots[robot].at
 
+    def _is_driven_to(self, place: int) -> bool:
+        return any(
+            robot.to == place and robot.at != place and robot.busy_until for robot in self.robots
+        )
+
     def _choose_one(self, robot: int) -> bool:
         here = self.robots[robot].at
         places = self._places(robot)
+        if self._waits_for_others(robot):
+            self.next[robot] = here
+            return True
         partner = self._swap_partner(robot, places[0])
         if partner is not None:
             places.reverse()
@@ -188,6 +193,14 @@ class Fleet:
             return True
         self.next[robot] = here
         return False
+
+    def _waits_for_others(self, robot: int) -> bool:
+        """Tell whether it may stay, and others drive to all places that may rank before that."""
+        here = self.robots[robot].at
+        better = [
+            head for head in self.heads[here] if self.way(robot, head) <= self.way(robot, here)
+        ]
+        return self._is_open(robot, here) and all(map(self._is_driven_to, better))
 
     def _pull(self, partner: int, place: int) -> None:
         leads_there = place in self.heads[self.robots[partner].at]

@@ -129,7 +129,11 @@ def fleets(draw: st.DrawFn) -> tuple[Scenario, Scenario]:
         Robot(name=name, home=VertexId(k), stops=(Stop(at=VertexId(targets[k])),))
         for k, name in enumerate(names)
     )
-    positions = {name: (float(k), 0.0) for k, name in enumerate(names)}
+    # On a line the ring leads straight on; where positions are drawn, some ways are straight.
+    somewhere = st.tuples(*[st.integers(0, 3).map(float)] * 2)
+    drawn = draw(st.none() | st.lists(somewhere, min_size=n_vertices, max_size=n_vertices))
+    on_a_line = [(float(k), 0.0) for k in range(n_vertices)]
+    positions = dict(zip(names, drawn or on_a_line, strict=True))
     apart_too = positions | {"here": (0.0, 9.0), "there": (1.0, 9.0)}
     return (
         Scenario(roadmap=roadmap_of_edges(positions, edges), robots=robots),
@@ -148,10 +152,11 @@ def test_counting_edges_for_all_at_once_agrees_with_dijkstra(
 
 
 def test_more_robots_than_bits_of_a_block_are_counted_right() -> None:
-    """Robots on a line of 400 cells, each going k places on: that is k ticks."""
-    roadmap = roadmap_of_grid(["." * 400])
+    """From the cells of a row, each round the end of a wall, to the cells behind it."""
+    roadmap = roadmap_of_grid(["." * 280, "." + "@" * 279, "." * 280])
     robots = tuple(
-        Robot(name=f"R{k}", home=VertexId(k), stops=(Stop(at=VertexId(2 * k)),)) for k in range(200)
+        Robot(name=f"R{k}", home=VertexId(k), stops=(Stop(at=VertexId(281 + k)),))
+        for k in range(280)
     )
     scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none"))
-    assert alone_completions(scenario) == tuple(range(200))
+    assert alone_completions(scenario) == tuple(2 * k + 2 for k in range(280))

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -62,6 +63,12 @@ class EventLacam {
         std::vector<RobotId> order;  // who is told first; made when first needed
     };
 
+    struct Urgency {
+        Tick urgency;
+        std::int32_t rank;
+        RobotId robot;
+    };
+
     struct Snapshot {
         std::int32_t node;
         FleetState state;
@@ -70,9 +77,9 @@ class EventLacam {
     SearchEnd expand();
     bool next_constraint(Node& node);
     void branch(Node& node, std::int32_t constraint);
-    void sort_by_urgency(std::vector<RobotId>& robots) const;
+    std::span<const RobotId> by_urgency();
     void go_on(std::int32_t from);
-    void add(std::int32_t parent, std::size_t first_decision);
+    bool add(std::int32_t parent, std::size_t first_decision);
     void restore(std::int32_t node);
     void take_again(std::int32_t node);
     const Snapshot* snapshot_of(std::int32_t node) const;
@@ -87,7 +94,8 @@ class EventLacam {
     std::vector<Snapshot> snapshots_;
     std::size_t oldest_snapshot_ = 0;
     std::vector<std::int32_t> rank_;  // of each robot: longest way first
-    std::vector<RobotId> order_;
+    std::vector<Urgency> urgencies_;
+    std::vector<RobotId> order_;  // of the undecided, the most urgent first
     std::vector<Node> nodes_;
     std::vector<std::int32_t> open_;
     std::vector<Decision> decisions_;

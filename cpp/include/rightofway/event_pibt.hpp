@@ -3,9 +3,10 @@
 // Only robots that are free decide, in order of priority. Each wants the neighbour from where it
 // would be at its target soonest: a robot that drives away from there is followed, and one that
 // stands there and is free inherits the priority and decides next; if that finds no place, the
-// first one tries its second choice. Robots on the move and at work cannot be pushed. When all
-// have chosen, the arrivals follow, from the front of each queue to its end; where robots may
-// rotate, a circle arrives at one instant, that of its slowest.
+// first one tries its second choice. Robots on the move and at work cannot be pushed, and who wants
+// to go only where others drive to waits for them. When all have chosen, the arrivals follow, from
+// the front of each queue to its end; where robots may rotate, a circle arrives at one instant,
+// that of its slowest.
 //
 // With one speed, no work and no booking ahead this is PIBT (see pibt.hpp, for references too).
 #pragma once
@@ -48,6 +49,12 @@ class EventPibt {
         RobotId robot;
         VertexId vertex;
     };
+    struct Outlook {
+        VertexId here = -1;
+        std::int32_t stage = -1;
+        std::int32_t steps = 0;   // to the target of the stage
+        VertexId preferred = -1;  // the neighbour on the preferred path
+    };
     struct Place {
         std::int64_t cost;
         std::uint32_t tie;
@@ -57,10 +64,18 @@ class EventPibt {
     bool take_fixed(const FleetState& now);
     bool choose_all(const FleetState& now, std::span<const RobotId> order);
     bool choose_one(const FleetState& now, RobotId robot);
+    bool has_to_wait(const FleetState& now, RobotId robot);
+    bool has_partner(const FleetState& now, RobotId robot);
     bool try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner);
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
     bool closes_circle(const FleetState& now, RobotId robot, VertexId place) const;
     void take(RobotId robot, VertexId vertex);
+    const Outlook& outlook(const FleetState& now, RobotId robot);
+    const std::int32_t* steps_beside(RobotId robot) const {
+        return steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+    }
+    Place place(const FleetState& now, RobotId robot, std::size_t k) const;
+    static bool ranks_before(const Place& left, const Place& right);
     void push_places(const FleetState& now, RobotId robot);
     Tick soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const;
     bool is_idle(const FleetState& now, RobotId robot) const;
@@ -75,7 +90,10 @@ class EventPibt {
     const SpreadPaths& paths_;
     std::vector<StepTables::TableId> stage_table_;
     std::vector<Tick> pace_;
-    std::uint64_t draw_;           // state of the random numbers for ties
+    std::vector<Outlook> outlook_;            // of each robot, when it last chose
+    std::size_t most_heads_ = 0;              // of any vertex
+    std::vector<std::int32_t> steps_beside_;  // of each robot: from that many neighbours
+    std::uint64_t draw_;                      // state of the random numbers for ties
     std::vector<RobotId> claim_;   // who will be at each vertex by a choice of this instant
     std::vector<VertexId> next_;   // where each robot will be by that
     std::vector<Tick> arrival_;    // of each robot, once it is settled

@@ -37,9 +37,9 @@ class FleetState {
     bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
     bool has_arrived(RobotId robot) const { return robots_[robot].place == arrived; }
 
-    RobotId here(VertexId vertex) const { return here_[vertex]; }    // until it has left
-    RobotId comes(VertexId vertex) const { return comes_[vertex]; }  // its move is booked
-    Tick left(VertexId vertex) const { return left_[vertex]; }       // last, -headway: never
+    RobotId here(VertexId vertex) const { return vertices_[vertex].here; }    // until it has left
+    RobotId comes(VertexId vertex) const { return vertices_[vertex].comes; }  // its move is booked
+    Tick left(VertexId vertex) const { return vertices_[vertex].left; }  // last, -headway: never
 
     // Those that are neither busy nor at the end of their trips, in no order.
     std::span<const RobotId> undecided() const { return undecided_; }
@@ -66,6 +66,11 @@ class FleetState {
         Tick ready;
         Tick since;
     };
+    struct Vertex {
+        RobotId here;
+        RobotId comes;
+        Tick left;
+    };
     struct Event {
         Tick tick;
         RobotId robot;
@@ -81,15 +86,15 @@ class FleetState {
     const Trips* trips_;
     Tick now_ = 0;
     std::vector<Robot> robots_;
-    std::vector<RobotId> here_;
-    std::vector<RobotId> comes_;
-    std::vector<Tick> left_;
+    std::vector<Vertex> vertices_;
     std::vector<RobotId> undecided_;
     std::vector<Event> events_;  // a heap
     std::vector<RobotId> finished_;
     RobotId n_arrived_ = 0;
     std::uint64_t sum_free_ = 0;
-    std::uint64_t sum_busy_ = 0;  // each key times base to the power of its ready tick
+    std::uint64_t sum_busy_ = 0;     // each key times base to the power of its ready tick
+    std::uint64_t base_to_now_ = 1;  // base to the power of the time on the clock
+    std::uint64_t back_to_now_ = 1;  // times that, it is 1
 };
 
 }  // namespace rightofway

@@ -92,23 +92,24 @@ class Swaps {
     // from where the puller wants to go.
     bool must_swap(Pair pair) const {
         auto [pusher, puller, behind, ahead] = pair;
-        if (fleet_.target(pusher) != behind && only_way_on(behind, ahead) == more) {
+        VertexId on = only_way_on(behind, ahead);
+        if (on == more && fleet_.target(pusher) != behind) {
             return false;  // so it would come out below, but for many looks at tables
         }
-        while (fleet_.way(pusher, ahead) < fleet_.way(pusher, behind)) {
-            const VertexId on = only_way_on(behind, ahead);
+        std::int32_t from_behind = fleet_.way(pusher, behind);
+        std::int32_t from_ahead = fleet_.way(pusher, ahead);
+        while (from_ahead < from_behind && on != nowhere) {
             if (on == more) {
                 return false;
             }
-            if (on == nowhere) {
-                break;
-            }
             behind = ahead;
             ahead = on;
+            from_behind = from_ahead;
+            from_ahead = fleet_.way(pusher, ahead);
+            on = only_way_on(behind, ahead);
         }
         return fleet_.way(puller, behind) < fleet_.way(puller, ahead) &&
-               (fleet_.target(pusher) == behind ||
-                fleet_.way(pusher, ahead) < fleet_.way(pusher, behind));
+               (fleet_.target(pusher) == behind || from_ahead < from_behind);
     }
 
     // Whether, going back along the corridor, there comes a place where the two can pass each

@@ -7,10 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.check.pairs import Indices, pairs
 from rightofway.check.report import Fault
 from rightofway.check.sieve import Sieve
+from rightofway.check.sorting import order_by
 from rightofway.check.visits import Visits
 from rightofway.check.words import Words
 from rightofway.model import Tick, VertexId
@@ -43,18 +45,30 @@ def _opposite(visits: Visits) -> tuple[Indices, Indices, Indices]:
 
     Each pair comes up once: moves to a smaller vertex have an empty range.
     """
-    move = _moves(visits)
-    tail, head = visits.vertex[move], visits.vertex[move + 1]
-    ends = np.minimum(tail, head) * (visits.vertex.max() + 1) + np.maximum(tail, head)
-    order = np.lexsort((tail < head, ends, visits.leave[move]))
-    move, ends, upwards = move[order], ends[order], (tail < head)[order]
-    leave = visits.leave[move]
-    new_group = np.ones(len(move), bool)
-    new_group[1:] = (ends[1:] != ends[:-1]) | (leave[1:] != leave[:-1])
+    move, new_group = _at_once(visits)
     group = np.cumsum(new_group) - 1
+    upwards = visits.vertex[move] < visits.vertex[move + 1]
     begin = np.flatnonzero(new_group)
     after = begin + np.bincount(group, weights=~upwards).astype(np.int64)
     return move, begin[group], np.where(upwards, after[group], begin[group])
+
+
+def _at_once(visits: Visits) -> tuple[Indices, NDArray[np.bool_]]:
+    """Return moves between the same two vertices at one instant, and where each group begins.
+
+    In a group, moves to a smaller vertex come first. Moves that are alone are left out: they are
+    nearly all.
+    """
+    move = _moves(visits)
+    tail, head = visits.vertex[move], visits.vertex[move + 1]
+    ends = np.minimum(tail, head) * (visits.vertex.max() + 1) + np.maximum(tail, head)
+    order = order_by(ends, visits.leave[move], tail < head)
+    move, ends = move[order], ends[order]
+    leave = visits.leave[move]
+    as_before = np.zeros(len(move) + 1, bool)
+    as_before[1:-1] = (ends[1:] == ends[:-1]) & (leave[1:] == leave[:-1])
+    shared = as_before[:-1] | as_before[1:]
+    return move[shared], ~as_before[:-1][shared]
 
 
 def _take_swaps(one: Indices, other: Indices, visits: Visits, words: Words, sieve: Sieve) -> None:

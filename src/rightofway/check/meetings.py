@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rightofway.check.pairs import Indices, pairs
 from rightofway.check.report import Fault
 from rightofway.check.sieve import Sieve
+from rightofway.check.sorting import order_by
 from rightofway.check.visits import Visits
 from rightofway.check.words import Words, ticks
 from rightofway.model import Plan, Tick, VertexId
@@ -22,7 +23,7 @@ def judge_meetings(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> No
     """Find vertex conflicts, and those that only the headway makes."""
     headway = plan.scenario.timing.headway
     approaches = plan.scenario.rules.occupancy == "both"
-    bookings = _crowded(_bookings(visits, headway, approaches=approaches))
+    bookings = _crowded_only(_bookings(visits, headway, approaches=approaches))
     judgement = _Meetings(bookings, headway, words, sieve)
     for one, other in pairs(np.arange(len(bookings.start)) + 1, _begun(bookings)):
         strangers = bookings.robot[one] != bookings.robot[other]
@@ -55,11 +56,11 @@ class _Bookings:
 
 
 def _bookings(visits: Visits, headway: int, *, approaches: bool) -> _Bookings:
-    """Return all bookings that last at all, by vertex and start."""
+    """Return all bookings."""
     start = visits.enter
     if approaches:  # a first visit has none: it follows another robot's last one, without a drive
         start = start - np.roll(visits.drive, 1)
-    bookings = _Bookings(
+    return _Bookings(
         robot=visits.robot,
         vertex=visits.vertex,
         start=start,
@@ -67,15 +68,18 @@ def _bookings(visits: Visits, headway: int, *, approaches: bool) -> _Bookings:
         end=visits.leave + headway,
         last=visits.last,
     )
-    order = np.lexsort((start, visits.vertex))
-    return bookings.only(order[start[order] < bookings.end[order]])
 
 
-def _crowded(bookings: _Bookings) -> _Bookings:
-    """Return the bookings of those vertices where any overlap: some two neighbours do then."""
-    same = bookings.vertex[1:] == bookings.vertex[:-1]
-    overlap = same & (bookings.start[1:] < bookings.end[:-1])
-    return bookings.only(np.isin(bookings.vertex, bookings.vertex[1:][overlap]))
+def _crowded_only(bookings: _Bookings) -> _Bookings:
+    """Return the bookings of vertices where any overlap, by vertex and start.
+
+    Two neighbours in that order overlap then. A booking that does not last at all meets nobody.
+    """
+    order = order_by(bookings.vertex, bookings.start)
+    order = order[bookings.start[order] < bookings.end[order]]
+    vertex, start, end = bookings.vertex[order], bookings.start[order], bookings.end[order]
+    overlap = (vertex[1:] == vertex[:-1]) & (start[1:] < end[:-1])
+    return bookings.only(order[np.isin(vertex, vertex[1:][overlap])])
 
 
 def _begun(bookings: _Bookings) -> Indices:
@@ -83,7 +87,7 @@ def _begun(bookings: _Bookings) -> Indices:
     count = len(bookings.start)
     times = np.concatenate((bookings.end, bookings.start))
     places = np.concatenate((bookings.vertex, bookings.vertex))
-    order = np.lexsort((times, places))  # stable: at one tick, ends come before starts
+    order = order_by(places, times)  # at one tick, ends come before starts
     is_start = order >= count
     begun = np.empty(count, np.int64)
     begun[order[~is_start]] = np.cumsum(is_start)[~is_start]

@@ -23,12 +23,15 @@ class Bookings:
 
     Attributes
     ----------
+    visit
+        For which visit, counted robot by robot along the tracks.
     robot, vertex
         Who books what.
     start, end
         From when to when [ticks]; int64.
     """
 
+    visit: NDArray[np.int64]
     robot: NDArray[np.int64]
     vertex: NDArray[np.int32]
     start: NDArray[np.int64]
@@ -37,22 +40,21 @@ class Bookings:
 
 def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Bookings:
     """Return what a fleet books under the scenario's rules."""
-    leaves = [np.append(track.enter[1:] + scenario.timing.headway, FOREVER) for track in tracks]
-    starts = [
-        track.enter - _approaches(scenario, stay) for track, stay in zip(tracks, stays, strict=True)
-    ]
-    vertex, start = np.concatenate([track.vertices for track in tracks]), np.concatenate(starts)
-    robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
-    order = np.lexsort((robot, start, vertex))
+    lengths = [len(track) for track in tracks]
+    last = np.cumsum(lengths) - 1
+    enter = np.concatenate([track.enter for track in tracks])
+    end = np.append(enter[1:] + scenario.timing.headway, FOREVER)
+    end[last] = FOREVER
+    vertex = np.concatenate([track.vertices for track in tracks])
+    robot = np.repeat(np.arange(len(tracks)), lengths)
+    start = enter - _approaches(scenario, stays)
+    order = np.lexsort((start, vertex))  # stable, so by robot where all else is equal
     return Bookings(
-        robot=robot[order],
-        vertex=vertex[order],
-        start=start[order],
-        end=np.concatenate(leaves)[order],
+        visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]
     )
 
 
-def _approaches(scenario: Scenario, stay: Stays) -> NDArray[np.int64]:
+def _approaches(scenario: Scenario, stays: Sequence[Stays]) -> NDArray[np.int64]:
     """Return how long before each enter the robot books the vertex [ticks]."""
-    both = scenario.rules.occupancy == "both"
-    return np.append(0, stay.drive[:-1]) * both
+    approaches = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
+    return approaches * scenario.rules.books_ahead

@@ -45,46 +45,62 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     Stages are matched to visits greedily: a robot works as early as it can, on several stages in
     one visit if they follow each other at one vertex. Of tracks that break the rules, a move
     without an edge takes no time, and what comes after a missed stop is waiting.
+
+    All tracks lie side by side in the arrays that the answer looks into.
     """
-    edges = _Edges(scenario.roadmap)
+    itineraries = scenario.timing.itineraries
+    ends = np.cumsum([len(track) for track in tracks])
+    enter = np.concatenate([track.enter for track in tracks])
+    drive, dwell = _drives(scenario, tracks), np.zeros(len(enter), np.int64)
+    waits = np.append(np.diff(enter), 0) - drive
+    waits[ends - 1] = 0
+    owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
+    for own, track, itinerary in zip(owns, tracks, itineraries, strict=True):
+        dwell[own] = _dwell(itinerary, track, waits[own])
+    completion = (enter + dwell)[ends - 1].tolist()
+    waits -= dwell
+    waits[ends - 1] = 0
     return tuple(
-        _stays(itinerary, track, edges.ticks(track.vertices, itinerary.edge_ticks))
-        for itinerary, track in zip(scenario.timing.itineraries, tracks, strict=True)
+        Stays(dwell=dwell[own], drive=drive[own], waits=waits[own], completion=Tick(done))
+        for own, done in zip(owns, completion, strict=True)
     )
 
 
-class _Edges:
-    """The edges of a roadmap, found by where they lead from and to, many at a time."""
-
-    def __init__(self, roadmap: Roadmap) -> None:
-        self.n_vertices = roadmap.n_vertices
-        tails = np.repeat(np.arange(self.n_vertices), np.diff(roadmap.indptr))
-        keys = tails * self.n_vertices + roadmap.heads
-        order = np.argsort(keys, kind="stable")
-        self.keys = np.append(keys[order], -1)  # the last one is no edge
-        self.length_class = np.append(roadmap.length_class[order], -1)
-
-    def ticks(self, vertices: NDArray[np.int32], edge_ticks: Sequence[Tick]) -> NDArray[np.int64]:
-        """Return the ticks of the edge after each vertex of a track, 0 where there is none."""
-        tails, heads = vertices[:-1].astype(np.int64), vertices[1:].astype(np.int64)
-        keys = tails * self.n_vertices + heads
-        found = np.searchsorted(self.keys[:-1], keys)
-        is_edge = (self.keys[found] == keys) & (heads >= 0) & (heads < self.n_vertices)
-        by_class = np.array([*edge_ticks, 0], np.int64)
-        return np.append(by_class[np.where(is_edge, self.length_class[found], -1)], 0)
+def _drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
+    """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
+    itineraries, lengths = scenario.timing.itineraries, [len(track) for track in tracks]
+    paces = {itinerary.edge_ticks: None for itinerary in itineraries}
+    row = {pace: index for index, pace in enumerate(paces)}
+    rows = np.repeat([row[itinerary.edge_ticks] for itinerary in itineraries], lengths)
+    by_class = np.array([[*pace, 0] for pace in paces], np.int64)
+    drives: NDArray[np.int64] = by_class[rows, _edge_classes(scenario.roadmap, tracks)]
+    drives[np.cumsum(lengths) - 1] = 0
+    return drives
 
 
-def _stays(itinerary: Itinerary, track: Track, drive: NDArray[np.int64]) -> Stays:
-    spare = np.append(np.diff(track.enter), 0) - drive
+def _edge_classes(roadmap: Roadmap, tracks: Sequence[Track]) -> NDArray[np.int32]:
+    """Return how long the edge from each vertex to the one after it is, -1 where there is none."""
+    n_vertices = roadmap.n_vertices
+    tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr))
+    keys = tails * n_vertices + roadmap.heads
+    order = np.argsort(keys, kind="stable")
+    keys = np.append(keys[order], -1)  # the last one is no edge
+    length_class = np.append(roadmap.length_class[order], -1)
+    vertices = np.concatenate([track.vertices for track in tracks]).astype(np.int64)
+    heads = np.append(vertices[1:], -1)
+    wanted = vertices * n_vertices + heads
+    found = np.searchsorted(keys[:-1], wanted)
+    is_edge = (keys[found] == wanted) & (heads >= 0) & (heads < n_vertices)
+    return np.where(is_edge, length_class[found], -1)
+
+
+def _dwell(itinerary: Itinerary, track: Track, spare: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return how long each visit lasts at least, where it lasts so much longer than its drive."""
     dwell = np.zeros(len(track), np.int64)
     last = len(track) - 1
     for visit, stages in _served(itinerary, track, spare).items():
         dwell[visit] = least_dwell(stages, leaves=visit < last)
-    waits = spare - dwell
-    waits[last] = 0
-    return Stays(
-        dwell=dwell, drive=drive, waits=waits, completion=Tick(int(track.enter[last] + dwell[last]))
-    )
+    return dwell
 
 
 def _served(itinerary: Itinerary, track: Track, spare: NDArray[np.int64]) -> dict[int, list[Stage]]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rightofway.metrics.bookings import bookings_of
+from rightofway.metrics.bookings import Bookings, bookings_of
 from rightofway.metrics.stays import Stays, stays_of
 from rightofway.model import Plan, Scenario, Tick, Track, VertexId
 
 __all__ = ["Wait", "waits", "waits_in"]
+
+NOBODY = -1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,35 +63,46 @@ def waits_in(
     tracks, stays
         One of both for each robot.
     """
-    bookings = bookings_of(scenario, tracks, stays)
-    places = zip(bookings.vertex.tolist(), bookings.end.tolist(), strict=True)
-    frees = dict(zip(places, bookings.robot.tolist(), strict=True))
-    books_both = scenario.rules.occupancy == "both"
-    found = (
-        wait
-        for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True))
-        for wait in _waits(robot, track, stay, frees, books_both=books_both)
+    lengths = [len(track) for track in tracks]
+    waiting = np.concatenate([stay.waits for stay in stays])
+    enter = np.concatenate([track.enter for track in tracks])
+    vertex = np.concatenate([track.vertices for track in tracks])
+    begin = enter + np.concatenate([stay.dwell for stay in stays])
+    robot = np.repeat(np.arange(len(tracks)), lengths)
+    freed_by = _freed_by(bookings_of(scenario, tracks, stays))
+    visit = np.flatnonzero(waiting > 0)
+    visit = visit[np.lexsort((robot[visit], begin[visit]))]
+    columns = (
+        robot[visit],
+        vertex[visit],
+        begin[visit],
+        waiting[visit],
+        vertex[visit + 1],
+        freed_by[visit + 1],
     )
-    return tuple(sorted(found, key=lambda wait: (wait.tick, wait.robot)))
-
-
-def _waits(
-    robot: int,
-    track: Track,
-    stay: Stays,
-    frees: Mapping[tuple[int, int], int],
-    *,
-    books_both: bool,
-) -> Iterator[Wait]:
-    for visit in np.flatnonzero(stay.waits > 0).tolist():
-        vertex, towards = map(VertexId, track.vertices[visit : visit + 2].tolist())
-        approach = stay.drive[visit] if books_both else 0
-        freed_by = frees.get((towards, int(track.enter[visit + 1] - approach)))
-        yield Wait(
+    return tuple(
+        Wait(
             robot=robot,
-            vertex=vertex,
-            tick=Tick(int(track.enter[visit] + stay.dwell[visit])),
-            ticks=Tick(int(stay.waits[visit])),
-            towards=towards,
-            for_robot=None if freed_by == robot else freed_by,
+            vertex=VertexId(vertex),
+            tick=Tick(tick),
+            ticks=Tick(ticks),
+            towards=VertexId(towards),
+            for_robot=None if freed_by == NOBODY else freed_by,
         )
+        for robot, vertex, tick, ticks, towards, freed_by in zip(
+            *(column.tolist() for column in columns), strict=True
+        )
+    )
+
+
+def _freed_by(bookings: Bookings) -> NDArray[np.int64]:
+    """Return, for each visit, which other robot's booking ends at the tick its own one begins."""
+    before, after = slice(-1), slice(1, None)
+    freed_by = np.full(len(bookings.robot), NOBODY)
+    frees = (
+        (bookings.vertex[before] == bookings.vertex[after])
+        & (bookings.end[before] == bookings.start[after])
+        & (bookings.robot[before] != bookings.robot[after])
+    )
+    freed_by[bookings.visit[after][frees]] = bookings.robot[before][frees]
+    return freed_by
