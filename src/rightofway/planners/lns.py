@@ -19,7 +19,7 @@ from rightofway.errors import GaveUp
 from rightofway.metrics import flowtime_of
 from rightofway.model import Track
 from rightofway.planners.joint import plan_jointly
-from rightofway.planners.prioritized import fleet_search, plan_in_turn
+from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
@@ -77,9 +77,13 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 
 
 def _together(task: Task) -> Draft | None:
-    """Plan all robots together; that is quick, and no worse than nothing."""
+    """Plan all robots together; that is quick, and no worse than nothing.
+
+    Fleets too large to be planned in turn may take all the time.
+    """
+    share = SHARE if len(task.scenario.robots) <= MOST_ROBOTS else 1
     try:
-        tracks, _ = plan_jointly(replace(task, deadline=task.deadline.sooner(SHARE)))
+        tracks, _ = plan_jointly(replace(task, deadline=task.deadline.sooner(share)))
     except GaveUp:
         return None
     return Draft(tracks=tuple(tracks), status="all together")

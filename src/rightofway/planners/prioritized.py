@@ -26,7 +26,7 @@ from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_headway
 from rightofway.search import Distances, FleetSearch
 
-__all__ = ["ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
+__all__ = ["MOST_ROBOTS", "ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.2, 0.8, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
