@@ -64,6 +64,7 @@ void bind_floor(nb::module_& module);
 void bind_lacam(nb::module_& module);
 void bind_precedence_graph(nb::module_& module);
 void bind_safe_interval_search(nb::module_& module);
+void bind_seam(nb::module_& module);
 void bind_traffic(nb::module_& module);
 
 }  // namespace rightofway::bind

@@ -40,8 +40,11 @@ reach : int
     How long before a cut visits may have been left that still matter. [ticks]
 memory : int
     How many cuts can be taken back.
-fixed_order : bool
-    Whether the robot listed first goes first, or that which would enter the segment first.
+rule : int
+    Who goes first: who would enter the segment first (0), who is listed first (1), or (2) who would
+    lose more by waiting for the other one.
+loss : int64[R]
+    What a tick of waiting costs each robot, above 0, with rule 2; else it is not looked at.
 
 Raises
 ------
@@ -89,13 +92,14 @@ void init(EndlessRun* self, const ArrayIn<std::int32_t>& first_place,
           const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
           const ArrayIn<Tick>& approach, const ArrayIn<Tick>& first_least, Tick headway,
           RobotId pacemaker, Tick lag, Tick most_lag, Tick patience, Tick reach,
-          std::int32_t memory, bool fixed_order) {
+          std::int32_t memory, std::int32_t rule, const ArrayIn<std::int64_t>& loss) {
     const LapArrays laps{view(first_place), view(vertex),      view(least),
                          view(approach),    view(first_least), headway};
     const EndlessPace pace{pacemaker, lag, most_lag, patience, reach, memory};
-    const EndlessRule rule = fixed_order ? EndlessRule::fixed_order : EndlessRule::first_come;
+    require_id("rule", rule, n_endless_rules);
+    std::vector<std::int64_t> losses(loss.data(), loss.data() + loss.size());
     const nb::gil_scoped_release released;
-    new (self) EndlessRun(laps, pace, rule);
+    new (self) EndlessRun(laps, pace, static_cast<EndlessRule>(rule), std::move(losses));
 }
 
 std::int32_t go_on(EndlessRun& self, std::optional<double> time_limit) {
@@ -131,10 +135,17 @@ void bind_endless_run(nb::module_& module) {
              nb::arg("least").noconvert(), nb::arg("approach").noconvert(),
              nb::arg("first_least").noconvert(), nb::kw_only(), nb::arg("headway"),
              nb::arg("pacemaker"), nb::arg("lag"), nb::arg("most_lag"), nb::arg("patience"),
-             nb::arg("reach"), nb::arg("memory"), nb::arg("fixed_order"))
+             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), nb::arg("loss").noconvert())
         .def("go_on", &go_on, nb::arg("time_limit") = nb::none(), go_on_doc)
         .def("forget", &EndlessRun::forget,
              "Forget the states seen, so that it goes on where one came again.")
+        .def(
+            "follow",
+            [](EndlessRun& self, std::int32_t rule) {
+                require_id("rule", rule, n_endless_rules);
+                self.follow(static_cast<EndlessRule>(rule));
+            },
+            nb::arg("rule"), "Decide by another rule from now on.")
         .def_prop_ro("cut", &EndlessRun::cut, "Up to when all is settled. [ticks]")
         .def_prop_ro("came_before", &EndlessRun::came_before,
                      "When the state that came again at the cut was there before. [ticks]")

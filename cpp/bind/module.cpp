@@ -36,5 +36,6 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_lacam(module);
     rightofway::bind::bind_precedence_graph(module);
     rightofway::bind::bind_safe_interval_search(module);
+    rightofway::bind::bind_seam(module);
     rightofway::bind::bind_traffic(module);
 }

@@ -7,9 +7,9 @@ namespace {
 
 constexpr auto class_doc = R"(Cheapest paths that keep clear of other robots.
 
-To drive an edge costs ``SHARES`` for each tick that it takes; ``station`` more per tick if it ends
-at a station other than the target, and ``oncoming`` more per tick for every robot that was added on
-the opposite edge.
+To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
+enter the vertex that it ends at, unless that is the target, and what every robot costs that was
+added on the opposite edge.
 
 Parameters
 ----------
@@ -17,10 +17,10 @@ indptr : int32[V + 1]
     Where each vertex's edges begin.
 indices : int32[E]
     The vertex at which each edge ends.
-is_station : uint8[V]
-    Not 0 where a robot has its home or a stop.
-station, oncoming : int
-    The surcharges, not negative.
+shares : int
+    In how many shares a tick is counted.
+station : int64[V]
+    What it costs to enter each vertex, not negative. [shares per tick]
 
 Raises
 ------
@@ -55,6 +55,8 @@ Parameters
 ----------
 path : int32[n]
     Vertices, each a neighbour of the one before.
+oncoming : int
+    What it costs to go against it, not negative. [shares per tick]
 
 Raises
 ------
@@ -62,9 +64,8 @@ ValueError
     If that is no path.)";
 
 void init(Traffic* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
-          const ArrayIn<std::uint8_t>& is_station, std::int64_t station, std::int64_t oncoming) {
-    new (self)
-        Traffic({view(indptr), view(indices)}, view(is_station), Surcharges{station, oncoming});
+          std::int64_t shares, const ArrayIn<std::int64_t>& station) {
+    new (self) Traffic({view(indptr), view(indices)}, shares, view(station));
 }
 
 ArrayOut<VertexId> path(Traffic& self, VertexId start, VertexId target,
@@ -76,16 +77,17 @@ ArrayOut<VertexId> path(Traffic& self, VertexId start, VertexId target,
 }  // namespace
 
 void bind_traffic(nb::module_& module) {
-    nb::class_<Traffic> traffic(module, "Traffic", class_doc);
-    traffic.attr("SHARES") = Traffic::shares;
-    traffic
+    nb::class_<Traffic>(module, "Traffic", class_doc)
         .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("indices").noconvert(),
-             nb::arg("is_station").noconvert(), nb::arg("station"), nb::arg("oncoming"))
+             nb::arg("shares"), nb::arg("station").noconvert())
         .def("path", &path, nb::arg("start"), nb::arg("target"), nb::arg("edge_ticks").noconvert(),
              nb::arg("to_go").noconvert(), path_doc)
         .def(
-            "add", [](Traffic& self, const ArrayIn<VertexId>& path) { self.add(view(path)); },
-            nb::arg("path").noconvert(), add_doc);
+            "add",
+            [](Traffic& self, const ArrayIn<VertexId>& path, std::int64_t oncoming) {
+                self.add(view(path), oncoming);
+            },
+            nb::arg("path").noconvert(), nb::arg("oncoming"), add_doc);
 }
 
 }  // namespace rightofway::bind

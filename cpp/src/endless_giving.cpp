@@ -7,8 +7,9 @@
 namespace rightofway {
 
 EndlessGiving::EndlessGiving(const EndlessRoutes& routes, EndlessTimetable& timetable,
-                             EndlessMeetings& meetings, EndlessRule rule)
-    : routes_(routes), timetable_(timetable), meetings_(meetings), rule_(rule) {}
+                             EndlessMeetings& meetings, EndlessRule rule,
+                             std::span<const std::int64_t> loss)
+    : routes_(routes), timetable_(timetable), meetings_(meetings), rule_(rule), loss_(loss) {}
 
 EndlessGiving::Outcome EndlessGiving::settle(const Conflict& conflict) {
     const EndlessVisit i{conflict.robot_a, conflict.visit_a};
@@ -106,10 +107,30 @@ bool EndlessGiving::reaches_the_end(const Segment& segment) const {
            segment.j_last.number == timetable_.end(segment.j_last.robot) - 1;
 }
 
-// On a tie the first listed goes first.
+// On a tie the one that is first goes first, and if both are the first listed.
 bool EndlessGiving::i_waits(const Segment& segment) const {
-    return rule_ == EndlessRule::first_come &&
-           seen_enter(segment.j_first) < seen_enter(segment.i_first);
+    if (rule_ == EndlessRule::fixed_order) {
+        return false;
+    }
+    if (rule_ == EndlessRule::least_loss) {
+        const std::int64_t of_i = loss_if(segment, true);
+        const std::int64_t of_j = loss_if(segment, false);
+        if (of_i != of_j) {
+            return of_i < of_j;
+        }
+    }
+    return seen_enter(segment.j_first) < seen_enter(segment.i_first);
+}
+
+// How much later the one who waits is at a place of the segment, by what that costs it.
+std::int64_t EndlessGiving::loss_if(const Segment& segment, bool i_waits) const {
+    const auto rights = rights_if(segment, i_waits);
+    Tick later = 0;
+    for (const auto& [first, second] : rights) {
+        const Tick free = timetable_.enter(first.next()) + routes_.gap_before(second);
+        later = std::max(later, free - seen_enter(second));
+    }
+    return later * loss_[static_cast<std::size_t>(rights.front().second.robot)];
 }
 
 // What was entered before the view begins is there from its beginning.

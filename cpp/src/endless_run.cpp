@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "rightofway/reject.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -10,16 +12,33 @@ constexpr int asked_every = 32;  // decisions
 
 }  // namespace
 
-EndlessRun::EndlessRun(const LapArrays& laps, const EndlessPace& pace, EndlessRule rule)
+EndlessRun::EndlessRun(const LapArrays& laps, const EndlessPace& pace, EndlessRule rule,
+                       std::vector<std::int64_t> loss)
     : routes_(laps),
       pace_(pace),
       timetable_(routes_),
       meetings_(routes_, timetable_),
-      giving_(routes_, timetable_, meetings_, rule),
+      loss_(std::move(loss)),
+      giving_(routes_, timetable_, meetings_, rule, loss_),
       waits_(routes_),
       lag_(pace.lag),
       ahead_(routes_.n_robots()),
-      shown_(routes_.n_robots()) {}
+      shown_(routes_.n_robots()) {
+    follow(rule);
+}
+
+void EndlessRun::follow(EndlessRule rule) {
+    if (rule == EndlessRule::least_loss) {
+        require_length("loss", loss_.size(), static_cast<std::size_t>(n_robots()));
+        for (std::size_t r = 0; r < loss_.size(); ++r) {
+            if (loss_[r] < 1) {
+                reject_entry("loss", r, loss_[r], "is not above 0");
+            }
+        }
+    }
+    giving_.follow(rule);
+    forget();
+}
 
 EndlessRun::End EndlessRun::go_on(const IsOver& is_over) {
     while (true) {

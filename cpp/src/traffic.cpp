@@ -12,24 +12,25 @@ constexpr std::int32_t none = -1;
 
 }  // namespace
 
-Traffic::Traffic(const Graph& graph, std::span<const std::uint8_t> is_station,
-                 const Surcharges& surcharges)
+Traffic::Traffic(const Graph& graph, std::int64_t shares, std::span<const std::int64_t> station)
     : indptr_(graph.indptr.begin(), graph.indptr.end()),
       indices_(graph.indices.begin(), graph.indices.end()),
-      is_station_(is_station.begin(), is_station.end()),
-      surcharges_(surcharges) {
+      shares_(shares),
+      station_(station.begin(), station.end()) {
     require_graph(graph);
-    require_length("is_station", is_station.size(), static_cast<std::size_t>(graph.n_vertices()));
-    if (surcharges.station < 0) {
-        reject("station", surcharges.station, "is negative");
+    require_length("station", station.size(), static_cast<std::size_t>(graph.n_vertices()));
+    if (shares < 1) {
+        reject("shares", shares, "is not above 0");
     }
-    if (surcharges.oncoming < 0) {
-        reject("oncoming", surcharges.oncoming, "is negative");
+    for (std::size_t v = 0; v < station.size(); ++v) {
+        if (station[v] < 0) {
+            reject_entry("station", v, station[v], "is negative");
+        }
     }
-    n_robots_.assign(indices_.size(), 0);
-    cost_.assign(is_station_.size(), infinity);
-    cheapest_way_.assign(is_station_.size(), none);
-    is_marked_.assign(is_station_.size(), 0);
+    oncoming_.assign(indices_.size(), 0);
+    cost_.assign(station_.size(), infinity);
+    cheapest_way_.assign(station_.size(), none);
+    is_marked_.assign(station_.size(), 0);
     for (VertexId v = 0; v < n_vertices(); ++v) {
         for (EdgeId e = indptr_[v]; e < indptr_[v + 1]; ++e) {
             opposite_.push_back(edge(indices_[e], v));
@@ -48,12 +49,12 @@ EdgeId Traffic::edge(VertexId tail, VertexId head) const {
 
 std::int64_t Traffic::cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const {
     const VertexId head = indices_[edge];
-    std::int64_t per_tick = shares;
-    if (is_station_[head] != 0 && head != target) {
-        per_tick += surcharges_.station;
+    std::int64_t per_tick = shares_;
+    if (head != target) {
+        per_tick += station_[head];
     }
     if (opposite_[edge] != none) {
-        per_tick += surcharges_.oncoming * n_robots_[opposite_[edge]];
+        per_tick += oncoming_[opposite_[edge]];
     }
     return per_tick * ticks;
 }
@@ -64,7 +65,7 @@ std::vector<VertexId> Traffic::path(VertexId start, VertexId target,
     require_id("start", start, n_vertices());
     require_id("target", target, n_vertices());
     require_length("edge_ticks", edge_ticks.size(), indices_.size());
-    require_length("to_go", to_go.size(), is_station_.size());
+    require_length("to_go", to_go.size(), station_.size());
     if (to_go[start] < 0) {
         reject("target", target, "cannot be reached from " + std::to_string(start));
     }
@@ -80,7 +81,7 @@ void Traffic::search(VertexId start, VertexId target, std::span<const std::int32
                      std::span<const std::int32_t> to_go) {
     cost_[start] = 0;
     reached_.push_back(start);
-    open_.push_back({shares * to_go[start], shares * to_go[start], 0, start});
+    open_.push_back({shares_ * to_go[start], shares_ * to_go[start], 0, start});
     while (!open_.empty() && open_.front().cost <= cost_[target]) {
         std::pop_heap(open_.begin(), open_.end(), is_later);
         const Open top = open_.back();
@@ -92,7 +93,7 @@ void Traffic::search(VertexId start, VertexId target, std::span<const std::int32
             const VertexId head = indices_[e];
             if (to_go[head] >= 0) {
                 const std::int64_t cost = cost_[top.vertex] + cost_of(e, target, edge_ticks[e]);
-                reach(head, top.vertex, cost, shares * to_go[head]);
+                reach(head, top.vertex, cost, shares_ * to_go[head]);
             }
         }
     }
@@ -168,7 +169,10 @@ bool Traffic::is_later(const Open& left, const Open& right) {
     return left.to_go != right.to_go ? left.to_go > right.to_go : left.order > right.order;
 }
 
-void Traffic::add(std::span<const VertexId> path) {
+void Traffic::add(std::span<const VertexId> path, std::int64_t oncoming) {
+    if (oncoming < 0) {
+        reject("oncoming", oncoming, "is negative");
+    }
     std::vector<EdgeId> edges;
     for (std::size_t k = 0; k < path.size(); ++k) {
         require_id("path[" + std::to_string(k) + "]", path[k], n_vertices());
@@ -180,7 +184,7 @@ void Traffic::add(std::span<const VertexId> path) {
         }
     }
     for (const EdgeId e : edges) {
-        ++n_robots_[e];
+        oncoming_[e] += oncoming;
     }
 }
 

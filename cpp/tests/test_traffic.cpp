@@ -16,8 +16,8 @@ struct Ring {
     std::vector<std::int32_t> ticks = std::vector<std::int32_t>(8, 1);
     std::vector<std::int32_t> to_2{2, 1, 0, 1};
 
-    Traffic traffic(const std::vector<std::uint8_t>& is_station) const {
-        return Traffic({indptr, indices}, is_station, {16, 4});
+    Traffic traffic(const std::vector<std::int64_t>& station) const {
+        return Traffic({indptr, indices}, 16, station);
     }
 };
 
@@ -25,33 +25,34 @@ TEST_CASE("of two ways round, the one by the first edge is taken, or the one tha
     const Ring ring;
     Traffic free = ring.traffic({0, 0, 0, 0});
     CHECK(free.path(0, 2, ring.ticks, ring.to_2) == Path{0, 1, 2});
-    Traffic blocked = ring.traffic({0, 1, 0, 0});
+    Traffic blocked = ring.traffic({0, 16, 0, 0});
     CHECK(blocked.path(0, 2, ring.ticks, ring.to_2) == Path{0, 3, 2});
 }
 
 TEST_CASE("who is oncoming is kept clear of, who goes the same way is not") {
     const Ring ring;
     Traffic traffic = ring.traffic({0, 0, 0, 0});
-    traffic.add(Path{0, 1, 2});
+    traffic.add(Path{0, 1, 2}, 4);
     CHECK(traffic.path(0, 2, ring.ticks, ring.to_2) == Path{0, 1, 2});
-    traffic.add(Path{2, 1, 0});
+    traffic.add(Path{2, 1, 0}, 4);
     CHECK(traffic.path(0, 2, ring.ticks, ring.to_2) == Path{0, 3, 2});
 }
 
 TEST_CASE("the target may be a station, and a path of one vertex is one") {
     const Ring ring;
-    Traffic traffic = ring.traffic({1, 1, 1, 1});
+    Traffic traffic = ring.traffic({16, 16, 16, 16});
     CHECK(traffic.path(1, 2, ring.ticks, ring.to_2) == Path{1, 2});
     CHECK(traffic.path(2, 2, ring.ticks, ring.to_2) == Path{2});
 }
 
 TEST_CASE("what does not fit together is refused") {
     const Ring ring;
-    CHECK_THROWS_WITH(ring.traffic({0, 0}), "is_station: its length is 2, but must be 4");
-    CHECK_THROWS_WITH(Traffic({ring.indptr, ring.indices}, std::vector<std::uint8_t>(4), {-1, 0}),
-                      "station: -1 is negative");
-    CHECK_THROWS_WITH(Traffic({ring.indptr, ring.indices}, std::vector<std::uint8_t>(4), {0, -1}),
-                      "oncoming: -1 is negative");
+    CHECK_THROWS_WITH(ring.traffic({0, 0}), "station: its length is 2, but must be 4");
+    CHECK_THROWS_WITH(ring.traffic({0, -1, 0, 0}), "station[1]: -1 is negative");
+    CHECK_THROWS_WITH(Traffic({ring.indptr, ring.indices}, 0, std::vector<std::int64_t>(4)),
+                      "shares: 0 is not above 0");
+    Traffic traffic = ring.traffic({0, 0, 0, 0});
+    CHECK_THROWS_WITH(traffic.add(Path{0, 1}, -1), "oncoming: -1 is negative");
 }
 
 }  // namespace

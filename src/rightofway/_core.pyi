@@ -234,8 +234,11 @@ class EndlessRun:
         How long before a cut visits may have been left that still matter. [ticks]
     memory : int
         How many cuts can be taken back.
-    fixed_order : bool
-        Whether the robot listed first goes first, or that which would enter the segment first.
+    rule : int
+        Who goes first: who would enter the segment first (0), who is listed first (1), or (2) who would
+        lose more by waiting for the other one.
+    loss : int64[R]
+        What a tick of waiting costs each robot, above 0, with rule 2; else it is not looked at.
 
     Raises
     ------
@@ -248,7 +251,7 @@ class EndlessRun:
     Ctrl-C is obeyed.
     """
 
-    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, fixed_order: bool) -> None: ...
+    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
     def go_on(self, time_limit: float | None = None) -> int:
         """
@@ -267,6 +270,9 @@ class EndlessRun:
 
     def forget(self) -> None:
         """Forget the states seen, so that it goes on where one came again."""
+
+    def follow(self, rule: int) -> None:
+        """Decide by another rule from now on."""
 
     @property
     def cut(self) -> int:
@@ -1235,13 +1241,110 @@ def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.
     """
 
+class Seam:
+    """
+    Who has booked which vertex when, around the seam of a circle, on a line of time.
+
+    Parameters
+    ----------
+    n_vertices : int
+        The number of vertices, V.
+    headway : int
+        How long a vertex stays booked after it was left. [ticks]
+    books_ahead : bool
+        Whether a vertex is booked from when a robot starts to drive there.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    def __init__(self, n_vertices: int, headway: int, books_ahead: bool) -> None: ...
+
+    @property
+    def reached(self) -> int:
+        """Which visit the last search has reached; at the next one it got stuck."""
+
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int) -> None:
+        """
+        Book visits of a robot that follow each other.
+
+        Parameters
+        ----------
+        robot : int
+            Whose they are.
+        vertex : int32[N]
+            Where they are.
+        dwell : int64[N]
+            How long each lasts at least, without the drive that follows. [ticks]
+        drive : int64[N]
+            The drive into each. [ticks]
+        enter : int64[N]
+            When each begins, rising. [ticks]
+        leave : int
+            When the last one ends. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+
+        Notes
+        -----
+        Bookings of different robots must not overlap; that is not looked at.
+        """
+
+    def remove(self, robot: int, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """Take back what a robot has booked at these vertices."""
+
+    def connect(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int, until: int, leave: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+        """
+        Find when a robot can make visits among the bookings, as early as it can.
+
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            As for ``add``.
+        begins : int
+            When the first one begins. [ticks]
+        until : int
+            By when the last one begins. [ticks]
+        leave : int
+            When that ends. [ticks]
+
+        Returns
+        -------
+        int64[N] or None
+            When each begins; None if there is no way. [ticks]
+
+        Raises
+        ------
+        ValueError
+            If the arrays do not fit together.
+
+        Notes
+        -----
+        Complete for these visits; deterministic.
+        """
+
+    def users(self, vertex: int, begins: int, ends: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return who has booked a vertex between two ticks, each once.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex.
+        """
+
 class Traffic:
     """
     Cheapest paths that keep clear of other robots.
 
-    To drive an edge costs ``SHARES`` for each tick that it takes; ``station`` more per tick if it ends
-    at a station other than the target, and ``oncoming`` more per tick for every robot that was added on
-    the opposite edge.
+    To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
+    enter the vertex that it ends at, unless that is the target, and what every robot costs that was
+    added on the opposite edge.
 
     Parameters
     ----------
@@ -1249,10 +1352,10 @@ class Traffic:
         Where each vertex's edges begin.
     indices : int32[E]
         The vertex at which each edge ends.
-    is_station : uint8[V]
-        Not 0 where a robot has its home or a stop.
-    station, oncoming : int
-        The surcharges, not negative.
+    shares : int
+        In how many shares a tick is counted.
+    station : int64[V]
+        What it costs to enter each vertex, not negative. [shares per tick]
 
     Raises
     ------
@@ -1260,9 +1363,7 @@ class Traffic:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], is_station: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], station: int, oncoming: int) -> None: ...
-
-    SHARES: int = 16
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
     def path(self, start: int, target: int, edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
@@ -1289,7 +1390,7 @@ class Traffic:
             If there is no path, or something does not fit together.
         """
 
-    def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+    def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], oncoming: int) -> None:
         """
         Count one more robot on a path.
 
@@ -1297,6 +1398,8 @@ class Traffic:
         ----------
         path : int32[n]
             Vertices, each a neighbour of the one before.
+        oncoming : int
+            What it costs to go against it, not negative. [shares per tick]
 
         Raises
         ------

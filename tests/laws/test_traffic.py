@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rightofway import _core
 from tests.oracles.distances import Edge, distances_to
-from tests.oracles.traffic import SHARES, Traffic
+from tests.oracles.traffic import Traffic
 
 law = settings(max_examples=200, derandomize=True, deadline=None)
 
@@ -27,9 +27,10 @@ def floors(draw: st.DrawFn) -> Traffic:
     return Traffic(
         n_vertices=n_vertices,
         edges=[Edge(u, v, draw(ticks)) for u, v in sorted(ends)],
-        stations=frozenset(draw(st.sets(vertex))),
-        station=draw(st.sampled_from([0, 16, 40])),
-        oncoming=draw(st.sampled_from([0, 4, 100])),
+        shares=draw(st.sampled_from([1, 16])),
+        station=draw(
+            st.lists(st.sampled_from([0, 16, 40]), min_size=n_vertices, max_size=n_vertices)
+        ),
     )
 
 
@@ -38,15 +39,16 @@ def kernel_of(floor: Traffic) -> _core.Traffic:
     return _core.Traffic(
         np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
         np.array([edge.end for edge in floor.edges], np.int32),
-        np.array([v in floor.stations for v in range(floor.n_vertices)], np.uint8),
-        floor.station,
-        floor.oncoming,
+        floor.shares,
+        np.array(floor.station, np.int64),
     )
 
 
 @law
-@given(floors())
-def test_each_robots_path_is_the_cheapest_among_those_before(floor: Traffic) -> None:
+@given(floors(), st.data())
+def test_each_robots_path_is_the_cheapest_among_those_before(
+    floor: Traffic, data: st.DataObject
+) -> None:
     kernel = kernel_of(floor)
     ticks = np.array([edge.ticks for edge in floor.edges], np.int32)
     for start in range(floor.n_vertices):
@@ -56,22 +58,17 @@ def test_each_robots_path_is_the_cheapest_among_those_before(floor: Traffic) -> 
                 continue
             path = kernel.path(start, target, ticks, np.array(to_go, np.int32))
             assert path.tolist() == floor.path(start, target)
-            kernel.add(path)
-            floor.add(path.tolist())
+            oncoming = data.draw(st.sampled_from([0, 4, 100]))
+            kernel.add(path, oncoming)
+            floor.add(path.tolist(), oncoming)
 
 
 def test_a_target_out_of_reach_and_a_path_with_a_gap_are_refused() -> None:
-    floor = Traffic(
-        n_vertices=3, edges=[Edge(0, 1, 1)], stations=frozenset(), station=0, oncoming=0
-    )
+    floor = Traffic(n_vertices=3, edges=[Edge(0, 1, 1)], shares=16, station=[0, 0, 0])
     kernel, ticks = kernel_of(floor), np.array([1], np.int32)
     with pytest.raises(ValueError, match="target: 2 cannot be reached from 0"):
         kernel.path(0, 2, ticks, np.array([-1, -1, 0], np.int32))
     with pytest.raises(ValueError, match=r"path\[1\]: 2 is no neighbour of 0"):
-        kernel.add(np.array([0, 2], np.int32))
+        kernel.add(np.array([0, 2], np.int32), 4)
     with pytest.raises(ValueError, match=r"start: 3 is not in 0\.\.2"):
         kernel.path(3, 1, ticks, np.array([1, 0, -1], np.int32))
-
-
-def test_shares_are_those_of_the_twin() -> None:
-    assert _core.Traffic.SHARES == SHARES

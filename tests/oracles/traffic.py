@@ -9,8 +9,6 @@ from itertools import pairwise
 
 from tests.oracles.distances import Edge
 
-SHARES = 16
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Traffic:
@@ -18,16 +16,14 @@ class Traffic:
 
     n_vertices: int
     edges: Sequence[Edge]
-    stations: frozenset[int]
-    station: int
-    oncoming: int
+    shares: int
+    station: Sequence[int]
     driven: Counter[tuple[int, int]] = field(default_factory=Counter)
 
     def cost(self, edge: Edge, target: int) -> int:
         """Return what an edge costs a robot on its way to a target."""
-        in_the_way = edge.end in self.stations and edge.end != target
-        oncoming = self.driven[edge.end, edge.start]
-        return edge.ticks * (SHARES + self.station * in_the_way + self.oncoming * oncoming)
+        station = self.station[edge.end] if edge.end != target else 0
+        return edge.ticks * (self.shares + station + self.driven[edge.end, edge.start])
 
     def to_go(self, target: int) -> dict[int, int]:
         """Return the least cost from each vertex from which the target can be reached."""
@@ -54,6 +50,7 @@ class Traffic:
             )
         return path
 
-    def add(self, path: Sequence[int]) -> None:
-        """Have one more robot on a path."""
-        self.driven.update(pairwise(path))
+    def add(self, path: Sequence[int], oncoming: int) -> None:
+        """Have one more robot on a path, and let it cost to go against it."""
+        for step in pairwise(path):
+            self.driven[step] += oncoming

@@ -23,7 +23,8 @@
 
 namespace rightofway {
 
-enum class EndlessRule : std::int32_t { first_come = 0, fixed_order = 1 };
+enum class EndlessRule : std::int32_t { first_come = 0, fixed_order = 1, least_loss = 2 };
+constexpr std::int32_t n_endless_rules = 3;
 
 // A decision: these rights of way, where those others were possible.
 struct EndlessOrder {
@@ -35,9 +36,12 @@ class EndlessGiving {
   public:
     enum class Outcome { settled, going_back, too_short, deadlock };
 
-    // All are borrowed and must outlive this.
+    // All are borrowed and must outlive this. `loss` is what a tick of waiting costs each robot.
     EndlessGiving(const EndlessRoutes& routes, EndlessTimetable& timetable,
-                  EndlessMeetings& meetings, EndlessRule rule);
+                  EndlessMeetings& meetings, EndlessRule rule, std::span<const std::int64_t> loss);
+
+    // Decides by another rule from now on.
+    void follow(EndlessRule rule) { rule_ = rule; }
 
     // Keeps two robots apart. Going back: that takes other decisions than so far. Too short: the
     // view does not show whether the segment ends. In a deadlock, circle() has who would wait for
@@ -86,6 +90,7 @@ class EndlessGiving {
                      std::int32_t j_step) const;
     bool reaches_the_end(const Segment& segment) const;
     bool i_waits(const Segment& segment) const;
+    std::int64_t loss_if(const Segment& segment, bool i_waits) const;
     Tick seen_enter(EndlessVisit visit) const;
     static std::vector<EndlessRight> rights_if(const Segment& segment, bool i_waits);
     bool take(EndlessOrder&& order, bool is_turned);
@@ -100,6 +105,7 @@ class EndlessGiving {
     EndlessTimetable& timetable_;
     EndlessMeetings& meetings_;
     EndlessRule rule_;
+    std::span<const std::int64_t> loss_;
     std::vector<Step> steps_;
     Owner next_serial_ = 0;
     std::vector<RobotId> circle_;

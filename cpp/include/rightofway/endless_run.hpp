@@ -37,7 +37,10 @@ class EndlessRun {
     enum class End : std::int32_t { open = 0, repeats = 1, deadlock = 2 };
     using IsOver = std::function<bool()>;
 
-    EndlessRun(const LapArrays& laps, const EndlessPace& pace, EndlessRule rule);
+    // `loss` is what a tick of waiting costs each robot, above 0; only least_loss asks for it.
+    // Throws std::invalid_argument if that does not fit.
+    EndlessRun(const LapArrays& laps, const EndlessPace& pace, EndlessRule rule,
+               std::vector<std::int64_t> loss = {});
     EndlessRun(const EndlessRun&) = delete;  // its parts refer to each other
     EndlessRun& operator=(const EndlessRun&) = delete;
 
@@ -47,6 +50,9 @@ class EndlessRun {
 
     // Forgets the states that were seen, so that it goes on where one came again.
     void forget() { seen_.clear(); }
+
+    // Decides by another rule from now on, and forgets the states: they led elsewhere.
+    void follow(EndlessRule rule);
 
     RobotId n_robots() const { return routes_.n_robots(); }
     Tick cut() const { return cut_; }
@@ -89,6 +95,7 @@ class EndlessRun {
     EndlessPace pace_;
     EndlessTimetable timetable_;
     EndlessMeetings meetings_;
+    std::vector<std::int64_t> loss_;
     EndlessGiving giving_;
     EndlessWaits waits_;
     SeenStates seen_;

@@ -4,7 +4,7 @@
 // Waiting on a route cannot pass a robot that stands or works on it, and of two that come head-on
 // one has to wait for the whole segment. So a vertex where another robot has its home or a stop
 // costs more to enter, and so does an edge for every robot that goes the other way. Costs are
-// whole numbers: times in ticks times `shares`, and surcharges in shares of the edge's own time.
+// whole numbers: times in shares of a tick, and surcharges in shares for each tick of an edge.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,12 @@
 
 namespace rightofway {
 
-struct Surcharges {
-    std::int64_t station;   // to enter a vertex where others have their home or a stop
-    std::int64_t oncoming;  // for each robot that goes the other way on the edge
-};
-
 class Traffic {
   public:
-    static constexpr std::int64_t shares = 16;
-
-    // Copies what it is given. Throws std::invalid_argument where that does not fit together.
-    Traffic(const Graph& graph, std::span<const std::uint8_t> is_station,
-            const Surcharges& surcharges);
+    // Copies what it is given: in how many shares a tick is counted, and what it costs more per
+    // tick to enter each vertex, where others have their home or a stop. Throws
+    // std::invalid_argument where that does not fit together.
+    Traffic(const Graph& graph, std::int64_t shares, std::span<const std::int64_t> station);
 
     // A cheapest path; of several, the one that takes the first edge of a vertex that it can.
     // `to_go` has the least ticks from each vertex to the target, -1 where no way leads there.
@@ -36,10 +30,10 @@ class Traffic {
                                std::span<const std::int32_t> edge_ticks,
                                std::span<const std::int32_t> to_go);
 
-    // Counts one more robot on a path.
-    void add(std::span<const VertexId> path);
+    // Has one more robot on a path: whoever goes against it pays so much more per tick.
+    void add(std::span<const VertexId> path, std::int64_t oncoming);
 
-    VertexId n_vertices() const { return static_cast<VertexId>(is_station_.size()); }
+    VertexId n_vertices() const { return static_cast<VertexId>(station_.size()); }
 
   private:
     struct Open {
@@ -68,9 +62,9 @@ class Traffic {
     std::vector<EdgeId> indptr_;
     std::vector<VertexId> indices_;
     std::vector<EdgeId> opposite_;  // of each edge, -1 for a one-way
-    std::vector<std::uint8_t> is_station_;
-    Surcharges surcharges_;
-    std::vector<std::int64_t> n_robots_;  // on each edge
+    std::int64_t shares_;
+    std::vector<std::int64_t> station_;   // what it costs more to enter a vertex
+    std::vector<std::int64_t> oncoming_;  // what it costs more to go against each edge
 
     // What a search works on; reused.
     std::vector<std::int64_t> cost_;          // of each vertex that was reached

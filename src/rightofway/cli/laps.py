@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["laps"]
 
-RULES = ["first-come", "fixed-order", "two-level", "timetable"]
+RULES = ["first-come", "fixed-order", "least-loss", "two-level", "timetable"]
 
 EXAMPLE = """\b
 Examples:
@@ -39,7 +39,7 @@ def part(_context: click.Context, _parameter: click.Parameter, given: str) -> Fr
 @click.argument("scenario", type=click.Path())
 @click.option("--rule", type=click.Choice(RULES), default="first-come", show_default=True,
               help="Who goes first where two robots meet; timetable: most laps.")  # fmt: skip
-@click.option("--routes", type=click.Choice(["clear", "shortest"]),
+@click.option("--routes", type=click.Choice(["clear", "direct", "shortest"]),
               help="How round trips are chosen.  [default: clear]")  # fmt: skip
 @click.option("--time-limit", type=float, default=10, show_default=True, callback=seconds,
               metavar="SECONDS", help="When to stop; inf for never.")  # fmt: skip

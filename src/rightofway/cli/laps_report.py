@@ -32,6 +32,9 @@ MOST_OF_DENOMINATOR = 12
 MOST_TIMES = 4
 """How often a conflict is told within one period; more times are counted."""
 
+MOST_VISITS = 1_000_000
+"""In periods of more visits nobody looks for who waits for whom, and for the bottleneck."""
+
 Sights = dict[tuple[int, int, int], list[Fraction]]
 """By place, who waits and for whom: when [time unit]."""
 
@@ -69,6 +72,25 @@ def _group_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
         "mean_lap": dict(zip(names, means, strict=True)),
         "measured": _measured_data(run, group),
         "waiting_share": dict(zip(names, shares, strict=True)),
+        **(_NOT_TOLD if _is_long(group) else _waits_data(run, group)),
+    }
+
+
+_NOT_TOLD = dict.fromkeys(("conflicts", "first_lap", "bottleneck", "sensitivity"))
+
+
+def _is_long(group: GroupRun) -> bool:
+    """Tell whether a period is too long to be looked at visit by visit."""
+    pattern = group.pattern
+    if pattern is None:
+        return False
+    visits = zip(pattern.counts, pattern.lengths, strict=True)
+    return sum(laps * each for laps, each in visits) > MOST_VISITS
+
+
+def _waits_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
+    """Return who waits for whom, and what sets the pace."""
+    return {
         "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
         "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
         "bottleneck": _bottleneck_data(run, run.bottleneck(group)),
@@ -155,6 +177,9 @@ def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     transient, period = time(group.pattern.transient), time(group.pattern.period)
     yield f"{who}: from time {transient} on, all repeats every {period}"
     yield from _robot_lines(run, group)
+    if _is_long(group):
+        yield "waits and the bottleneck are not looked for in a period as long as this"
+        return
     yield from _conflict_lines(run, group)
     bottleneck = run.bottleneck(group)
     if bottleneck:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, Problem
 from rightofway.laps.homes import keep_off_homes
-from rightofway.model import Lap, Robot, Scenario, Tick, VertexId, lap_of
-from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.model import Lap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.planners.routing import clear_routes, direct_routes, shortest_routes
 from rightofway.search import Distances
 
-__all__ = ["Endless", "endless_routes"]
+__all__ = ["Endless", "clear_and_direct", "endless_routes"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,6 +70,18 @@ class Endless:
         later = laps * within[-1] + within[places] - within[1] + self.first_least
         return np.where(visits > 0, later, 0)
 
+    def free_from(self, visits: range) -> NDArray[np.int64]:
+        """Return the same of visits one behind the other."""
+        laps = np.arange(visits.start // len(self.lap), -(-visits.stop // len(self.lap)))
+        within = np.array(self._within, np.int64)
+        later: NDArray[np.int64] = (laps[:, None] * within[-1] + within[:-1]).ravel()
+        begins = self.place(visits.start)
+        free: NDArray[np.int64] = later[begins : begins + len(visits)] - within[1]
+        free += self.first_least
+        if visits.start == 0:
+            free[:1] = 0
+        return free
+
     def lasting(self, visit: int, ticks: int) -> int:
         """Return how many visits from a later one than 0 on last that long at least."""
         place = self.place(visit)
@@ -96,8 +108,9 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
     scenario
         The problem; how many laps it asks for plays no part.
     routes
-        ``clear`` or ``shortest``, as planners choose them; clear ones past no other home, where
-        that would bar two robots' way for good.
+        ``clear`` or ``shortest``, as planners choose them, or ``direct``: clear of others only as
+        much as they are there when all make lap after lap. Clear and direct ones lead past no other
+        home where that would bar two robots' way for good.
 
     Raises
     ------
@@ -106,19 +119,34 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
     NoPlanExists
         If a robot cannot get to a place.
     """
+    if routes == "direct":
+        return clear_and_direct(scenario)[1]
     once = _one_lap_each(scenario)
     distances = Distances(once.roadmap)
     if routes == "clear":
         found = keep_off_homes(once, clear_routes(once, distances))
     else:
         found = shortest_routes(once, distances)
+    return _endless(once, found)
+
+
+def clear_and_direct(scenario: Scenario) -> tuple[list[Endless], list[Endless]]:
+    """Choose clear round trips and direct ones for each robot; see `endless_routes`."""
+    once = _one_lap_each(scenario)
+    distances = Distances(once.roadmap)
+    clear = keep_off_homes(once, clear_routes(once, distances))
+    direct = keep_off_homes(once, direct_routes(once, distances, clear))
+    return _endless(once, clear), _endless(once, direct)
+
+
+def _endless(once: Scenario, routes: Sequence[Route]) -> list[Endless]:
     return [
         Endless(
             robot=robot,
             lap=lap_of(once.timing.itineraries[robot], route),
             first_least=route.least(0),
         )
-        for robot, route in enumerate(found)
+        for robot, route in enumerate(routes)
     ]
 
 

@@ -10,6 +10,7 @@ from rightofway.errors import GaveUp
 from rightofway.laps.giving import Deadlock
 from rightofway.laps.past import Past
 from rightofway.laps.rolling import MEMORY, MOST_LAG, PATIENCE, Pace
+from rightofway.laps.rules import losses
 from rightofway.laps.window import Ground
 from rightofway.planners import Deadline
 from rightofway.precedence import EndlessRun, Look
@@ -25,7 +26,7 @@ class Native:
     ground
         The group.
     rule
-        ``first-come`` or ``fixed-order``.
+        ``first-come``, ``fixed-order`` or ``least-loss``.
     """
 
     def __init__(self, ground: Ground, rule: str) -> None:
@@ -44,7 +45,8 @@ class Native:
             ),
             headway=ground.headway,
             books_ahead=ground.books_ahead,
-            fixed_order=rule == "fixed-order",
+            rule=rule,
+            losses=losses(ground.group),
         )
 
     @property
@@ -72,6 +74,10 @@ class Native:
         if ends == "deadlock":
             raise Deadlock(*self._run.standstill())
         return self._run.came_again()
+
+    def follow(self, rule: str) -> None:
+        """Decide by another rule from now on; states that were seen are forgotten."""
+        self._run.follow(rule)
 
     def forget(self) -> None:
         """Forget the states seen, so that it goes on where one came again."""

@@ -50,6 +50,8 @@ class Past(Sequence[int]):
         visits = range(self._begun)[index]
         if isinstance(visits, range):
             return tuple(self.enters(visits).tolist())
+        if visits == self._begun - 1:
+            return int(self.enters(range(visits, visits + 1))[0])
         if visits >= len(self._first):  # who asks for one soon asks for another one
             self._first = self.enters(range(min(2 * visits + len(self._endless.lap), self._begun)))
         return int(self._first[visits])
@@ -64,6 +66,13 @@ class Past(Sequence[int]):
 
     def enters(self, visits: range) -> NDArray[np.int64]:
         """Return when some visits began [ticks]."""
-        numbers = np.arange(visits.start, visits.stop, visits.step)
-        waits = np.searchsorted(self._late, numbers, side="right")
-        return self._endless.free(numbers) + self._waited[waits]
+        if not visits:
+            return np.empty(0, np.int64)
+        if visits.step != 1:
+            numbers = np.arange(visits.start, visits.stop, visits.step)
+            waits = np.searchsorted(self._late, numbers, side="right")
+            return self._endless.free(numbers) + self._waited[waits]
+        first, stop = np.searchsorted(self._late, (visits.start, visits.stop - 1), side="right")
+        sizes = np.diff(self._late[first:stop], prepend=visits.start, append=visits.stop)
+        waited: NDArray[np.int64] = np.repeat(self._waited[first : stop + 1], sizes)
+        return self._endless.free_from(visits) + waited

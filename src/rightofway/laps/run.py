@@ -19,9 +19,9 @@ from rightofway.laps.window import Ground
 from rightofway.model import Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 
-__all__ = ["ROUTES", "each_its_share", "run_group", "run_laps"]
+__all__ = ["ROUTES", "each_its_share", "go_on", "run_group", "run_laps", "set_out"]
 
-ROUTES = ("clear", "shortest")
+ROUTES = ("clear", "direct", "shortest")
 """How round trips may be chosen."""
 
 LEAST_SHARE = 0.05
@@ -44,9 +44,11 @@ def run_laps(
         The problem; its number of laps plays no part.
     rule
         Who goes first where two robots meet: ``first-come``, ``fixed-order`` (the first in the
-        scenario) or ``two-level`` (as the paper does).
+        scenario), ``least-loss`` (who would lose the larger part of its lap) or ``two-level`` (as
+        the paper does).
     routes
-        How the round trips are chosen, once and for all laps: ``clear`` or ``shortest``.
+        How the round trips are chosen, once and for all laps: ``clear``, ``direct`` or
+        ``shortest``.
     time_limit
         When to stop [s]; None for no limit. Groups get shares of it by their size; those that are
         open then go on with what is left.
@@ -75,7 +77,7 @@ def run_laps(
     _refuse_unknown("routes", routes, ROUTES)
     deadline = Deadline.after(time_limit)
     groups = independent_groups(endless_routes(scenario, routes))
-    going = [_going(Task(scenario=scenario), group, rule) for group in groups]
+    going = [set_out(Task(scenario=scenario), group, rule) for group in groups]
     return LapsRun(
         scenario=scenario,
         rule=rule,
@@ -98,7 +100,7 @@ def each_its_share(
             report(f"{known} of {len(going)} groups done, next one of {sizes[index]} robots")
             share = deadline.sooner(max(sizes[index] / left, LEAST_SHARE))
             left -= sizes[index]
-            found[index] = _go_on(going[index], share)
+            found[index] = go_on(going[index], share)
         open_ones = [index for index in open_ones if found[index].ends == "open"]
         if deadline.seconds_left() == 0:
             break
@@ -112,10 +114,10 @@ def _refuse_unknown(key: str, given: str, known: Sequence[str]) -> None:
 
 def run_group(task: Task, group: Sequence[Endless], rule: str) -> GroupRun:
     """Let one group repeat its round trips until its pattern repeats; see `run_laps`."""
-    return _go_on(_going(task, group, rule), task.deadline)
+    return go_on(set_out(task, group, rule), task.deadline)
 
 
-def _going(task: Task, group: Sequence[Endless], rule: str) -> Rolling | Native:
+def set_out(task: Task, group: Sequence[Endless], rule: str) -> Rolling | Native:
     """Return a group at its beginning."""
     ground = Ground(
         task=replace(task, options={"swaps": "resolve"}),
@@ -126,7 +128,8 @@ def _going(task: Task, group: Sequence[Endless], rule: str) -> Rolling | Native:
     return Rolling(ground, rule) if rule in FAR_SIGHTED else Native(ground, rule)
 
 
-def _go_on(going: Rolling | Native, deadline: Deadline) -> GroupRun:
+def go_on(going: Rolling | Native, deadline: Deadline) -> GroupRun:
+    """Let a group go on until its pattern repeats; where time runs out, it can be asked again."""
     ends: Literal["repeats", "deadlock", "open"] = "repeats"
     group, pattern, why = going.ground.group, None, ""
     try:

@@ -127,6 +127,7 @@ class Window(Fleet):
     def __init__(
         self, ground: Ground, cut: Cut, ahead: Sequence[int], shown: Sequence[int]
     ) -> None:
+        self.ground = ground
         self.begins = max(cut.tick - ground.reach, 0)
         self.cut = cut
         self.starts = [bisect_right(past, self.begins) - 1 for past in cut.history]
@@ -155,6 +156,12 @@ class Window(Fleet):
         """Return the robot of a visit of the graph, and the visit's number."""
         robot, index = self.graph.place(visit)
         return robot, self.starts[robot] + index
+
+    def gap_before(self, visit: int) -> int:
+        """Return how long a place has to be left before a visit of the graph begins [ticks]."""
+        robot, number = self.number(visit)
+        approach = self.group[robot].drive(number) if self.ground.books_ahead else 0
+        return self.ground.headway + approach
 
     def inside(self, rights: Iterable[Numbered]) -> tuple[Numbered, ...]:
         """Return those whose first visit is still in the window."""

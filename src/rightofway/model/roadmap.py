@@ -170,6 +170,16 @@ class Roadmap:
                 return index
         return None
 
+    def edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the indices of the edges from ``tails`` to ``heads``, -1 without one; int32."""
+        found = np.full(len(tails), -1, np.int32)
+        first, last = self.indptr[tails], self.indptr[tails + 1]
+        for offset in range(int((last - first).max(initial=0))):
+            edge = np.minimum(first + offset, len(self.heads) - 1)
+            fits = (first + offset < last) & (self.heads[edge] == heads) & (found < 0)
+            found[fits] = edge[fits]
+        return found
+
 
 def _same_grid(one: Grid | None, other: Grid | None) -> bool:
     if one is None or other is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -98,8 +97,8 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
         enough, the last one in the last visit.
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
-    drive = [edge_ticks(roadmap, itinerary, tail, head) for tail, head in pairwise(vertices)]
-    spare = [*(np.diff(track.enter) - np.array(drive, np.int64)).tolist(), _FOR_EVER]
+    drive = np.array(_drives(roadmap, itinerary, vertices), np.int64)
+    spare = [*(np.diff(track.enter) - drive).tolist(), _FOR_EVER]
     return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, spare))
 
 
@@ -122,9 +121,30 @@ def _route(
     for stage, visit in zip(itinerary.stages, serves, strict=True):
         served[visit].append(stage)
     last = len(vertices) - 1
-    dwell = (least_dwell(stages, leaves=visit < last) for visit, stages in enumerate(served))
-    drive = (edge_ticks(roadmap, itinerary, tail, head) for tail, head in pairwise(vertices))
+    dwell = (
+        least_dwell(stages, leaves=visit < last) if stages else Tick(0)
+        for visit, stages in enumerate(served)
+    )
+    drive = map(Tick, _drives(roadmap, itinerary, vertices))
     return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
+
+
+def _drives(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> list[int]:
+    """Return how long a robot drives along each edge of a path [ticks].
+
+    Raises
+    ------
+    KeyError
+        If no edge leads from some vertex to the next.
+    """
+    path = np.array(vertices, np.int32)
+    edges = roadmap.edges(path[:-1], path[1:])
+    if len(edges) and edges.min() < 0:
+        gap = int(np.argmin(edges))
+        raise KeyError((vertices[gap], vertices[gap + 1]))
+    by_class = np.array(itinerary.edge_ticks, np.int64)
+    ticks: list[int] = by_class[roadmap.length_class[edges]].tolist()
+    return ticks
 
 
 def edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: int, head: int) -> Tick:

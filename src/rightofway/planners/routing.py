@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
-from rightofway.search import Distances, Path, Traffic
+from rightofway.search import Distances, Path, Surcharges, Traffic
 
 __all__ = [
     "clear_routes",
+    "direct_routes",
     "refuse_shared_ends",
     "refuse_the_impossible",
     "refuse_unreachable",
@@ -62,14 +63,49 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
     refuse_the_impossible(scenario, distances)
-    traffic, routes = Traffic(distances, scenario.timing.itineraries), []
-    for itinerary in scenario.timing.itineraries:
+    itineraries = scenario.timing.itineraries
+    traffic = Traffic(distances, Surcharges.once(distances, itineraries))
+    return [_clear(scenario, traffic, robot) for robot in range(len(itineraries))]
+
+
+def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Route]) -> list[Route]:
+    """Return shorter routes for robots that make their trips again and again.
+
+    Who keeps clear of all others goes a longer way every time. Each robot whose route is not a
+    shortest one gets another, clear of others only as much as they are there.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    distances
+        Tables of its roadmap.
+    routes
+        One for each robot.
+    """
+    itineraries, found = scenario.timing.itineraries, list(routes)
+    traffic = Traffic(distances, Surcharges.often(distances, itineraries))
+    detours = []
+    for robot, (itinerary, route) in enumerate(zip(itineraries, routes, strict=True)):
         trips = _trips(itinerary)
-        legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
-        routes.append(route_along(scenario.roadmap, itinerary, legs))
-        for leg in legs:
-            traffic.add(leg)
-    return routes
+        least = sum(int(distances.to(end, itinerary.edge_ticks)[start]) for start, end in trips)
+        if sum(route.drive) > least:
+            detours.append(robot)
+        else:
+            traffic.add(robot, route.vertices)
+    for robot in detours:
+        found[robot] = _clear(scenario, traffic, robot)
+    return found
+
+
+def _clear(scenario: Scenario, traffic: Traffic, robot: int) -> Route:
+    """Return a robot's way through the traffic, and have it there from now on."""
+    itinerary = scenario.timing.itineraries[robot]
+    trips = _trips(itinerary)
+    legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
+    for leg in legs:
+        traffic.add(robot, leg)
+    return route_along(scenario.roadmap, itinerary, legs)
 
 
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:

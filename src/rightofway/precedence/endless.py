@@ -21,6 +21,9 @@ __all__ = ["EndlessRun", "Look", "Standstill"]
 ENDS: tuple[Literal["open", "repeats", "deadlock"], ...] = ("open", "repeats", "deadlock")
 """How the kernel tells what came of it."""
 
+KERNEL_RULES = ("first-come", "fixed-order", "least-loss")
+"""The rules that the kernel knows, in its order."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Look:
@@ -74,8 +77,11 @@ class EndlessRun:
         Ticks that a vertex stays booked after it was left.
     books_ahead
         Whether a robot books a vertex from when it starts to drive there.
-    fixed_order
-        Whether the robot listed first goes first, or that which would enter a segment first.
+    rule
+        Who goes first: who would enter a segment first (``first-come``), who is listed first
+        (``fixed-order``), or who would lose more by waiting for the other one (``least-loss``).
+    losses
+        What a tick of waiting costs each robot, above 0.
     """
 
     def __init__(
@@ -86,7 +92,8 @@ class EndlessRun:
         *,
         headway: Tick,
         books_ahead: bool,
-        fixed_order: bool,
+        rule: str,
+        losses: Sequence[int],
     ) -> None:
         drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
         self._kernel = _core.EndlessRun(
@@ -102,7 +109,8 @@ class EndlessRun:
             patience=look.patience,
             reach=look.reach,
             memory=look.memory,
-            fixed_order=fixed_order,
+            rule=KERNEL_RULES.index(rule),
+            loss=np.array(losses, np.int64),
         )
 
     def go_on(self, seconds: float | None) -> Literal["open", "repeats", "deadlock"]:
@@ -117,6 +125,10 @@ class EndlessRun:
     def forget(self) -> None:
         """Forget the states seen, so that it goes on where one came again."""
         self._kernel.forget()
+
+    def follow(self, rule: str) -> None:
+        """Decide by another rule from now on; states that were seen are forgotten."""
+        self._kernel.follow(KERNEL_RULES.index(rule))
 
     def came_again(self) -> tuple[int, int]:
         """Return when the state was there first, and when it came again [ticks]."""

@@ -7,9 +7,10 @@ from rightofway.search.events import plan_by_events
 from rightofway.search.fleet import FleetSearch
 from rightofway.search.joint import joint_steps
 from rightofway.search.native import compiler
+from rightofway.search.seam import Seam
 from rightofway.search.sipp import earliest_track
 from rightofway.search.tours import Tour
-from rightofway.search.traffic import Traffic
+from rightofway.search.traffic import Surcharges, Traffic
 
 __all__ = [
     "FOREVER",
@@ -19,6 +20,8 @@ __all__ = [
     "Distances",
     "FleetSearch",
     "Path",
+    "Seam",
+    "Surcharges",
     "Tour",
     "Traffic",
     "compiler",

@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.errors import GaveUp, InputError
-from rightofway.laps.endless import Endless, endless_routes
+from rightofway.laps.endless import Endless, clear_and_direct, endless_routes
 from rightofway.laps.groups import independent_groups
 from rightofway.model import Lap, Scenario, VertexId
 from rightofway.planners import Deadline, planning_headway
 from rightofway.search import Distances, Tour
-from rightofway.timetables.group import GroupTimetable, choose
+from rightofway.timetables.group import LARGE, GroupTimetable, choose
 from rightofway.timetables.jointly import one_lap
 from rightofway.timetables.shift import Shift
 
 __all__ = ["best_timetable"]
 
 MOST_WITH_WAYS = 200
-"""Larger fleets have no time to choose among ways: they take the clear routes."""
+"""Larger fleets have no time to look for any way: they take clear routes or direct ones."""
 
 
 def best_timetable(
@@ -84,9 +84,8 @@ def best_timetable(
         seed=seed,
         report=report or (lambda _: None),
     )
-    usual = endless_routes(scenario)
-    large = len(usual) > MOST_WITH_WAYS
-    others = [one.lap for one in (usual if large else endless_routes(scenario, "shortest"))]
+    usual, other = _routes(scenario)
+    others = [one.lap for one in other]
     groups = independent_groups(usual)
     try:
         return _by_groups(wish, groups, others)
@@ -94,6 +93,13 @@ def best_timetable(
         if len(groups) == 1:
             raise
     return _by_groups(wish, [usual], others)  # it takes the places of other groups as well
+
+
+def _routes(scenario: Scenario) -> tuple[list[Endless], list[Endless]]:
+    """Return the usual round trips of all robots, and others."""
+    if len(scenario.robots) > LARGE:
+        return clear_and_direct(scenario)
+    return endless_routes(scenario), endless_routes(scenario, "shortest")
 
 
 @dataclass(frozen=True, kw_only=True)

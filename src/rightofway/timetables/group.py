@@ -20,10 +20,15 @@ from rightofway.precedence import PeriodicTimetable, unrolled
 from rightofway.timetables.building import build, filled
 from rightofway.timetables.improving import improve
 from rightofway.timetables.jointly import jointly
+from rightofway.timetables.long import cut_out, rival_of, runs_of
 from rightofway.timetables.shift import Choice, Shift, Work
 from rightofway.timetables.windows import windows
 
 __all__ = ["GroupTimetable", "choose"]
+
+LARGE = 100
+"""Groups of more robots have a stretch of a run, if one can be closed: they have no time to choose.
+"""
 
 RIVAL_SHARE = 0.2
 """The part of its time that a group may take to see what first come first served does."""
@@ -125,11 +130,10 @@ def choose(
     if len(group) == 1:
         alone = _alone(shift)
         return _told(shift, alone, "repeats", shift.worth((1,)) / int(alone.period))
+    if len(group) > LARGE and (long := _long(scenario, group, shift)):
+        return long
     rival = _run(scenario, group, shift, "first-come", RIVAL_SHARE)
-    worth = Fraction(0) if rival.ends == "deadlock" else rival.rate(shift.weights)
-    pattern = rival.timetable
-    starves = rival.ends == "repeats" and pattern is None
-    ends: FirstComeEnds = "starves" if starves else rival.ends
+    pattern, (ends, worth) = rival.timetable, _rival(shift, rival)
     is_fair = pattern is not None and shift.is_fair(pattern.counts, int(pattern.period))
     others = _by_other_rules(scenario, group, shift)
     starts = [*others, *_cut(shift, rival), *_first_timetables(shift, rounds)]
@@ -144,6 +148,28 @@ def choose(
     if pattern is not None and is_fair and worth > _value(shift, whole):
         whole = pattern
     return _told(shift, whole, ends, worth)
+
+
+def _long(scenario: Scenario, group: Sequence[Endless], shift: Shift) -> GroupTimetable | None:
+    """Return the timetable of a long stretch of a run, or the rival's pattern if that is better."""
+    if shift.deadline.at is None:
+        return None
+    rival = rival_of(scenario, group, shift)
+    found = cut_out(shift, runs_of(scenario, rival, group, shift))
+    pattern = rival.run.timetable
+    some = [one for one in (found, pattern) if one is not None]
+    fair = [one for one in some if shift.is_fair(one.counts, int(one.period))]
+    if not fair:
+        return None
+    best = max(fair, key=lambda one: _value(shift, one))
+    return _told(shift, best, *_rival(shift, rival.run))
+
+
+def _rival(shift: Shift, rival: GroupRun) -> tuple[FirstComeEnds, Fraction]:
+    """Return how first come first served ends, and what its laps are worth per tick."""
+    starves = rival.ends == "repeats" and rival.timetable is None
+    worth = Fraction(0) if rival.ends == "deadlock" else rival.rate(shift.weights)
+    return "starves" if starves else rival.ends, worth
 
 
 def _nothing(shift: Shift) -> str:

@@ -7,6 +7,7 @@ tick is a better beginning; the one with the fewest of these is taken.
 
 from __future__ import annotations
 
+from array import array
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
@@ -25,8 +26,8 @@ __all__ = ["run_of"]
 MOST_BEGINNINGS = 200
 """How many beginnings are looked at; in large groups not all."""
 
-PERIODS = 3
-"""How many periods of visits a run is told with."""
+PERIODS, LONG = 3, 1_000_000
+"""How many periods of visits a run is told with; a long one, of more visits, with one."""
 
 
 def run_of(scenario: Scenario, chosen: Sequence[GroupTimetable]) -> LapsRun:
@@ -44,7 +45,9 @@ def _group_run(scenario: Scenario, timetable: PeriodicTimetable) -> GroupRun:
     begins = min(
         _beginnings(timetable), key=lambda tick: (_in_the_way(timetable, passes, tick), tick)
     )
-    history = tuple(_history(timetable, robot, begins) for robot in range(len(timetable.laps)))
+    periods = 1 if sum(map(len, timetable.enter)) > LONG else PERIODS
+    robots = range(len(timetable.laps))
+    history = tuple(_history(timetable, robot, begins, periods) for robot in robots)
     counts, lengths = timetable.counts, tuple(map(len, timetable.laps))
     pattern = Pattern(
         transient=Tick(max(past[1] for past in history)),
@@ -104,11 +107,12 @@ def _in_the_way(
     return visits
 
 
-def _history(timetable: PeriodicTimetable, robot: int, begins: int) -> tuple[int, ...]:
+def _history(timetable: PeriodicTimetable, robot: int, begins: int, periods: int) -> Sequence[int]:
     """Return when visits begin, counted from the beginning; at home from then on."""
     period, enter = int(timetable.period), timetable.enter[robot]
     visit, tick = _first_home(timetable, robot, begins)
-    turn = np.arange(PERIODS + 1)[:, None] * period
-    times = (enter + turn).ravel()[visit : visit + PERIODS * len(enter) + 1]
-    shifted = times - times[0] + tick - begins
-    return (0, *shifted[1:].tolist())
+    turn = np.arange(periods + 1)[:, None] * period
+    times = (enter + turn).ravel()[visit : visit + periods * len(enter) + 1]
+    times += tick - begins - times[0]
+    times[0] = 0
+    return array("q", times.tobytes())
