@@ -122,7 +122,7 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
     if routes == "direct":
         return clear_and_direct(scenario)[1]
     once = _one_lap_each(scenario)
-    distances = Distances(once.roadmap)
+    distances = _distances(once)
     if routes == "clear":
         found = keep_off_homes(once, clear_routes(once, distances))
     else:
@@ -133,10 +133,18 @@ def endless_routes(scenario: Scenario, routes: str = "clear") -> list[Endless]:
 def clear_and_direct(scenario: Scenario) -> tuple[list[Endless], list[Endless]]:
     """Choose clear round trips and direct ones for each robot; see `endless_routes`."""
     once = _one_lap_each(scenario)
-    distances = Distances(once.roadmap)
+    distances = _distances(once)
     clear = keep_off_homes(once, clear_routes(once, distances))
     direct = keep_off_homes(once, direct_routes(once, distances, clear))
     return _endless(once, clear), _endless(once, direct)
+
+
+def _distances(once: Scenario) -> Distances:
+    """Return the tables that all routes need."""
+    distances = Distances(once.roadmap)
+    itineraries = once.timing.itineraries
+    distances.prepare((stage.vertex, one.edge_ticks) for one in itineraries for stage in one.stages)
+    return distances
 
 
 def _endless(once: Scenario, routes: Sequence[Route]) -> list[Endless]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from itertools import pairwise
 
@@ -58,6 +60,15 @@ class Distances:
         if key not in self._tables:
             self._tables[key] = self._kernel.to(target, self.ticks_of_edges(edge_ticks))
         return self._tables[key]
+
+    def prepare(self, wanted: Iterable[tuple[VertexId, tuple[Tick, ...]]]) -> None:
+        """Compute tables that will be asked for, on all cores: targets and ticks as for `to`."""
+        missing = dict.fromkeys(key for key in wanted if key not in self._tables)
+        for _, edge_ticks in missing:
+            self.ticks_of_edges(edge_ticks)
+        assert self._kernel, "made once, before threads ask for it"
+        with ThreadPoolExecutor() as pool:
+            list(pool.map(lambda key: self.to(*key), missing))
 
     def ticks_of_edges(self, edge_ticks: tuple[Tick, ...]) -> NDArray[np.int32]:
         """Return the ticks of every edge, given those of each length class; shape (E,)."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Tick
+from rightofway.model import Lap, Tick, VertexId
 
 __all__ = ["Seam"]
 
@@ -60,10 +60,10 @@ class Seam:
         """
         return self._kernel.connect(*_laps(lap, count), int(begins), int(until), int(leave))
 
-    def in_the_way(self, lap: Lap, begins: int, until: int) -> set[int]:
-        """Return who uses the place where the last search, for this lap, got stuck."""
+    def stuck(self, lap: Lap, begins: int, until: int) -> tuple[VertexId, set[int]]:
+        """Return the place where the last search, for this lap, got stuck, and who uses it."""
         vertex = lap.vertices[(self._kernel.reached + 1) % len(lap)]
-        return set(self._kernel.users(vertex, int(begins), int(until)).tolist())
+        return vertex, set(self._kernel.users(vertex, int(begins), int(until)).tolist())
 
 
 @lru_cache(maxsize=1 << 14)

@@ -16,13 +16,14 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from time import monotonic
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.laps.outcome import GroupRun
 from rightofway.laps.past import Past
-from rightofway.model import Lap
+from rightofway.model import Lap, VertexId
 from rightofway.precedence import PeriodicTimetable
 from rightofway.search import Seam
 from rightofway.timetables.shift import Shift, Work
@@ -38,8 +39,8 @@ LATEST, SHORTEST = 0.1, 0.9
 MOST_VISITS = 16_000_000
 """No stretch has many more: all its visits are kept in memory, and told."""
 
-AROUND = 1.25, 3
-"""How many of the longest laps before and after the seam may change; more if that is too little."""
+AROUND = 1.75
+"""How many of the longest laps before and after the seam may change."""
 
 FEWER_LAPS, GIVEN_UP = 4, 3
 """A robot makes less than so many laps fewer than it could, and gives up less than so many of the
@@ -47,6 +48,10 @@ run on each side of the seam."""
 
 MOST_ROUNDS = 6
 """How often each robot that is not free to wait looks for its way, on average."""
+
+
+MOST_SECONDS = 4
+"""And for so long at most: another stretch may be closed sooner."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -76,7 +81,7 @@ def stretches(shift: Shift, run: GroupRun) -> list[Stretch]:
     beginnings = np.linspace(longest, max(LATEST * known, longest), BEGINNINGS)
     for begins in np.unique(beginnings.astype(np.int64)).tolist():
         most = min(known - begins, int(MOST_VISITS / per_tick))
-        least = max(int(SHORTEST * most), int(2 * AROUND[0] * longest) + 1)
+        least = max(int(SHORTEST * most), int(2 * AROUND * longest) + 1)
         if least <= most:
             periods = np.unique(np.linspace(least, most, ENDS).astype(np.int64))
             values = _values(shift, run, homes, begins, periods)
@@ -120,21 +125,15 @@ def _first(home: NDArray[np.int64], begins: int) -> int:
 
 def closed(shift: Shift, run: GroupRun, stretch: Stretch) -> PeriodicTimetable | None:
     """Return the timetable of a stretch; None if some robot finds no way through the seam."""
-    longest = max(endless.lap.duration for endless in run.group)
-    for laps in AROUND:
-        around = int(laps * longest)
-        if 2 * around >= stretch.period:
-            break
-        closing = _Closing(shift, run, stretch, around)
-        if closing.let_all_through():
-            closing.add_laps()
-            works = [closing.work(place) for place in range(len(run.group))]
-            return shift.timetable(works, stretch.period) if all(map(_laps, works)) else None
-    return None
-
-
-def _laps(work: Work) -> int:
-    return work.count
+    around = int(AROUND * max(endless.lap.duration for endless in run.group))
+    if 2 * around >= stretch.period:
+        return None
+    closing = _Closing(shift, run, stretch, around)
+    if not closing.let_all_through():
+        return None
+    closing.add_laps()
+    works = [closing.work(place) for place in range(len(run.group))]
+    return shift.timetable(works, stretch.period) if all(work.count for work in works) else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -220,14 +219,15 @@ class _Closing:
     def let_all_through(self) -> bool:
         """Let robots wait at home, or make laps where they cannot; tell whether all can."""
         queue = deque(place for place in range(len(self._parts)) if not self._waits(place))
+        end = monotonic() + MOST_SECONDS
         for _ in range(MOST_ROUNDS * len(queue) + len(self._parts)):
-            if not queue:
+            if not queue or monotonic() > end:
                 break
             place = queue.popleft()
             near = self._find(place, self._tries(place))
             if near is None:
                 continue
-            waiting = [one for one in sorted(near) if self._parts[one].through is not None]
+            waiting = sorted(near)
             for one in waiting:
                 self._put(one, replace(self._parts[one], through=None))
             queue.extend(waiting)
@@ -273,20 +273,27 @@ class _Closing:
     def _find(self, place: int, tries: Iterator[tuple[_Part, int]]) -> set[int] | None:
         """Find a robot its way through the seam; if it finds none, return who was in its way."""
         before, near = self._parts[place], set[int]()
+        self._seam.remove(place, before.lap)  # what it keeps is never in its own way
         for part, more in tries:
-            self._seam.remove(place, part.lap)
-            self._keep(place, part)
             found = self._seam.connect(part.lap, more, part.begins, part.until, part.leave)
             if found is not None:
-                self._parts[place] = replace(part, through=found)
-                self._book_through(place, self._parts[place])
+                self._put(place, replace(part, through=found))
                 return None
-            near |= self._seam.in_the_way(part.lap, part.begins, part.leave)
+            near |= self._waiting(*self._seam.stuck(part.lap, part.begins, part.leave))
         self._put(place, before)
         return near - {place}
 
+    def _waiting(self, vertex: VertexId, users: set[int]) -> set[int]:
+        """Return who may make room at a place: who waits at home there, or makes laps past it."""
+        parts = ((place, self._parts[place]) for place in users)
+        return {
+            place
+            for place, part in parts
+            if part.through is not None and (part.more or part.lap.vertices[0] == vertex)
+        }
+
     def _put(self, place: int, part: _Part) -> None:
-        """Book a robot as it is."""
+        """Book a robot anew."""
         self._parts[place] = part
         self._seam.remove(place, part.lap)
         self._keep(place, part)
