@@ -42,10 +42,10 @@ GOING_ON_SHARE = 0.75
 """The part of the time left then in which the best goes on; in the rest it is closed."""
 
 SLICES = 4
-"""In so many parts of that; after each it is asked whether it still comes on."""
+"""In so many parts of that; after each it is asked what promises most then."""
 
-SLOW = 0.3
-"""A run that comes on less than so much as first come first served is in trouble: it goes back."""
+SEAM = 0.55
+"""How much of a lap each robot loses where a stretch is closed."""
 
 LEAST_LAPS, GRACE = 5, 5
 """However little time there is, the best goes on for so many of the longest laps if it can in so
@@ -54,7 +54,7 @@ many seconds: a stretch that is too short cannot be closed."""
 EACH, MOST_STRETCHES = 2, 4
 """How many stretches of each run, and in all, are tried to be closed until one is."""
 
-MOMENT, SHORTEST_MOMENT = 0.1, 0.02
+MOMENT, SHORTEST_MOMENT = 0.2, 0.02
 """So often it is asked how far a run is: as a part of the time for it, and at least [s]."""
 
 
@@ -67,28 +67,43 @@ class Watched:
         The problem.
     group
         Its robots and their routes.
+
+    Attributes
+    ----------
+    run
+        What it did so far.
+    known
+        How far it is [ticks].
+    pace
+        How many ticks it came on in a second, when it last went on.
     """
 
     def __init__(self, scenario: Scenario, group: Sequence[Endless]) -> None:
         self._longest = max(endless.lap.duration for endless in group)
         self._going = set_out(Task(scenario=scenario), group, "first-come")
-        self._seconds = 0.0
+        self._seconds = self.pace = 0.0
         self.run = go_on(self._going, Deadline.after(0))
+        self.known = 0
         self._value: Fraction | None = None
 
     def go_on(self, seconds: float) -> None:
         """Go on for some time, if the end is open."""
         if self.run.ends == "open":
+            before = self.known
             self.run = go_on(self._going, Deadline.after(seconds))
+            self.known = max(past[-1] for past in self.run.history)
+            self.pace = (self.known - before) / max(seconds, SHORTEST_MOMENT)
             self._seconds += seconds
             self._value = None
 
     def go_on_for(self, laps: float, least: float, most: float) -> None:
         """Go on for some of the longest laps, in at least and at most so much time [s]."""
-        until, end = self.known + laps * self._longest, self._seconds + most
+        before, began = self.known, self._seconds
+        until, end = before + laps * self._longest, began + most
         self.go_on(least)
         while self.run.ends == "open" and self.known < until and self._seconds < end:
             self.go_on(max(most * MOMENT, SHORTEST_MOMENT))
+        self.pace = (self.known - before) / max(self._seconds - began, SHORTEST_MOMENT)
 
     def go_on_until(self, laps: float, most: float) -> None:
         """Go on until it is so many of the longest laps long, in at most so much time [s]."""
@@ -98,16 +113,6 @@ class Watched:
         """Go on under another rule, if the end is open."""
         if self.run.ends == "open" and isinstance(self._going, Native):
             self._going.follow(rule)
-
-    @property
-    def known(self) -> int:
-        """How far it is [ticks]."""
-        return max(past[-1] for past in self.run.history)
-
-    @property
-    def pace(self) -> float:
-        """How many ticks it comes on in a second."""
-        return self.known / max(self._seconds, 1e-9)
 
     def value(self, shift: Shift) -> Fraction:
         """Return what its laps are worth per tick; 0 if not all robots make laps, or fair ones."""
@@ -150,19 +155,25 @@ def runs_of(
     rest = iter(((direct, "least-loss"), (direct, "first-come"), (group, "least-loss")))
     tried, enough = [rival], Fraction(GOOD) * rival.value(shift)
     for left in range(SLICES, 0, -1):
-        best = _best(tried, rival, shift)
+        best = _best(tried, shift)
         while best.value(shift) <= enough and (one := next(rest, None)):
             tried.append(_tried(scenario, *one, shift))
-            best = _best(tried, rival, shift)
+            best = _best(tried, shift)
         best.go_on(GOING_ON_SHARE ** (1 / left) * _left(shift) / left)
-    _best(tried, rival, shift).go_on_until(LEAST_LAPS, GRACE)
+    _best(tried, shift).go_on_until(LEAST_LAPS, GRACE)
     return [one.run for one in tried if all(one.run.laps_made())]
 
 
-def _best(tried: Sequence[Watched], rival: Watched, shift: Shift) -> Watched:
-    """Return what is worth most of what still comes on."""
-    fast = [one for one in tried if one.pace >= SLOW * rival.pace]
-    return max(fast, key=lambda one: one.value(shift))
+def _best(tried: Sequence[Watched], shift: Shift) -> Watched:
+    """Return what promises most, if it goes on as fast as it did last, and is closed then."""
+    seconds = GOING_ON_SHARE * _left(shift)
+    seam = SEAM * float(shift.worth([1] * len(shift.robots)))
+
+    def promise(one: Watched) -> float:
+        known = one.known + one.pace * seconds
+        return float(one.value(shift)) - seam / max(known, 1)
+
+    return max(tried, key=promise)
 
 
 def _tried(scenario: Scenario, group: Sequence[Endless], rule: str, shift: Shift) -> Watched:
