@@ -147,8 +147,12 @@ def test_the_judge_finds_no_fault_until_a_robot_stays_at_home(
 
 @every_rule
 @settings(max_examples=60, deadline=None)
+@example(seed=419, rules=Rules())  # a decision is taken back when a robot has waited for it
 @given(seed=st.integers(0, 2**32), rules=some_rules)
-def test_who_waits_for_whom_adds_up_to_the_time_lost(rule: str, seed: int, rules: Rules) -> None:
+def test_who_waits_for_whom_adds_up_to_no_more_than_the_time_lost(
+    rule: str, seed: int, rules: Rules
+) -> None:
+    """What is missing was waited for nobody, by one that could have gone."""
     run = small_run(seed, rule, rules)
     assume(run is not None)
     assert run is not None
@@ -158,7 +162,7 @@ def test_who_waits_for_whom_adds_up_to_the_time_lost(rule: str, seed: int, rules
         ):
             assert group.pattern is not None
             waits = sum(one.ticks for one in run.conflicts(group) if one.waits == robot)
-            assert not laps or waits == group.pattern.period - laps * endless.lap.duration
+            assert not laps or waits <= group.pattern.period - laps * endless.lap.duration
 
 
 @every_rule

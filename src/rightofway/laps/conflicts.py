@@ -82,7 +82,11 @@ class Bookings:
         )
 
     def in_period(self, pattern: Pattern) -> tuple[Conflict, ...]:
-        """Return who waits for whom in each period, by offset."""
+        """Return who waits for whom in each period, by offset.
+
+        Where a rule takes a decision back after a robot has waited for it, that wait is for nobody,
+        and is not told.
+        """
         firsts = (pattern.visits(robot) for robot in range(len(self.group)))
         # in the second period nobody leaves home for the first time, without a turn
         visits = [range(first.stop, first.stop + len(first)) for first in firsts]
@@ -106,7 +110,7 @@ class Bookings:
         found = []
         for wait in waits:
             other = frees.get((wait.vertex, wait.let_in % period))
-            if other is not None:  # without: it waits for its time in a timetable
+            if other is not None:  # without: for its time in a timetable, or what was taken back
                 conflict = Conflict(
                     vertex=wait.vertex,
                     waits=self.group[wait.robot].robot,
