@@ -12,9 +12,6 @@ namespace {
 constexpr std::size_t robots_per_task = 4;
 constexpr std::size_t least_in_round = 4;
 constexpr std::size_t most_in_round = 32;
-// Of the searches of a task; see Errand. A good track in a hurry is worth more where there is much
-// to gain, the best one where there is little.
-constexpr std::array<Tick, 2> greeds{0, 2};
 constexpr auto between_questions = std::chrono::milliseconds(10);
 
 }  // namespace
@@ -40,8 +37,7 @@ Improver::Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> al
       alone_(alone),
       seed_(seed),
       is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0),
-      neighbourhood_(n_neighbourhood_kinds * sizes.size()),
-      greed_(greeds.size()) {
+      neighbourhood_(n_neighbourhood_kinds * sizes.size()) {
     workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
     replicas_.reserve(n_threads);
     while (workers_.size() < n_threads) {
@@ -122,7 +118,6 @@ void Improver::work(Worker& worker, const SafeIntervalSearch::IsOver& is_over) {
 void Improver::attempt(Worker& worker, Task& task, Random& random,
                        const SafeIntervalSearch::IsOver& is_over) {
     task.neighbourhood = neighbourhood_.draw(random);
-    task.greed = greed_.draw(random);
     const auto kind = static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
     const std::size_t size = sizes[task.neighbourhood % sizes.size()];
     task.robots = worker.neighbourhoods.choose(kind, size, random);
@@ -153,11 +148,7 @@ bool Improver::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOv
     for (std::size_t k = 0; k < n && is_found; ++k) {
         const RobotId robot = task.robots[k];
         const Tick alone = alone_[static_cast<std::size_t>(robot)];
-        const Errand errand{worker.reader.read(robot),
-                            worker.plan.bookings(),
-                            {},
-                            alone + slack,
-                            greeds[task.greed]};
+        const Errand errand{worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
         is_found = worker.search.run(errand, is_over) == SearchEnd::found;
         if (is_found) {
             worker.search.track(worker.found.visits);
@@ -187,7 +178,6 @@ void Improver::settle(std::size_t n) {
         ++n_tasks_;
     }
     neighbourhood_.settle();
-    greed_.settle();
 }
 
 // Takes over a result into all replicas, if robots taken over before leave it possible.
@@ -225,7 +215,6 @@ void Improver::learn(const Task& task, bool is_adopted) {
     const double gain = is_adopted ? static_cast<double>(task.gain) : 0.0;
     const auto effort = static_cast<double>(task.effort);
     neighbourhood_.learn(task.neighbourhood, gain, effort);
-    greed_.learn(task.greed, gain, effort);
 }
 
 }  // namespace rightofway

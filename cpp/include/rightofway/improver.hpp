@@ -53,7 +53,6 @@ class Improver {
         std::vector<RobotId> robots;
         std::vector<TimedTrack> tracks;
         std::size_t neighbourhood = 0;  // its kind and size
-        std::size_t greed = 0;
         Tick gain = -1;  // below 0: nothing found
         std::int64_t effort = 0;
     };
@@ -77,7 +76,6 @@ class Improver {
     std::vector<Task> tasks_;
     std::vector<std::uint8_t> is_touched_;
     AdaptiveChoice neighbourhood_;
-    AdaptiveChoice greed_;
     std::atomic<std::size_t> next_task_ = 0;
     std::size_t n_in_round_ = 0;
     std::atomic<bool> is_stopped_ = false;
