@@ -53,7 +53,7 @@ class Improver {
         std::vector<RobotId> robots;
         std::vector<TimedTrack> tracks;
         std::size_t neighbourhood = 0;  // its kind and size
-        Tick gain = -1;  // below 0: nothing found
+        Tick gain = -1;                 // below 0: nothing found
         std::int64_t effort = 0;
     };
     struct Worker;
