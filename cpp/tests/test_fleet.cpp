@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "corridors.hpp"
 #include "rightofway/fleet_plan.hpp"
@@ -169,12 +171,27 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
     }
 }
 
+TEST_CASE("with a plan made in haste as a net, it is asked whether it is late, and that is taken") {
+    const Crossing crossing(12);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    FleetPlan plan(fleet);
+    bool was_asked = false;
+    const auto is_over = [] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // haste comes first
+        return false;
+    };
+    const auto is_late = [&was_asked] { return was_asked = true; };
+    CHECK(InTurn(fleet, plan, in_turn(fleet)).run(1000, true, is_over, is_late));
+    CHECK(was_asked);
+    CHECK(is_sound(fleet, plan));
+}
+
 TEST_CASE("what the caller throws while robots are planned in turn comes back") {
-    const Crossing crossing(6);
+    const Crossing crossing(12);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     FleetPlan plan(fleet);
     const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
-    CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1, true, interrupt, interrupt),
+    CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1000, true, interrupt, interrupt),
                     std::runtime_error);
 }
 

@@ -126,6 +126,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     paced = _paced(task.scenario)
+    # Haste is not needed here, and beside it this would take longer on a busy machine.
     search = FleetSearch(paced, headway=paced.timing.headway, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
