@@ -9,7 +9,7 @@
 
 #include "bindings.hpp"
 #include "deadline.hpp"
-#include "rightofway/improver.hpp"
+#include "rightofway/improvement.hpp"
 #include "rightofway/in_turn.hpp"
 #include "rightofway/reject.hpp"
 
@@ -200,13 +200,13 @@ class FleetSearch {
     std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const Deadline& deadline,
                          const Deadline& pause) {
         alone(deadline);
-        if (!improver_) {
-            improver_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
+        if (!improvement_) {
+            improvement_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
         }
-        const std::int64_t before = improver_->n_tasks();
-        improver_->run(n_tasks, patience, deadline,
-                       [&] { return plan_.flowtime() == bound_ || pause(); });
-        return improver_->n_tasks() - before;
+        const std::int64_t before = improvement_->n_tasks();
+        improvement_->run(n_tasks, patience, deadline,
+                          [&] { return plan_.flowtime() == bound_ || pause(); });
+        return improvement_->n_tasks() - before;
     }
 
     Tracks tracks() const {
@@ -226,15 +226,15 @@ class FleetSearch {
 
     RobotId n_robots() const { return fleet_.n_robots(); }
     Tick flowtime() const { return plan_.flowtime(); }
-    std::int64_t n_idle() const { return improver_ ? improver_->n_idle() : 0; }
-    std::int64_t n_expanded() const { return improver_ ? improver_->n_expanded() : 0; }
+    std::int64_t n_idle() const { return improvement_ ? improvement_->n_idle() : 0; }
+    std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
   private:
     static constexpr std::size_t bytes_for_distances = std::size_t{256} << 20;
 
     void clear() {
         in_turn_.reset();
-        improver_.reset();
+        improvement_.reset();
         plan_ = FleetPlan(fleet_);
     }
 
@@ -245,7 +245,7 @@ class FleetSearch {
     std::vector<Tick> alone_;
     Tick bound_ = 0;
     std::optional<InTurn> in_turn_;
-    std::optional<Improver> improver_;
+    std::optional<Improvement> improvement_;
 };
 
 void init(FleetSearch* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& heads,

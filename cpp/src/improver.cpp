@@ -1,8 +1,6 @@
 #include "rightofway/improver.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 namespace rightofway {
 namespace {
@@ -12,7 +10,6 @@ namespace {
 constexpr std::size_t robots_per_task = 4;
 constexpr std::size_t least_in_round = 4;
 constexpr std::size_t most_in_round = 32;
-constexpr auto between_questions = std::chrono::milliseconds(10);
 
 }  // namespace
 
@@ -37,7 +34,8 @@ Improver::Improver(const Fleet& fleet, FleetPlan& plan, std::span<const Tick> al
       alone_(alone),
       seed_(seed),
       is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0),
-      neighbourhood_(n_neighbourhood_kinds * sizes.size()) {
+      neighbourhood_(n_neighbourhood_kinds * sizes.size()),
+      crew_(n_threads) {
     workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
     replicas_.reserve(n_threads);
     while (workers_.size() < n_threads) {
@@ -59,60 +57,29 @@ std::int64_t Improver::n_expanded() const {
 
 void Improver::run(std::int64_t n_tasks, std::int64_t patience,
                    const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
-    is_stopped_ = false;
-    thrown_ = nullptr;
-    while (n_tasks > 0 && n_idle_ < patience && !is_stopped_) {
+    while (n_tasks > 0 && n_idle_ < patience) {
         const auto n = std::min<std::int64_t>(n_tasks, static_cast<std::int64_t>(tasks_.size()));
         round(static_cast<std::size_t>(n), is_over);
         settle(static_cast<std::size_t>(n));
         n_tasks -= n;
-        if (is_due()) {
+        if (crew_.is_stopped() || is_due()) {
             break;
         }
     }
-    if (thrown_) {
-        std::rethrow_exception(thrown_);
-    }
+    crew_.pass_on();
 }
 
-// All threads take tasks until none is left; this one watches the time as well.
 void Improver::round(std::size_t n, const std::function<bool()>& is_over) {
-    next_task_ = 0;
-    n_in_round_ = n;
     for (Task& task : tasks_) {
         task.gain = -1;
         task.effort = 0;
     }
-    std::vector<std::thread> others;
-    for (std::size_t k = 1; k < workers_.size(); ++k) {
-        others.emplace_back(
-            [this, k] { work(*workers_[k], [this] { return is_stopped_.load(); }); });
-    }
-    work(*workers_.front(), [&] {
-        if (!is_stopped_ && std::chrono::steady_clock::now() - asked_ > between_questions) {
-            asked_ = std::chrono::steady_clock::now();
-            try {
-                if (is_over()) {
-                    is_stopped_ = true;
-                }
-            } catch (...) {
-                thrown_ = std::current_exception();
-                is_stopped_ = true;
-            }
-        }
-        return is_stopped_.load();
-    });
-    for (auto& thread : others) {
-        thread.join();
-    }
+    const auto work = [this](std::size_t worker, std::size_t task, const TaskCrew::IsOver& stop) {
+        Random random(seed_, n_rounds_, task);
+        attempt(*workers_[worker], tasks_[task], random, stop);
+    };
+    crew_.run(n, work, is_over);
     ++n_rounds_;
-}
-
-void Improver::work(Worker& worker, const SafeIntervalSearch::IsOver& is_over) {
-    for (std::size_t k = next_task_++; k < n_in_round_ && !is_over(); k = next_task_++) {
-        Random random(seed_, n_rounds_, k);
-        attempt(worker, tasks_[k], random, is_over);
-    }
 }
 
 void Improver::attempt(Worker& worker, Task& task, Random& random,

@@ -8,8 +8,10 @@
 
 #include "corridors.hpp"
 #include "rightofway/fleet_plan.hpp"
+#include "rightofway/improvement.hpp"
 #include "rightofway/improver.hpp"
 #include "rightofway/in_turn.hpp"
+#include "rightofway/population.hpp"
 #include "rightofway/prioritized.hpp"
 
 namespace rightofway {
@@ -229,6 +231,68 @@ TEST_CASE("what the caller throws comes back when the plan is whole") {
     // Each round is shorter than questions are apart.
     CHECK_THROWS_AS(improver.run(20'000, 1 << 30, interrupt, test::never), std::runtime_error);
     CHECK(is_sound(fleet, plan));
+}
+
+TEST_CASE("a plan that is stuck gets better among others, whatever the number of threads") {
+    const Crossing crossing(8);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    const auto bounds = alone(fleet);
+    FleetPlan stuck(fleet);
+    REQUIRE(plan_all(fleet, stuck, 1000) == SearchEnd::found);
+    Improver alone_for_long(fleet, stuck, bounds, 5, 1);
+    alone_for_long.run(20'000, 1000, test::never, test::never);
+    REQUIRE(alone_for_long.n_idle() >= 1000);
+    std::vector<FleetPlan> plans(3, stuck);
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+        Population population(fleet, plans[k], bounds, 5, k + 1, 0);
+        population.run(6'000, 1 << 30, test::never, test::never);
+        CHECK(population.n_tasks() == 6'000);
+        CHECK(is_sound(fleet, plans[k]));
+        CHECK(plans[k].flowtime() < stuck.flowtime());
+        for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+            CHECK(plans[k].track(robot).completion == plans[0].track(robot).completion);
+        }
+    }
+}
+
+TEST_CASE("one plan comes before a population, and both end when patience does") {
+    const Crossing crossing(8);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    const auto bounds = alone(fleet);
+    FleetPlan first(fleet);
+    REQUIRE(plan_all(fleet, first, 1000) == SearchEnd::found);
+    FleetPlan in_one_go = first;
+    Improvement whole(fleet, in_one_go, bounds, 5, 1);
+    whole.run(1 << 30, 3000, test::never, test::never);
+    CHECK(whole.n_idle() >= 3000);
+    CHECK(whole.n_tasks() < 1 << 30);
+    CHECK(is_sound(fleet, in_one_go));
+
+    FleetPlan with_pauses = first;
+    Improvement parts(fleet, with_pauses, bounds, 5, 2);
+    while (parts.n_idle() < 3000) {
+        parts.run(1 << 30, 3000, test::never, [] { return true; });
+    }
+    CHECK(parts.n_tasks() == whole.n_tasks());
+    CHECK(with_pauses.flowtime() == in_one_go.flowtime());
+}
+
+TEST_CASE("an interrupted population leaves the best plan, and says who interrupted") {
+    const Crossing crossing(8);
+    const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
+    const auto bounds = alone(fleet);
+    FleetPlan plan(fleet);
+    REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
+    const Tick before = plan.flowtime();
+    Population population(fleet, plan, bounds, 5, 2, 0);
+    int n_questions = 0;
+    const auto interrupt = [&n_questions]() -> bool {
+        return ++n_questions > 5 ? throw std::runtime_error("enough") : false;
+    };
+    CHECK_THROWS_AS(population.run(1 << 30, 1 << 30, interrupt, test::never), std::runtime_error);
+    CHECK(is_sound(fleet, plan));
+    CHECK(plan.flowtime() <= before);
+    CHECK(population.n_tasks() < 1 << 30);
 }
 
 TEST_CASE("tables are shared, narrow where edges are alike, and forgotten when memory is short") {

@@ -1,4 +1,4 @@
-// Anytime improvement of a plan by large neighbourhood search, on several threads.
+// Anytime improvement of one plan by large neighbourhood search, on several threads.
 //
 // Again and again a few robots give up their tracks and get new ones, one after another in random
 // order, half of the time with the one first for whose sake they were chosen; the better plan
@@ -12,11 +12,8 @@
 #pragma once
 
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,6 +23,7 @@
 #include "rightofway/fleet_plan.hpp"
 #include "rightofway/neighbourhoods.hpp"
 #include "rightofway/safe_interval_search.hpp"
+#include "rightofway/task_crew.hpp"
 
 namespace rightofway {
 
@@ -59,7 +57,6 @@ class Improver {
     struct Worker;
 
     void round(std::size_t n, const std::function<bool()>& is_over);
-    void work(Worker& worker, const SafeIntervalSearch::IsOver& is_over);
     void attempt(Worker& worker, Task& task, Random& random,
                  const SafeIntervalSearch::IsOver& is_over);
     bool replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over);
@@ -76,11 +73,7 @@ class Improver {
     std::vector<Task> tasks_;
     std::vector<std::uint8_t> is_touched_;
     AdaptiveChoice neighbourhood_;
-    std::atomic<std::size_t> next_task_ = 0;
-    std::size_t n_in_round_ = 0;
-    std::atomic<bool> is_stopped_ = false;
-    std::exception_ptr thrown_;
-    std::chrono::steady_clock::time_point asked_;  // rounds may be shorter than questions are apart
+    TaskCrew crew_;
     std::uint64_t n_rounds_ = 0;
     std::int64_t n_tasks_ = 0;
     std::int64_t n_idle_ = 0;

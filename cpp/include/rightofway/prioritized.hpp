@@ -37,7 +37,7 @@ constexpr TrackPrices hasty{100, 50, 100'000};
 
 class Prioritized {
   public:
-    // Borrows both. The plan is without tracks.
+    // Borrows both. The robots that are to get tracks have none yet.
     Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices& prices = patient);
 
     // Robots are to get tracks in that order.
@@ -48,6 +48,7 @@ class Prioritized {
     SearchEnd run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
 
     std::int64_t n_evictions() const { return n_evictions_; }
+    std::int64_t n_expanded() const { return search_.n_expanded(); }
 
   private:
     bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);

@@ -1,0 +1,45 @@
+// Tasks that do not need each other's results, on several threads.
+//
+// Each thread takes the next task until none is left. The calling thread works as well, and it
+// alone asks whether to stop: that may need the interpreter, and may throw.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <functional>
+
+namespace rightofway {
+
+class TaskCrew {
+  public:
+    using IsOver = std::function<bool()>;
+    // Does a task, or part of it if told to stop.
+    using Work = std::function<void(std::size_t worker, std::size_t task, const IsOver& is_over)>;
+
+    explicit TaskCrew(std::size_t n_workers) : n_workers_(n_workers) {}
+
+    std::size_t n_workers() const { return n_workers_; }
+
+    // Does tasks 0 .. n_tasks - 1, or the first of them if `is_over` says so. What that throws
+    // means the same and is kept, so that the caller can tidy up before it calls `pass_on`.
+    void run(std::size_t n_tasks, const Work& work, const IsOver& is_over);
+
+    // Whether the last run was told to stop.
+    bool is_stopped() const { return is_stopped_; }
+
+    // Throws what `is_over` threw in the last run, if anything, once.
+    void pass_on();
+
+  private:
+    bool ask(const IsOver& is_over);
+
+    std::size_t n_workers_;
+    std::atomic<std::size_t> next_task_ = 0;
+    std::atomic<bool> is_stopped_ = false;
+    std::exception_ptr thrown_;
+    std::chrono::steady_clock::time_point asked_;  // runs may be shorter than questions are apart
+};
+
+}  // namespace rightofway
