@@ -12,7 +12,10 @@ namespace rightofway {
 namespace {
 
 constexpr std::size_t n_members = 4;
-constexpr std::int64_t tasks_per_robot = 30;  // for each child
+// How many tasks per robot a plan gets before it is compared: a first member, and a child, which is
+// already mostly as good as its parents.
+constexpr std::int64_t tasks_of_founder = 120;
+constexpr std::int64_t tasks_of_child = 30;
 
 // How many robots change sides, in percent of those whose tracks differ; and how many are planned
 // anew where there is nobody to take tracks from.
@@ -91,9 +94,10 @@ Population::Population(const Fleet& fleet, FleetPlan& plan, std::span<const Tick
 
 void Population::run(std::int64_t n_tasks, std::int64_t patience,
                      const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
-    const std::int64_t each = tasks_per_robot * fleet_.n_robots();
     while (n_tasks > 0 && n_idle_ < patience) {
         const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
+        const std::int64_t each =
+            (has_all_members() ? tasks_of_child : tasks_of_founder) * fleet_.n_robots();
         std::size_t n_children = 0;
         for (; n_children < most && n_tasks > 0; ++n_children) {
             children_[n_children].most_tasks = std::min(each, n_tasks);
