@@ -110,7 +110,8 @@ bool
 
 constexpr auto improve_doc = R"(Replace tracks by better ones, a few robots at a time.
 
-Every robot has a track. Ends when nothing can be better.
+Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
+other. Ends when nothing can be better.
 
 Parameters
 ----------

@@ -12,10 +12,7 @@ namespace rightofway {
 namespace {
 
 constexpr std::size_t n_members = 4;
-// How many tasks per robot a plan gets before it is compared: a first member, and a child, which is
-// already mostly as good as its parents.
-constexpr std::int64_t tasks_of_founder = 120;
-constexpr std::int64_t tasks_of_child = 30;
+constexpr std::int64_t tasks_per_robot = 30;  // for each new plan
 
 // How many robots change sides, in percent of those whose tracks differ; and how many are planned
 // anew where there is nobody to take tracks from.
@@ -95,27 +92,34 @@ Population::Population(const Fleet& fleet, FleetPlan& plan, std::span<const Tick
 void Population::run(std::int64_t n_tasks, std::int64_t patience,
                      const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
     while (n_tasks > 0 && n_idle_ < patience) {
-        const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
-        const std::int64_t each =
-            (has_all_members() ? tasks_of_child : tasks_of_founder) * fleet_.n_robots();
-        std::size_t n_children = 0;
-        for (; n_children < most && n_tasks > 0; ++n_children) {
-            children_[n_children].most_tasks = std::min(each, n_tasks);
-            children_[n_children].n_tasks = 0;
-            children_[n_children].n_expanded = 0;
-            children_[n_children].is_whole = false;
-            n_tasks -= children_[n_children].most_tasks;
-        }
+        const std::int64_t before = n_tasks_;
+        const std::size_t n = begin_generation(std::min(n_tasks, patience - n_idle_));
         const auto work = [this](std::size_t, std::size_t k, const TaskCrew::IsOver& stop) {
             bring_up(k, stop);
         };
-        crew_.run(n_children, work, is_over);
-        take_up(n_children);
+        crew_.run(n, work, is_over);
+        take_up(n);
+        n_tasks -= n_tasks_ - before;
         if (crew_.is_stopped() || is_due()) {
             break;
         }
     }
     crew_.pass_on();
+}
+
+// Shares out tasks to the next children; returns how many of those there are.
+std::size_t Population::begin_generation(std::int64_t n_tasks) {
+    const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
+    const std::int64_t each = tasks_per_robot * fleet_.n_robots();
+    std::size_t n = 0;
+    for (; n < most && n_tasks > 0; ++n) {
+        children_[n].most_tasks = std::min(each, n_tasks);
+        children_[n].n_tasks = 0;
+        children_[n].n_expanded = 0;
+        children_[n].is_whole = false;
+        n_tasks -= children_[n].most_tasks;
+    }
+    return n;
 }
 
 bool Population::has_all_members() const { return members_.size() == n_members; }

@@ -245,8 +245,8 @@ TEST_CASE("a plan that is stuck gets better among others, whatever the number of
     std::vector<FleetPlan> plans(3, stuck);
     for (std::size_t k = 0; k < plans.size(); ++k) {
         Population population(fleet, plans[k], bounds, 5, k + 1, 0);
-        population.run(12'000, 1 << 30, test::never, test::never);
-        CHECK(population.n_tasks() == 12'000);
+        population.run(6'000, 1 << 30, test::never, test::never);
+        CHECK(population.n_tasks() == 6'000);
         CHECK(is_sound(fleet, plans[k]));
         CHECK(plans[k].flowtime() < stuck.flowtime());
         for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
@@ -263,15 +263,15 @@ TEST_CASE("one plan comes before a population, and both end when patience does")
     REQUIRE(plan_all(fleet, first, 1000) == SearchEnd::found);
     FleetPlan in_one_go = first;
     Improvement whole(fleet, in_one_go, bounds, 5, 1);
-    whole.run(1 << 30, 9000, test::never, test::never);
-    CHECK(whole.n_idle() >= 9000);
+    whole.run(1 << 30, 3000, test::never, test::never);
+    CHECK(whole.n_idle() >= 3000);
     CHECK(whole.n_tasks() < 1 << 30);
     CHECK(is_sound(fleet, in_one_go));
 
     FleetPlan with_pauses = first;
     Improvement parts(fleet, with_pauses, bounds, 5, 2);
-    while (parts.n_idle() < 9000) {
-        parts.run(1 << 30, 9000, test::never, [] { return true; });
+    while (parts.n_idle() < 3000) {
+        parts.run(1 << 30, 3000, test::never, [] { return true; });
     }
     CHECK(parts.n_tasks() == whole.n_tasks());
     CHECK(with_pauses.flowtime() == in_one_go.flowtime());

@@ -583,7 +583,8 @@ class FleetSearch:
         """
         Replace tracks by better ones, a few robots at a time.
 
-        Every robot has a track. Ends when nothing can be better.
+        Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
+        other. Ends when nothing can be better.
 
         Parameters
         ----------

@@ -55,6 +55,7 @@ class Population {
     };
 
     bool has_all_members() const;
+    std::size_t begin_generation(std::int64_t n_tasks);
     void bring_up(std::size_t k, const TaskCrew::IsOver& is_over);
     bool vary(Child& child, std::size_t parent, Random& random, const TaskCrew::IsOver& is_over);
     std::vector<RobotId> take_over(FleetPlan& plan, const FleetPlan& mate, RobotId first,

@@ -1,5 +1,7 @@
 """Anytime improvement: a few robots at a time give up their tracks and are planned anew.
 
+Where that is stuck, a few plans of the fleet are crossed with each other.
+
 References
 ----------
 Li, Chen, Harabor, Stuckey & Koenig, *Anytime multi-agent path finding via large neighborhood
@@ -7,6 +9,8 @@ search*, IJCAI 2021.
 
 Li, Chen, Harabor, Stuckey & Koenig, *MAPF-LNS2: Fast repairing for multi-agent path finding via
 large neighborhood search*, AAAI 2022.
+
+Moscato & Norman, *A memetic approach for the traveling salesman problem*, 1992.
 """
 
 from __future__ import annotations

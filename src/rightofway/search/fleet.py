@@ -131,6 +131,8 @@ class FleetSearch:
     ) -> int:
         """Replace tracks by better ones, a few robots at a time; return how many times.
 
+        Where that is stuck, the plan becomes one of several, which are crossed with each other.
+
         Parameters
         ----------
         tasks
