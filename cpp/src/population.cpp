@@ -71,9 +71,20 @@ std::vector<RobotId> grow(const Fleet& fleet, const FleetPlan& plan, const Fleet
     return group;
 }
 
-void take_away(FleetPlan& plan, RobotId robot) {
-    TimedTrack none;
-    plan.exchange(robot, none);
+// That many percent of all robots, drawn evenly, at least one.
+std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random) {
+    std::vector<RobotId> robots(static_cast<std::size_t>(n_robots));
+    std::iota(robots.begin(), robots.end(), 0);
+    random.shuffle(robots);
+    robots.resize(std::max<std::size_t>(1, robots.size() * percent / 100));
+    return robots;
+}
+
+void take_away_all(FleetPlan& plan, std::span<const RobotId> robots) {
+    for (const RobotId robot : robots) {
+        TimedTrack none;
+        plan.exchange(robot, none);
+    }
 }
 
 }  // namespace
@@ -146,17 +157,10 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
     const std::vector<RobotId> differing = all_that_differ(fleet_, child.plan, mate);
     std::vector<RobotId> out;
     if (differing.empty()) {
-        out.resize(static_cast<std::size_t>(fleet_.n_robots()));
-        std::iota(out.begin(), out.end(), 0);
-        random.shuffle(out);
-        out.resize(std::max<std::size_t>(1, out.size() * most_share / 100));
-        for (const RobotId robot : out) {
-            take_away(child.plan, robot);
-        }
+        out = some(fleet_.n_robots(), most_share, random);
+        take_away_all(child.plan, out);
     } else {
-        const std::size_t share = least_share + random.below(most_share - least_share + 1);
-        out = take_over(child.plan, mate, differing[random.below(differing.size())],
-                        std::max<std::size_t>(1, differing.size() * share / 100), random);
+        out = take_over(child.plan, mate, differing, random);
     }
     random.shuffle(out);
     Prioritized planner(fleet_, child.plan);
@@ -168,28 +172,28 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
 }
 
 // Some robots take over the mate's tracks. Returns those that were in the way, and have none now.
-std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mate, RobotId first,
-                                           std::size_t n_robots, Random& random) const {
-    const std::vector<RobotId> group = grow(fleet_, plan, mate, first, n_robots, random);
-    for (const RobotId robot : group) {
-        take_away(plan, robot);
-    }
+std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mate,
+                                           std::span<const RobotId> differing,
+                                           Random& random) const {
+    const std::size_t share = least_share + random.below(most_share - least_share + 1);
+    const RobotId first = differing[random.below(differing.size())];
+    const std::size_t size = std::max<std::size_t>(1, differing.size() * share / 100);
+    const std::vector<RobotId> group = grow(fleet_, plan, mate, first, size, random);
+    take_away_all(plan, group);
     std::vector<RobotId> out;
     std::vector<RobotId> met;
     for (const RobotId robot : group) {
         TimedTrack track = mate.track(robot);
         plan.in_the_way(robot, track, met);
-        for (const RobotId other : met) {
-            take_away(plan, other);
-            out.push_back(other);
-        }
+        take_away_all(plan, met);
+        out.insert(out.end(), met.begin(), met.end());
         plan.exchange(robot, track);
     }
     return out;
 }
 
-// Takes up the children in their order: each instead of its parent if it is no worse, or else
-// instead of the worst member if it is better.
+// Takes up the children in their order: each instead of its parent if it is no worse than that, or
+// else instead of the worst member if it is no worse than that one.
 void Population::take_up(std::size_t n_children) {
     const bool are_parents = has_all_members();
     const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {

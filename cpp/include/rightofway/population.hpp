@@ -58,8 +58,8 @@ class Population {
     std::size_t begin_generation(std::int64_t n_tasks);
     void bring_up(std::size_t k, const TaskCrew::IsOver& is_over);
     bool vary(Child& child, std::size_t parent, Random& random, const TaskCrew::IsOver& is_over);
-    std::vector<RobotId> take_over(FleetPlan& plan, const FleetPlan& mate, RobotId first,
-                                   std::size_t n_robots, Random& random) const;
+    std::vector<RobotId> take_over(FleetPlan& plan, const FleetPlan& mate,
+                                   std::span<const RobotId> differing, Random& random) const;
     void take_up(std::size_t n_children);
 
     const Fleet& fleet_;
