@@ -1,7 +1,9 @@
 """How good ``auto`` is on the MovingAI benchmark after ten seconds: flowtime by the lower bound.
 
 ``python -m benchmarks.fleet_scale FOLDER`` wants a folder of the benchmark, with ``maps`` and
-``scens`` in it. One plan at a time; the planner itself uses all cores.
+``scens`` in it. One plan at a time; the planner itself uses all cores. With a number behind the
+folder, other robots of the same files: ``1`` leaves out as many at the beginning as a fleet has,
+``2`` twice as many. Rows for which a file has too few robots are left out.
 """
 
 from __future__ import annotations
@@ -67,11 +69,20 @@ class Row:
     map: str
     robots: int
 
-    def ratios(self, folder: Path) -> Iterator[float | None]:
-        """Yield flowtime / lower bound for each seed, None where there was no plan."""
+    def fleets(self, folder: Path, block: int) -> list[Scenario]:
+        """Return the fleet of each seed, all as large as they should be, or none."""
+        fleets = []
         for seed in SEEDS:
             whole = rightofway.load(folder / "scens" / f"{self.map}-random-{seed}.scen")
-            fleet = self.kind(replace(whole, robots=whole.robots[: self.robots]), seed)
+            robots = whole.robots[block * self.robots : (block + 1) * self.robots]
+            if len(robots) < self.robots:
+                return []
+            fleets.append(self.kind(replace(whole, robots=robots), seed))
+        return fleets
+
+    def ratios(self, folder: Path, block: int = 0) -> Iterator[float | None]:
+        """Yield flowtime / lower bound for each seed, None where there was no plan."""
+        for fleet in self.fleets(folder, block):
             try:
                 metrics = measure(rightofway.solve(fleet, time_limit=LIMIT))
             except GaveUp:
@@ -96,8 +107,11 @@ ROWS = [
 def main() -> None:
     """Print the table."""
     print("| fleet | map | robots | median | each |\n| --- | --- | --- | --- | --- |")  # noqa: T201
+    folder, block = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0  # noqa: PLR2004
     for row in ROWS:
-        found = list(row.ratios(Path(sys.argv[1])))
+        found = list(row.ratios(folder, block))
+        if not found:
+            continue
         solved = [ratio for ratio in found if ratio is not None]
         middle = f"{median(solved):.3f}" if len(solved) == len(found) else "none"
         each = ", ".join("none" if ratio is None else f"{ratio:.3f}" for ratio in found)
