@@ -107,7 +107,7 @@ ROWS = [
 def main() -> None:
     """Print the table."""
     print("| fleet | map | robots | median | each |\n| --- | --- | --- | --- | --- |")  # noqa: T201
-    folder, block = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0  # noqa: PLR2004
+    folder, block = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0
     for row in ROWS:
         found = list(row.ratios(folder, block))
         if not found:
