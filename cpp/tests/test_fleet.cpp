@@ -83,6 +83,12 @@ SearchEnd plan_all(const Fleet& fleet, FleetPlan& plan, std::int64_t n_searches)
     return planner.run(n_searches, test::never);
 }
 
+FleetPlan planned(const Fleet& fleet) {
+    FleetPlan plan(fleet);
+    REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
+    return plan;
+}
+
 bool is_sound(const Fleet& fleet, const FleetPlan& plan) {
     bool sound = true;
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
@@ -201,8 +207,7 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
     const Crossing crossing(8);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
-    FleetPlan first(fleet);
-    REQUIRE(plan_all(fleet, first, 1000) == SearchEnd::found);
+    const FleetPlan first = planned(fleet);
     std::vector<FleetPlan> plans(3, first);
     for (std::size_t k = 0; k < plans.size(); ++k) {
         Improver improver(fleet, plans[k], bounds, 5, k + 1);
@@ -221,8 +226,7 @@ TEST_CASE("what the caller throws comes back when the plan is whole") {
     const Crossing crossing(8);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
-    FleetPlan plan(fleet);
-    REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
+    FleetPlan plan = planned(fleet);
     Improver improver(fleet, plan, bounds, 5, 2);
     int n_questions = 0;
     const auto interrupt = [&n_questions]() -> bool {
@@ -237,8 +241,7 @@ TEST_CASE("a plan that is stuck gets better among others, whatever the number of
     const Crossing crossing(8);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
-    FleetPlan stuck(fleet);
-    REQUIRE(plan_all(fleet, stuck, 1000) == SearchEnd::found);
+    FleetPlan stuck = planned(fleet);
     Improver alone_for_long(fleet, stuck, bounds, 5, 1);
     alone_for_long.run(20'000, 1000, test::never, test::never);
     REQUIRE(alone_for_long.n_idle() >= 1000);
@@ -259,8 +262,7 @@ TEST_CASE("one plan comes before a population, and both end when patience does")
     const Crossing crossing(8);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
-    FleetPlan first(fleet);
-    REQUIRE(plan_all(fleet, first, 1000) == SearchEnd::found);
+    const FleetPlan first = planned(fleet);
     FleetPlan in_one_go = first;
     Improvement whole(fleet, in_one_go, bounds, 5, 1);
     whole.run(1 << 30, 3000, test::never, test::never);
@@ -281,8 +283,7 @@ TEST_CASE("an interrupted population leaves the best plan, and says who interrup
     const Crossing crossing(8);
     const Fleet fleet(crossing.arrays(), 1, {0, true}, plenty);
     const auto bounds = alone(fleet);
-    FleetPlan plan(fleet);
-    REQUIRE(plan_all(fleet, plan, 1000) == SearchEnd::found);
+    FleetPlan plan = planned(fleet);
     const Tick before = plan.flowtime();
     Population population(fleet, plan, bounds, 5, 2, 0);
     int n_questions = 0;
