@@ -1,6 +1,5 @@
 #include "rightofway/in_turn.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -10,12 +9,24 @@ namespace {
 
 constexpr auto between_questions = std::chrono::milliseconds(5);
 
-// Goes on with a planner in another thread, as long as this lives.
-class Beside {
+}  // namespace
+
+void InTurn::Side::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
+    is_there = planner.run(n_searches, is_over) == SearchEnd::found;
+}
+
+// Whether the other one was there before and does not look worse.
+bool InTurn::Side::is_beaten_by(const Side& other) const {
+    return other.is_there && other.planner.n_expanded() <= planner.n_expanded() &&
+           other.plan.flowtime() <= planner.highest_outlook();
+}
+
+// Goes on with a plan in another thread, as long as this lives and it may be better than the rival.
+class InTurn::Beside {
   public:
-    Beside(Prioritized& planner, std::int64_t n_searches)
-        : thread_([this, &planner, n_searches] {
-              end_ = planner.run(n_searches, [this] { return is_stopped_.load(); });
+    Beside(Side& side, const Side& rival, std::int64_t n_searches)
+        : thread_([this, &side, &rival, n_searches] {
+              side.run(n_searches, [&] { return is_stopped_ || side.is_beaten_by(rival); });
               has_ended_ = true;
           }) {}
     Beside(const Beside&) = delete;
@@ -25,53 +36,54 @@ class Beside {
         thread_.join();
     }
 
-    bool has_found() const { return has_ended_ && end_ == SearchEnd::found; }
-
-    SearchEnd wait(const SafeIntervalSearch::IsOver& is_over) const {
+    void wait(const SafeIntervalSearch::IsOver& is_over) const {
         while (!has_ended_ && !is_over()) {
             std::this_thread::sleep_for(between_questions);
         }
-        return has_ended_ ? end_ : SearchEnd::stopped;
     }
 
   private:
-    SearchEnd end_ = SearchEnd::stopped;
     std::atomic<bool> has_ended_ = false;
     std::atomic<bool> is_stopped_ = false;
     std::thread thread_;  // last, as it uses the others
 };
 
-}  // namespace
-
 InTurn::InTurn(const Fleet& fleet, FleetPlan& plan, std::span<const RobotId> order)
     : plan_(plan),
       plan_in_haste_(fleet),
-      patient_(fleet, plan, patient),
-      hasty_(fleet, plan_in_haste_, hasty) {
-    patient_.start(order);
-    hasty_.start(order);
+      patient_{plan_, Prioritized(fleet, plan_, patient)},
+      hasty_{plan_in_haste_, Prioritized(fleet, plan_in_haste_, hasty)} {
+    patient_.planner.start(order);
+    hasty_.planner.start(order);
 }
 
 bool InTurn::run(std::int64_t n_searches, bool has_second_thread,
                  const SafeIntervalSearch::IsOver& is_over,
                  const SafeIntervalSearch::IsOver& is_late) {
-    std::optional<Beside> beside;
-    if (has_second_thread) {
-        beside.emplace(hasty_, n_searches);
+    {
+        std::optional<Beside> beside;
+        if (has_second_thread) {
+            beside.emplace(hasty_, patient_, n_searches);
+        } else {
+            hasty_.run(n_searches, is_over);
+        }
+        patient_.run(n_searches, [&] {
+            return hasty_.is_there ? is_late() || patient_.is_beaten_by(hasty_) : is_over();
+        });
+        if (beside) {
+            beside->wait(is_over);
+        }
     }
-    const auto is_enough = [&] { return beside && beside->has_found() ? is_late() : is_over(); };
-    if (patient_.run(n_searches, is_enough) == SearchEnd::found) {
-        return true;
+    if (hasty_.is_there && (!patient_.is_there || is_hasty_better())) {
+        plan_ = plan_in_haste_;
     }
-    return take(beside ? beside->wait(is_over) : hasty_.run(n_searches, is_over));
+    return patient_.is_there || hasty_.is_there;
 }
 
-bool InTurn::take(SearchEnd second) {
-    if (second != SearchEnd::found) {
-        return false;
-    }
-    plan_ = plan_in_haste_;
-    return true;
+// Not simply whose flowtime is less, as either might have been given up because it did not look so.
+bool InTurn::is_hasty_better() const {
+    return patient_.is_beaten_by(hasty_) ||
+           (!hasty_.is_beaten_by(patient_) && plan_in_haste_.flowtime() < plan_.flowtime());
 }
 
 }  // namespace rightofway

@@ -9,7 +9,8 @@ namespace {
 // time it has lost its track.
 constexpr Tick hold_edges = 16;
 
-constexpr Tick highest_price = Tick{1} << 32;
+constexpr double raise = 1.25;
+constexpr double highest_level = 1000;
 
 // See Errand.
 constexpr Tick greed = 1;
@@ -23,11 +24,11 @@ Prioritized::Prioritized(const Fleet& fleet, FleetPlan& plan, const TrackPrices&
       search_(fleet.roads(), fleet.rules()),
       reader_(fleet),
       prices_(static_cast<std::size_t>(fleet.n_robots())),
-      holds_(prices_.size()),
+      n_lost_(prices_.size(), 0),
+      expected_(prices_.size()),
       next_raise_(prices.states_between_raises) {
     for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
         prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
-        holds_[static_cast<std::size_t>(robot)] = first_hold(robot);
     }
 }
 
@@ -36,11 +37,20 @@ Tick Prioritized::first_hold(RobotId robot) const {
     return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
 }
 
+void Prioritized::keep_home(RobotId robot) {
+    const Tick holds = 1 + n_lost_[static_cast<std::size_t>(robot)];
+    plan_.hold_home(robot, holds * first_hold(robot));
+}
+
 void Prioritized::start(std::span<const RobotId> order) {
     waiting_.assign(order.begin(), order.end());
     for (const RobotId robot : order) {
-        plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
+        keep_home(robot);
+        Tick& expected = expected_[static_cast<std::size_t>(robot)];
+        expected = fleet_.alone(robot);
+        outlook_ += expected;
     }
+    highest_outlook_ = outlook_;
 }
 
 SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
@@ -49,6 +59,7 @@ SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::Is
             return SearchEnd::stopped;
         }
         ++n_searches_;
+        highest_outlook_ = std::max(highest_outlook_, outlook_);
         raise_prices();
     }
     return SearchEnd::found;
@@ -56,6 +67,23 @@ SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::Is
 
 bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
     plan_.hold_home(robot, 0);
+    if (!find(robot, is_over)) {
+        return false;
+    }
+    if (evict_those_met() && has_lost(robot) && random_.below(2) == 0) {
+        if (!find(robot, is_over)) {
+            return false;
+        }
+        evict_those_met();
+    }
+    Tick& expected = expected_[static_cast<std::size_t>(robot)];
+    outlook_ += track_.completion - expected;
+    expected = track_.completion;
+    plan_.exchange(robot, track_);
+    return true;
+}
+
+bool Prioritized::find(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
     const Errand errand{reader_.read(robot), plan_.bookings(), prices_, infinity, greed};
     if (search_.run(errand, is_over) != SearchEnd::found) {
         return false;
@@ -63,20 +91,26 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
     search_.track(track_.visits);
     track_.completion = search_.completion();
     plan_.in_the_way(robot, track_, met_);
-    for (const RobotId other : met_) {
-        if (plan_.has_track(other)) {
-            evict(other);
-        }
-    }
-    plan_.exchange(robot, track_);
     return true;
 }
 
+bool Prioritized::evict_those_met() {
+    bool is_any = false;
+    for (const RobotId other : met_) {
+        if (plan_.has_track(other)) {
+            evict(other);
+            is_any = true;
+        }
+    }
+    return is_any;
+}
+
 void Prioritized::raise_prices() {
-    for (; search_.n_expanded() >= next_raise_;
+    for (; search_.n_expanded() >= next_raise_ && level_ < highest_level;
          next_raise_ += track_prices_.states_between_raises) {
+        level_ *= raise;
         for (Tick& price : prices_) {
-            price = std::min(price + price / 4, highest_price);
+            price = static_cast<Tick>(raise * static_cast<double>(price));
         }
     }
 }
@@ -84,11 +118,12 @@ void Prioritized::raise_prices() {
 void Prioritized::evict(RobotId robot) {
     TimedTrack none;
     plan_.exchange(robot, none);
-    plan_.hold_home(robot, holds_[static_cast<std::size_t>(robot)]);
-    prices_[static_cast<std::size_t>(robot)] += track_prices_.dearer * first_hold(robot);
-    holds_[static_cast<std::size_t>(robot)] += first_hold(robot);
+    const Tick dearer = track_prices_.dearer * first_hold(robot);
+    prices_[static_cast<std::size_t>(robot)] +=
+        static_cast<Tick>(level_ * static_cast<double>(dearer));
+    keep_home(robot);
+    ++n_lost_[static_cast<std::size_t>(robot)];
     waiting_.push_back(robot);
-    ++n_evictions_;
 }
 
 }  // namespace rightofway

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import random
+from fractions import Fraction
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -9,9 +12,9 @@ from hypothesis import strategies as st
 from rightofway.check import check
 from rightofway.metrics import completions_of
 from rightofway.metrics.alone import alone_completions
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, roadmap_of_grid
 from rightofway.search import FleetSearch
-from tests.fleets import random_fleet
+from tests.fleets import grid_fleet, random_fleet
 
 law = settings(max_examples=25, deadline=None, derandomize=True)
 
@@ -92,3 +95,23 @@ def test_a_fleet_that_cannot_do_better_ends_at_once() -> None:
     search.prioritize([0], searches=1, time_limit=None)
     assert search.flowtime == search.alone().sum()
     assert search.improve(10**9, patience=10**9) <= 32
+
+
+AISLES = [("." + "@@@@@@@@@@." * 4) if row % 2 else "." * 45 for row in range(17)]
+
+
+@pytest.mark.parametrize("seed", [21, 89, 123])
+def test_neighbours_do_not_take_away_each_others_tracks_for_ever(seed: int) -> None:
+    """Who has to pass whose home once went unremembered in these fleets."""
+    draw, roadmap = random.Random(seed), roadmap_of_grid(AISLES)
+    homes, targets = (draw.sample(range(roadmap.n_vertices), 60) for _ in range(2))
+    scenario = grid_fleet(
+        AISLES,
+        [(roadmap.name(h), roadmap.name(t)) for h, t in zip(homes, targets, strict=True)],
+        rules=Rules(occupancy="both"),
+        speeds=[Fraction(1, ticks) for ticks in (1, 2, 3, 5)],
+    )
+    search = search_of(scenario)
+    order = search.alone().argsort(kind="stable").tolist()
+    assert search.prioritize(order, searches=20 * len(order), time_limit=None)
+    assert judged(scenario, search.tracks())

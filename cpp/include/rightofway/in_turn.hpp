@@ -1,11 +1,13 @@
-// Planning robots in turn, patiently; and in haste at the same time, in case that takes too long.
+// Planning robots in turn, patiently and in haste, whichever comes out better.
 //
-// The patient plan is the better one, but where the floor is full its searches go a long way before
-// they take a track away. The plan made in haste is a net: it is used only if the patient one
-// fails, so what comes out does not depend on threads unless time runs out. With it, patience may
-// last longer.
+// Patience takes tracks away rather than drive a long way around. Where the floor is full that
+// gives the better plan, and takes longer; where there is room, haste does. Whoever is there first
+// is the net of the other, who goes on only while its plan still looks better. First is who has
+// expanded fewer states; so what comes out depends neither on clocks nor on threads unless time
+// runs out.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -26,12 +28,22 @@ class InTurn {
              const SafeIntervalSearch::IsOver& is_over, const SafeIntervalSearch::IsOver& is_late);
 
   private:
-    bool take(SearchEnd second);
+    struct Side {
+        void run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
+        bool is_beaten_by(const Side& other) const;
+
+        const FleetPlan& plan;
+        Prioritized planner;
+        std::atomic<bool> is_there = false;  // told by the thread that plans, when it is
+    };
+    class Beside;
+
+    bool is_hasty_better() const;
 
     FleetPlan& plan_;
     FleetPlan plan_in_haste_;
-    Prioritized patient_;
-    Prioritized hasty_;
+    Side patient_;
+    Side hasty_;
 };
 
 }  // namespace rightofway
