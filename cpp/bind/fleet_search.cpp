@@ -12,6 +12,7 @@
 #include "rightofway/improvement.hpp"
 #include "rightofway/in_turn.hpp"
 #include "rightofway/reject.hpp"
+#include "rightofway/retiming.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -129,7 +130,12 @@ Returns
 int
     How many times that was done.)";
 
-using Tracks = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+constexpr auto retime_doc =
+    R"(Have all robots as early as the order of visits at every vertex allows.
+
+Every robot has a track. `improve` begins anew after that.)";
+
+using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
 class FleetSearch {
   public:
@@ -210,19 +216,15 @@ class FleetSearch {
         return improvement_->n_tasks() - before;
     }
 
-    Tracks tracks() const {
-        std::vector<std::int32_t> first{0};
-        std::vector<VertexId> vertices;
-        std::vector<Tick> enter;
-        for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
-            for (const Visit& visit : plan_.track(robot).visits) {
-                vertices.push_back(visit.vertex);
-                enter.push_back(visit.enter);
-            }
-            first.push_back(static_cast<std::int32_t>(vertices.size()));
-        }
-        return {to_numpy(std::move(first)), to_numpy(std::move(vertices)),
-                to_numpy(std::move(enter))};
+    void retime() {
+        improvement_.reset();
+        rightofway::retime(fleet_, plan_);
+    }
+
+    TrackArrays tracks() const {
+        Tracks all = plan_.tracks();
+        return {to_numpy(std::move(all.first_visit)), to_numpy(std::move(all.vertex)),
+                to_numpy(std::move(all.enter))};
     }
 
     RobotId n_robots() const { return fleet_.n_robots(); }
@@ -322,6 +324,7 @@ void bind_fleet_search(nb::module_& module) {
             },
             nb::arg("n_tasks"), nb::arg("patience"), nb::arg("time_limit").none(),
             nb::arg("pause").none(), improve_doc)
+        .def("retime", &FleetSearch::retime, nb::call_guard<nb::gil_scoped_release>(), retime_doc)
         .def("tracks", &FleetSearch::tracks,
              "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
         .def_prop_ro("flowtime", &FleetSearch::flowtime, "The sum of completions. [ticks]")

@@ -91,12 +91,6 @@ std::span<const std::int32_t> Fleet::pace(RobotId robot) const {
     return std::span(paces_).subspan(first, n_classes_);
 }
 
-std::span<const VertexId> Fleet::stages(RobotId robot) const {
-    const auto first = static_cast<std::size_t>(first_stage_[robot]);
-    return std::span(stage_vertex_)
-        .subspan(first, static_cast<std::size_t>(first_stage_[robot + 1]) - first);
-}
-
 std::int32_t Fleet::drive(RobotId robot, VertexId tail, VertexId head) const {
     for (EdgeId edge = indptr_[tail]; edge < indptr_[tail + 1]; ++edge) {
         if (heads_[edge] == head) {
@@ -107,7 +101,6 @@ std::int32_t Fleet::drive(RobotId robot, VertexId tail, VertexId head) const {
 }
 
 Tick Fleet::alone(RobotId robot) const {
-    const auto first = static_cast<std::size_t>(first_stage_[robot]);
     const auto vertices = stages(robot);
     std::size_t first_last = vertices.size() - 1;
     while (first_last > 0 && vertices[first_last - 1] == vertices.back()) {
@@ -120,7 +113,7 @@ Tick Fleet::alone(RobotId robot) const {
         if (way < 0) {
             return -1;
         }
-        sum += way + stage_work_[first + k] + (k < first_last ? stage_turn_[first + k] : 0);
+        sum += way + works(robot)[k] + (k < first_last ? turns(robot)[k] : 0);
         place = vertices[k];
     }
     return sum;
@@ -131,10 +124,9 @@ const Trip& TripReader::read(RobotId robot) {
         return trip_;
     }
     robot_ = robot;
-    const auto first = static_cast<std::size_t>(fleet_.first_stage_[robot]);
     trip_.stage_vertex = fleet_.stages(robot);
-    trip_.stage_work = std::span(fleet_.stage_work_).subspan(first, trip_.n_stages());
-    trip_.stage_turn = std::span(fleet_.stage_turn_).subspan(first, trip_.n_stages());
+    trip_.stage_work = fleet_.works(robot);
+    trip_.stage_turn = fleet_.turns(robot);
     trip_.home = fleet_.home(robot);
     trip_.pace = fleet_.pace(robot);
     tables_.clear();
@@ -150,7 +142,8 @@ const Trip& TripReader::read(RobotId robot) {
 Tick TripReader::completion(RobotId robot, std::span<const Visit> track,
                             std::vector<std::int32_t>* stage_of) {
     const auto stages = fleet_.stages(robot);
-    const auto first = static_cast<std::size_t>(fleet_.first_stage_[robot]);
+    const auto works = fleet_.works(robot);
+    const auto turns = fleet_.turns(robot);
     const std::size_t last = track.size() - 1;
     std::size_t stage = 0;
     Tick work = 0;
@@ -162,10 +155,10 @@ Tick TripReader::completion(RobotId robot, std::span<const Visit> track,
         Tick spare =
             stays ? 0 : track[visit + 1].enter - track[visit].enter - track[visit + 1].drive;
         while (stage < stages.size() && stages[stage] == track[visit].vertex) {
-            const Tick need = fleet_.stage_work_[first + stage] + fleet_.stage_turn_[first + stage];
+            const Tick need = works[stage] + turns[stage];
             const bool is_final = stage + 1 == stages.size();
             if (stays) {
-                work += fleet_.stage_work_[first + stage];
+                work += works[stage];
             } else if (is_final || spare < need) {
                 break;
             }

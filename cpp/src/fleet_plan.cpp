@@ -19,6 +19,18 @@ Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     return {visits[k].enter - approach, end};
 }
 
+Tracks FleetPlan::tracks() const {
+    Tracks tracks{{0}, {}, {}};
+    for (const TimedTrack& track : tracks_) {
+        for (const Visit& visit : track.visits) {
+            tracks.vertex.push_back(visit.vertex);
+            tracks.enter.push_back(visit.enter);
+        }
+        tracks.first_visit.push_back(static_cast<VisitId>(tracks.vertex.size()));
+    }
+    return tracks;
+}
+
 void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
     TimedTrack& own = tracks_[static_cast<std::size_t>(robot)];
     for (std::size_t k = 0; k < own.visits.size(); ++k) {

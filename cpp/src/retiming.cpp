@@ -51,6 +51,40 @@ void set_others(const Trips& trips, const Tracks& tracks, std::span<const VisitI
     }
 }
 
+// What the robots of a fleet have to do, as trips.
+class TripsOf {
+  public:
+    explicit TripsOf(const Fleet& fleet) : roads_(fleet.roads()), rules_(fleet.rules()) {
+        for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+            const auto pace = fleet.pace(robot);
+            const auto stages = fleet.stages(robot);
+            home_.push_back(fleet.home(robot));
+            class_ticks_.insert(class_ticks_.end(), pace.begin(), pace.end());
+            stage_vertex_.insert(stage_vertex_.end(), stages.begin(), stages.end());
+            for (std::size_t k = 0; k < stages.size(); ++k) {
+                stage_dwell_.push_back(fleet.works(robot)[k] + fleet.turns(robot)[k]);
+            }
+            first_stage_.push_back(static_cast<std::int32_t>(stage_vertex_.size()));
+        }
+    }
+
+    Trips view() const {
+        const bool may_rotate = rules_.headway == 0 && !rules_.books_ahead;
+        return {roads_.graph,       roads_.length_class, home_,        first_stage_,
+                stage_vertex_,      stage_dwell_,        class_ticks_, rules_.headway,
+                rules_.books_ahead, may_rotate};
+    }
+
+  private:
+    Roads roads_;
+    BookingRules rules_;
+    std::vector<VertexId> home_;
+    std::vector<std::int32_t> first_stage_{0};
+    std::vector<VertexId> stage_vertex_;
+    std::vector<Tick> stage_dwell_;
+    std::vector<std::int32_t> class_ticks_;
+};
+
 }  // namespace
 
 void retime(const Trips& trips, Tracks& tracks) {
@@ -93,6 +127,22 @@ void retime(const Trips& trips, Tracks& tracks) {
         }
     }
     tracks.enter = std::move(earliest);
+}
+
+void retime(const Fleet& fleet, FleetPlan& plan) {
+    Tracks tracks = plan.tracks();
+    retime(TripsOf(fleet).view(), tracks);
+    TripReader reader(fleet);
+    FleetPlan retimed(fleet);
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        TimedTrack track = plan.track(robot);
+        for (std::size_t k = 0; k < track.visits.size(); ++k) {
+            track.visits[k].enter = tracks.enter[tracks.first_visit[robot] + k];
+        }
+        track.completion = reader.completion(robot, track.visits);
+        retimed.exchange(robot, track);
+    }
+    plan = std::move(retimed);
 }
 
 }  // namespace rightofway

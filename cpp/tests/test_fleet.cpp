@@ -13,6 +13,7 @@
 #include "rightofway/in_turn.hpp"
 #include "rightofway/population.hpp"
 #include "rightofway/prioritized.hpp"
+#include "rightofway/retiming.hpp"
 
 namespace rightofway {
 namespace {
@@ -201,6 +202,30 @@ TEST_CASE("what the caller throws while robots are planned in turn comes back") 
     const auto interrupt = []() -> bool { throw std::runtime_error("enough"); };
     CHECK_THROWS_AS(InTurn(fleet, plan, in_turn(fleet)).run(1000, true, interrupt, interrupt),
                     std::runtime_error);
+}
+
+TEST_CASE("a plan in which all leave home late is retimed to what it would be without that") {
+    for (const bool books_ahead : {false, true}) {
+        const Crossing crossing(6);
+        const Fleet fleet(crossing.arrays(), 1, {1, books_ahead}, plenty);
+        FleetPlan prompt = planned(fleet);
+        FleetPlan late(fleet);
+        for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+            TimedTrack track = prompt.track(robot);
+            for (std::size_t k = 1; k < track.visits.size(); ++k) {
+                track.visits[k].enter += 7;
+            }
+            track.completion += 7;
+            late.exchange(robot, track);
+        }
+        const Tick before = prompt.flowtime();
+        retime(fleet, prompt);
+        retime(fleet, late);
+        CHECK(prompt.flowtime() <= before);
+        CHECK(late.tracks().enter == prompt.tracks().enter);
+        CHECK(late.flowtime() == prompt.flowtime());
+        CHECK(is_sound(fleet, late));
+    }
 }
 
 TEST_CASE("improvement never loses, and does not depend on the number of threads") {

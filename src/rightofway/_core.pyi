@@ -603,6 +603,13 @@ class FleetSearch:
             How many times that was done.
         """
 
+    def retime(self) -> None:
+        """
+        Have all robots as early as the order of visits at every vertex allows.
+
+        Every robot has a track. `improve` begins anew after that.
+        """
+
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
         Return where each robot's visits begin, int32[R + 1], their vertices and enters.

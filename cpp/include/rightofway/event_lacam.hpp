@@ -20,16 +20,10 @@
 #include "rightofway/event_pibt.hpp"
 #include "rightofway/fleet_state.hpp"
 #include "rightofway/search_end.hpp"
+#include "rightofway/tracks.hpp"
 #include "rightofway/trips.hpp"
 
 namespace rightofway {
-
-// The visits of all robots, one robot behind the other.
-struct Tracks {
-    std::vector<VisitId> first_visit;  // robot r owns first_visit[r] .. [r + 1] - 1
-    std::vector<VertexId> vertex;
-    std::vector<Tick> enter;
-};
 
 class EventLacam {
   public:

@@ -42,7 +42,9 @@ class Fleet {
     const BookingRules& rules() const { return rules_; }
     VertexId home(RobotId robot) const { return home_[static_cast<std::size_t>(robot)]; }
     std::span<const std::int32_t> pace(RobotId robot) const;
-    std::span<const VertexId> stages(RobotId robot) const;
+    std::span<const VertexId> stages(RobotId robot) const { return part(stage_vertex_, robot); }
+    std::span<const Tick> works(RobotId robot) const { return part(stage_work_, robot); }
+    std::span<const Tick> turns(RobotId robot) const { return part(stage_turn_, robot); }
     SharedDistances& distances() const { return *distances_; }
 
     // What the robot needs at least, -1 if it cannot get to a stage.
@@ -54,6 +56,14 @@ class Fleet {
   private:
     friend class TripReader;
     void check(const FleetArrays& arrays) const;
+
+    // What belongs to the stages of a robot.
+    template <class T>
+    std::span<const T> part(const std::vector<T>& of_stages, RobotId robot) const {
+        const auto first = static_cast<std::size_t>(first_stage_[robot]);
+        const auto end = static_cast<std::size_t>(first_stage_[robot + 1]);
+        return std::span(of_stages).subspan(first, end - first);
+    }
 
     std::vector<EdgeId> indptr_;
     std::vector<VertexId> heads_;

@@ -7,6 +7,7 @@
 
 #include "rightofway/booking_table.hpp"
 #include "rightofway/fleet.hpp"
+#include "rightofway/tracks.hpp"
 
 namespace rightofway {
 
@@ -25,6 +26,7 @@ class FleetPlan {
     }
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
     Tick flowtime() const { return flowtime_; }
+    Tracks tracks() const;
 
     // Exchanges a robot's track, bookings included, for the given one; either may be empty.
     void exchange(RobotId robot, TimedTrack& track);

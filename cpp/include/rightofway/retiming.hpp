@@ -5,12 +5,16 @@
 // one instant may wait for each other round a circle; they are gone through until nothing changes.
 #pragma once
 
-#include "rightofway/event_lacam.hpp"
+#include "rightofway/fleet_plan.hpp"
+#include "rightofway/tracks.hpp"
 #include "rightofway/trips.hpp"
 
 namespace rightofway {
 
 // The tracks keep the rules; afterwards nobody is later.
 void retime(const Trips& trips, Tracks& tracks);
+
+// The same for a plan in which every robot has a track.
+void retime(const Fleet& fleet, FleetPlan& plan);
 
 }  // namespace rightofway

@@ -98,6 +98,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     search.start(spaced)
     improvement = _Improvement(task, search)
     improvement.run()
+    if search.flowtime < improvement.first:
+        search.retime()  # who waited for robots that come earlier now need not wait so long
     found = search.tracks()
     if spaced is not first.tracks and flowtime_of(task.scenario, found) > flowtime_of(
         task.scenario, first.tracks

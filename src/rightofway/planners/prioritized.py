@@ -121,6 +121,7 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     task.has_plan()
+    search.retime()
     return Draft(tracks=search.tracks(), status="one after another")
 
 

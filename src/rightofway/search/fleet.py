@@ -146,6 +146,10 @@ class FleetSearch:
         """
         return self._core.improve(tasks, patience, time_limit, pause)
 
+    def retime(self) -> None:
+        """Have all robots as early as the order of visits at every vertex allows."""
+        self._core.retime()
+
     def tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
         first, vertices, enter = self._core.tracks()
