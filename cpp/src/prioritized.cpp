@@ -70,7 +70,7 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
     if (!find(robot, is_over)) {
         return false;
     }
-    if (evict_those_met() && has_lost(robot) && random_.below(2) == 0) {
+    if (evict_those_met() && has_lost(robot) && crosses_their_homes(robot) && random_.below(2) == 0) {
         if (!find(robot, is_over)) {
             return false;
         }
@@ -94,15 +94,22 @@ bool Prioritized::find(RobotId robot, const SafeIntervalSearch::IsOver& is_over)
     return true;
 }
 
+// Leaves those whose tracks it has taken away in met_.
 bool Prioritized::evict_those_met() {
-    bool is_any = false;
+    std::erase_if(met_, [this](RobotId other) { return !plan_.has_track(other); });
     for (const RobotId other : met_) {
-        if (plan_.has_track(other)) {
-            evict(other);
-            is_any = true;
-        }
+        evict(other);
     }
-    return is_any;
+    return !met_.empty();
+}
+
+// Whether the track leads through the homes of those in met_ while these are kept free.
+bool Prioritized::crosses_their_homes(RobotId robot) {
+    evicted_.swap(met_);
+    plan_.in_the_way(robot, track_, met_);
+    return std::any_of(evicted_.begin(), evicted_.end(), [this](RobotId other) {
+        return std::binary_search(met_.begin(), met_.end(), other);
+    });
 }
 
 void Prioritized::raise_prices() {

@@ -63,6 +63,7 @@ class Prioritized {
     bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
     bool find(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
     bool evict_those_met();
+    bool crosses_their_homes(RobotId robot);
     void evict(RobotId robot);
     void raise_prices();
     void keep_home(RobotId robot);
@@ -80,6 +81,7 @@ class Prioritized {
     std::vector<Tick> expected_;        // completions
     Random random_{0};
     std::vector<RobotId> met_;
+    std::vector<RobotId> evicted_;
     TimedTrack track_;
     std::int64_t n_searches_ = 0;
     Tick outlook_ = 0;

@@ -28,7 +28,7 @@ from rightofway.search import Distances, FleetSearch
 
 __all__ = ["MOST_ROBOTS", "ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
 
-SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.2, 0.8, 0.8
+SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
 
 SHARE_WITH_NET = 0.5
@@ -121,7 +121,6 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     task.has_plan()
-    search.retime()
     return Draft(tracks=search.tracks(), status="one after another")
 
 
