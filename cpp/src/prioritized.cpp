@@ -70,7 +70,8 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
     if (!find(robot, is_over)) {
         return false;
     }
-    if (evict_those_met() && has_lost(robot) && crosses_their_homes(robot) && random_.below(2) == 0) {
+    if (evict_those_met() && has_lost(robot) && crosses_their_homes(robot) &&
+        random_.below(2) == 0) {
         if (!find(robot, is_over)) {
             return false;
         }
