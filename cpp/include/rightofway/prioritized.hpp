@@ -54,8 +54,8 @@ class Prioritized {
     // some are without a track; it can go on from there.
     SearchEnd run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
 
-    // The most that the flowtime has looked like since the start: the completions of the robots
-    // with tracks, and what the others take alone.
+    // The most that the flowtime has looked like since the start, where each robot is expected to
+    // be complete as late as by its last track, or as alone.
     Tick highest_outlook() const { return highest_outlook_; }
     std::int64_t n_expanded() const { return search_.n_expanded(); }
 
