@@ -54,7 +54,6 @@ class Fleet {
     std::int32_t drive(RobotId robot, VertexId tail, VertexId head) const;
 
   private:
-    friend class TripReader;
     void check(const FleetArrays& arrays) const;
 
     // What belongs to the stages of a robot.
