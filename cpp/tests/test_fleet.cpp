@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <numeric>
@@ -178,6 +179,29 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
             CHECK(one.flowtime() == two.flowtime());
         }
     }
+}
+
+TEST_CASE("planning in turn takes the better one of the patient plan and the one made in haste") {
+    bool has_either_won[2] = {false, false};
+    for (VertexId k = 0; k < 40; ++k) {
+        const Crossing crossing(6 + k / 4);
+        const Fleet fleet(crossing.arrays(), 1, {k % 4, k % 2 == 1}, plenty);
+        Tick flowtime[2];
+        for (const bool is_hasty : {false, true}) {
+            FleetPlan alone(fleet);
+            Prioritized planner(fleet, alone, is_hasty ? hasty : patient);
+            planner.start(in_turn(fleet));
+            REQUIRE(planner.run(1000, test::never) == SearchEnd::found);
+            flowtime[is_hasty ? 1 : 0] = alone.flowtime();
+        }
+        FleetPlan plan(fleet);
+        REQUIRE(InTurn(fleet, plan, in_turn(fleet)).run(1000, true, test::never, test::never));
+        CHECK(plan.flowtime() == std::min(flowtime[0], flowtime[1]));
+        has_either_won[0] |= flowtime[0] < flowtime[1];
+        has_either_won[1] |= flowtime[1] < flowtime[0];
+    }
+    CHECK(has_either_won[0]);
+    CHECK(has_either_won[1]);
 }
 
 TEST_CASE("with a plan made in haste as a net, it is asked whether it is late, and that is taken") {
