@@ -9,13 +9,13 @@ default: lint types contracts test
 lint:
     ruff check .
     ruff format --check .
-    clang-format --dry-run --Werror cpp/*/*.cpp cpp/*/*.hpp cpp/include/rightofway/*.hpp
+    git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format --dry-run --Werror
 
 # Bring everything into the house style
 format:
     ruff check --fix .
     ruff format .
-    clang-format -i cpp/*/*.cpp cpp/*/*.hpp cpp/include/rightofway/*.hpp
+    git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format -i
 
 # Static types, strict
 types:

@@ -11,7 +11,7 @@ from rightofway.model import Scenario
 from rightofway.planners.joint import timetable_of
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import PrecedenceGraph
-from rightofway.search import Bookings, Distances, earliest_track, joint_steps
+from rightofway.search import Bookings, Distances, earliest_track, untimed_lacam
 
 ROBOTS = 200
 
@@ -23,11 +23,11 @@ def scenario(fleet: Callable[[int], Scenario]) -> Scenario:
 
 def graph_of_routes(scenario: Scenario) -> PrecedenceGraph:
     routes = shortest_routes(scenario, Distances(scenario.roadmap))
-    return PrecedenceGraph(routes, headway=scenario.timing.headway, books_ahead=False)
+    return PrecedenceGraph(routes, headway=scenario.problem.headway, books_ahead=False)
 
 
 def test_distance_table(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    itinerary = scenario.timing.itineraries[0]
+    itinerary = scenario.problem.itineraries[0]
     benchmark(lambda: Distances(scenario.roadmap).to(itinerary.last, itinerary.edge_ticks))
 
 
@@ -54,8 +54,8 @@ def test_give_and_take_back_a_right_of_way(benchmark: BenchmarkFixture, scenario
 
 def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
     distances = Distances(scenario.roadmap)
-    bookings = Bookings(scenario.roadmap, headway=scenario.timing.headway, books_ahead=False)
-    *others, one = scenario.timing.itineraries
+    bookings = Bookings(scenario.roadmap, headway=scenario.problem.headway, books_ahead=False)
+    *others, one = scenario.problem.itineraries
     for robot, itinerary in enumerate(others):
         track = earliest_track(itinerary, bookings, distances)
         if track is not None:
@@ -64,4 +64,4 @@ def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -
 
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    benchmark(lambda: timetable_of(scenario, joint_steps(scenario)))
+    benchmark(lambda: timetable_of(scenario, untimed_lacam(scenario)))

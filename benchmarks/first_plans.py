@@ -18,7 +18,7 @@ import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Scenario
 from rightofway.planners import planning_headway
-from rightofway.search import plan_by_events
+from rightofway.search import plan_by_lacam
 
 SEEDS = (1, 2, 3)
 EFFORT = 10**12
@@ -47,7 +47,7 @@ def fleet(folder: Path, name: str, robots: int, seed: int) -> Scenario:
     """Return the first robots of a random scenario, ready to plan."""
     whole = rightofway.load(folder / "scens" / f"{name}-random-{seed}.scen")
     scenario = replace(whole, robots=whole.robots[:robots])
-    assert scenario.timing  # made once, and no part of planning
+    assert scenario.problem  # made once, and no part of planning
     return scenario
 
 
@@ -60,7 +60,7 @@ def seconds(call: Callable[[], object]) -> float:
 
 def kernel(scenario: Scenario) -> None:
     """Run the search of `lacam`."""
-    plan_by_events(scenario, headway=planning_headway(scenario), most_effort=EFFORT)
+    plan_by_lacam(scenario, headway=planning_headway(scenario), most_effort=EFFORT)
 
 
 def first_plan(scenario: Scenario) -> FirstPlan:

@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.laps_rows import Row
 from benchmarks.marked import write_tables
-from rightofway.laps import Conflict, LapsRun, run_laps
+from rightofway.cyclic import Conflict, CyclicResult, run_laps
 from tests.fleets import PAPER, paper_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "laps.md"
@@ -66,14 +66,14 @@ def _paper() -> Iterator[str]:
         )
 
 
-def _told(run: LapsRun, conflicts: Sequence[Conflict]) -> str:
+def _told(run: CyclicResult, conflicts: Sequence[Conflict]) -> str:
     name, robots = run.scenario.roadmap.name, run.scenario.robots
     told = Counter(f"{robots[one.waits].name} for {name(one.vertex)}" for one in conflicts)
     times = (f"{wait}, {n} times" if n > 1 else wait for wait, n in told.items())
     return "; ".join(times) or "none"
 
 
-def _means(run: LapsRun) -> str:
+def _means(run: CyclicResult) -> str:
     means = run.groups[0].mean_laps()
     return ", ".join("never home" if mean is None else str(mean) for mean in means)
 

@@ -11,7 +11,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from rightofway.laps import RULES, GroupRun, LapsRun, run_laps
+from rightofway.cyclic import RULES, CyclicResult, GroupRun, run_laps
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.fleets import largest_part, random_grid
 
@@ -78,7 +78,9 @@ def measure(seeds: Sequence[int]) -> Iterator[Row]:
                     yield _row(run, group, size=size, robots=robots, speeds=speeds, seed=seed)
 
 
-def _row(run: LapsRun, group: GroupRun, *, size: int, robots: int, speeds: str, seed: int) -> Row:
+def _row(
+    run: CyclicResult, group: GroupRun, *, size: int, robots: int, speeds: str, seed: int
+) -> Row:
     first, steady = (
         {(one.vertex, one.pair) for one in found}
         for found in (run.first_conflicts(group), run.conflicts(group))

@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from fractions import Fraction
 
-from rightofway.laps import run_laps
+from rightofway.cyclic import run_laps
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 
 ROBOTS = 1000

@@ -18,10 +18,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+from rightofway.cyclic import best_timetable, run_laps, run_of
 from rightofway.io.movingai import read_map
-from rightofway.laps import run_laps
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
-from rightofway.timetables import best_timetable, run_of
 from tests.fleets import largest_part
 
 SEEDS = (1, 2, 3)

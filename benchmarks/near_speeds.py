@@ -63,7 +63,7 @@ def best_seconds(
 ) -> tuple[float, float]:
     """Return the least CPU time with equal speeds, and with near ones."""
     dealt = [with_speeds(scenario, speeds) for speeds in (EQUAL, NEAR)]
-    assert all(one.timing for one in dealt)  # made once, and no part of planning
+    assert all(one.problem for one in dealt)  # made once, and no part of planning
     rounds = [[cpu_seconds(partial(plan, one)) for one in dealt] for _ in range(runs)]
     equal, near = map(min, zip(*rounds, strict=True))
     return equal, near

@@ -19,10 +19,9 @@ from pathlib import Path
 from statistics import median
 
 from benchmarks.marked import write_tables
+from rightofway.cyclic import CyclicResult, best_timetable, run_laps, run_of
 from rightofway.errors import GaveUp
-from rightofway.laps import LapsRun, run_laps
 from rightofway.model import Scenario
-from rightofway.timetables import best_timetable, run_of
 from tests.fleets import random_fleet
 
 PAGE = Path(__file__).with_name("README.md")
@@ -59,7 +58,7 @@ def fleets(robots: int) -> Iterator[Scenario]:
             yield scenario
 
 
-def fairness(run: LapsRun) -> float:
+def fairness(run: CyclicResult) -> float:
     """Return the least part of its laps alone that any robot makes."""
     parts = [
         Fraction(endless.lap.duration) / mean if mean else Fraction(0)
@@ -78,7 +77,7 @@ def rows(scenario: Scenario) -> dict[str, Row]:
     return {rule: _row(scenario, rule, chosen) for rule in RULES}
 
 
-def _row(scenario: Scenario, rule: str, chosen: LapsRun) -> Row:
+def _row(scenario: Scenario, rule: str, chosen: CyclicResult) -> Row:
     run = run_laps(scenario, rule, time_limit=RUNNING)
     ends = _ends(run)
     compares = ends in ("repeats", "open") and run.throughput() > 0
@@ -90,7 +89,7 @@ def _row(scenario: Scenario, rule: str, chosen: LapsRun) -> Row:
     )
 
 
-def _ends(run: LapsRun) -> str:
+def _ends(run: CyclicResult) -> str:
     ends = {group.ends for group in run.groups}
     if "deadlock" in ends:
         return "deadlock"

@@ -7,14 +7,14 @@ import random
 import numpy as np
 
 from rightofway.model import Lap, Tick, VertexId
-from rightofway.precedence import PeriodicTimetable
+from rightofway.precedence import CyclicSchedule
 
 __all__ = ["random_timetable", "timetable_of"]
 
 
-def timetable_of(laps: list[Lap], enter: list[list[int]], *, period: int) -> PeriodicTimetable:
+def timetable_of(laps: list[Lap], enter: list[list[int]], *, period: int) -> CyclicSchedule:
     """Return a timetable of robots 0, 1, …"""
-    return PeriodicTimetable(
+    return CyclicSchedule(
         robots=tuple(range(len(laps))),
         laps=tuple(laps),
         counts=tuple(len(ticks) // len(lap) for lap, ticks in zip(laps, enter, strict=True)),
@@ -25,7 +25,7 @@ def timetable_of(laps: list[Lap], enter: list[list[int]], *, period: int) -> Per
 
 def random_timetable(
     seed: int, *, robots: int, headway: int, books_ahead: bool, most_laps: int = 2
-) -> PeriodicTimetable:
+) -> CyclicSchedule:
     """Return laps that all pass one door, and when they do so in a random order without a deadlock.
 
     Robots move one at a time; whoever can, and is drawn, is next. All start and end at home.
@@ -81,7 +81,7 @@ def _timed(
     *,
     headway: int,
     books_ahead: bool,
-) -> PeriodicTimetable:
+) -> CyclicSchedule:
     """Give each move a time: as soon as it can, but not before the one that was drawn before it."""
     clock, left = 0, dict[int, int]()
     enter = [[0] for _ in laps]
@@ -99,7 +99,7 @@ def _timed(
 
 def _begun_anywhere(
     draw: random.Random, laps: list[Lap], enter: list[list[int]], period: int
-) -> PeriodicTimetable:
+) -> CyclicSchedule:
     """Let the period begin anywhere: the order goes round the circle."""
     shift = draw.randrange(period)
     moved = [[tick + shift for tick in ticks] for ticks in enter]

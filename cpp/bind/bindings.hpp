@@ -53,18 +53,18 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
     return to_numpy(std::vector<T>(values.begin(), values.end()));
 }
 
-void bind_circle(nb::module_& module);
-void bind_distance_tables(nb::module_& module);
-void bind_endless_run(nb::module_& module);
-void bind_event_graph(nb::module_& module);
-void bind_event_lacam(nb::module_& module);
-void bind_event_pibt(nb::module_& module);
-void bind_fleet_search(nb::module_& module);
-void bind_floor(nb::module_& module);
+void bind_periodic_bookings(nb::module_& module);
+void bind_distances(nb::module_& module);
+void bind_simulator(nb::module_& module);
+void bind_timed_event_graph(nb::module_& module);
 void bind_lacam(nb::module_& module);
-void bind_precedence_graph(nb::module_& module);
-void bind_safe_interval_search(nb::module_& module);
+void bind_pibt(nb::module_& module);
+void bind_fleet(nb::module_& module);
+void bind_adg(nb::module_& module);
+void bind_untimed_lacam(nb::module_& module);
+void bind_graph(nb::module_& module);
+void bind_sipp(nb::module_& module);
 void bind_seam(nb::module_& module);
-void bind_traffic(nb::module_& module);
+void bind_congestion(nb::module_& module);
 
 }  // namespace rightofway::bind

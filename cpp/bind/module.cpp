@@ -1,5 +1,5 @@
 #include "bindings.hpp"
-#include "rightofway/types.hpp"
+#include "core/types.hpp"
 
 namespace {
 
@@ -25,17 +25,17 @@ NB_MODULE(_core, module) {
     module.attr("FOREVER") = rightofway::forever;
     module.attr("INFINITY") = rightofway::infinity;
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
-    rightofway::bind::bind_circle(module);
-    rightofway::bind::bind_distance_tables(module);
-    rightofway::bind::bind_endless_run(module);
-    rightofway::bind::bind_event_graph(module);
-    rightofway::bind::bind_event_lacam(module);
-    rightofway::bind::bind_event_pibt(module);
-    rightofway::bind::bind_fleet_search(module);
-    rightofway::bind::bind_floor(module);
+    rightofway::bind::bind_periodic_bookings(module);
+    rightofway::bind::bind_distances(module);
+    rightofway::bind::bind_simulator(module);
+    rightofway::bind::bind_timed_event_graph(module);
     rightofway::bind::bind_lacam(module);
-    rightofway::bind::bind_precedence_graph(module);
-    rightofway::bind::bind_safe_interval_search(module);
+    rightofway::bind::bind_pibt(module);
+    rightofway::bind::bind_fleet(module);
+    rightofway::bind::bind_adg(module);
+    rightofway::bind::bind_untimed_lacam(module);
+    rightofway::bind::bind_graph(module);
+    rightofway::bind::bind_sipp(module);
     rightofway::bind::bind_seam(module);
-    rightofway::bind::bind_traffic(module);
+    rightofway::bind::bind_congestion(module);
 }

@@ -1,4 +1,4 @@
-#include "rightofway/seam.hpp"
+#include "search/seam.hpp"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "rightofway/distance_tables.hpp"
-#include "rightofway/graph.hpp"
+#include "core/graph.hpp"
+#include "distances/distance_tables.hpp"
 
 namespace rightofway::test {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "rightofway/routes.hpp"
+#include "precedence/routes.hpp"
 
 namespace rightofway::test {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corridors.hpp"
-#include "rightofway/trips.hpp"
+#include "problem/trips.hpp"
 
 namespace rightofway::test {
 

@@ -22,7 +22,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
-from rightofway.floor import CAUSES, DEFAULT
+from rightofway.execution import CAUSES, DEFAULT
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
 from rightofway.planners import Count, Option, registered

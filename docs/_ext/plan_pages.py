@@ -11,8 +11,8 @@ from docutils.parsers.rst import directives
 from sphinx.util.docutils import SphinxDirective
 
 import rightofway
-from rightofway.floor import simulate
-from rightofway.laps import run_laps, shown
+from rightofway.cyclic import run_laps, shown
+from rightofway.execution import simulate
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx

@@ -23,16 +23,16 @@ from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
 from rightofway.solve import improve, solve
 
 if TYPE_CHECKING:
-    from rightofway.floor import Outcome, simulate
+    from rightofway.cyclic import CyclicResult, plan_of, run_laps
+    from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, save_plan
-    from rightofway.laps import LapsRun, plan_of, run_laps
     from rightofway.metrics import Metrics, measure, waits
     from rightofway.viz import write_gif, write_page, write_png
 
 __version__ = "0.1.0"
 
 _LATER = {
-    "LapsRun": "laps",
+    "CyclicResult": "laps",
     "Metrics": "metrics",
     "Outcome": "floor",
     "load": "io",
@@ -49,11 +49,11 @@ _LATER = {
 }
 
 __all__ = [
+    "CyclicResult",
     "Fault",
     "GaveUp",
     "InputError",
     "InvalidPlan",
-    "LapsRun",
     "Metrics",
     "NoPlanExists",
     "Outcome",

@@ -19,7 +19,7 @@ INFINITY: int = 4611686018427387904
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
 
-class Circle:
+class PeriodicBookings:
     """
     Who has booked which vertex when, on a circle as long as the period.
 
@@ -207,7 +207,7 @@ class DistanceTables:
     def n_edges(self) -> int:
         """The number of edges, E."""
 
-class EndlessRun:
+class CyclicSimulator:
     """
     Robots that repeat their laps under a rule that sees two of them, until a state comes again.
 
@@ -370,7 +370,7 @@ def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shap
         If the arrays do not fit together, or times may become too large.
     """
 
-def plan_by_events(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def plan_by_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Plan a whole fleet with clocks, instant by instant.
 
@@ -627,7 +627,7 @@ class FleetSearch:
     def n_expanded(self) -> int:
         """States expanded by `improve`."""
 
-class Floor:
+class ActionDependencyGraph:
     """
     A plan on a floor where robots are late.
 
@@ -697,7 +697,7 @@ class Floor:
         The GIL is released; Ctrl-C is obeyed.
         """
 
-    def setbacks(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    def delay_sample(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
         Return what befalls one run.
 
@@ -735,7 +735,7 @@ class Floor:
         Return the robots that can never complete, since they wait for each other.
         """
 
-def joint_steps(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
 
@@ -1346,7 +1346,7 @@ class Seam:
             If there is no such vertex.
         """
 
-class Traffic:
+class Congestion:
     """
     Cheapest paths that keep clear of other robots.
 

@@ -3,7 +3,7 @@
 ::
 
     RightOfWayError
-    ├── InputError      the scenario, plan or option is wrong; lists every problem found
+    ├── InputError      the scenario, plan or option is wrong; lists every fault found
     ├── NoPlanExists    proven: no plan can exist, with the reason
     ├── GaveUp          no plan was found; one may exist
     └── InvalidPlan     a planner handed back a plan that the judge refuses (a defect of ours)
@@ -19,11 +19,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["GaveUp", "InputError", "InvalidPlan", "NoPlanExists", "Problem", "RightOfWayError"]
+__all__ = ["GaveUp", "InputError", "InputFault", "InvalidPlan", "NoPlanExists", "RightOfWayError"]
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class InputFault:
     """One thing wrong with an input.
 
     Attributes
@@ -40,12 +40,12 @@ class Problem:
     def __str__(self) -> str:
         return f"{self.place}: {self.message}" if self.place else self.message
 
-    def within(self, outer: str) -> Problem:
-        """Return the same problem seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
+    def within(self, outer: str) -> InputFault:
+        """Return the same fault seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
         if not self.place:
-            return Problem(outer, self.message)
+            return InputFault(outer, self.message)
         joint = "" if self.place.startswith("[") else "."
-        return Problem(f"{outer}{joint}{self.place}", self.message)
+        return InputFault(f"{outer}{joint}{self.place}", self.message)
 
 
 class RightOfWayError(Exception):
@@ -57,25 +57,25 @@ class InputError(RightOfWayError, ValueError):
 
     Parameters
     ----------
-    problems
-        All independent problems that were found, in the order of the document.
+    faults
+        All independent faults that were found, in the order of the document.
     source
         The file or argument they stand in, shown before each place.
     """
 
-    def __init__(self, problems: Iterable[Problem], source: str = "") -> None:
-        self.problems = tuple(problems)
+    def __init__(self, faults: Iterable[InputFault], source: str = "") -> None:
+        self.faults = tuple(faults)
         self.source = source
-        super().__init__(self.problems, source)
+        super().__init__(self.faults, source)
 
     @classmethod
     def at(cls, place: str, message: str, source: str = "") -> InputError:
-        """Make an error of a single problem."""
-        return cls([Problem(place, message)], source)
+        """Make an error of a single fault."""
+        return cls([InputFault(place, message)], source)
 
     def __str__(self) -> str:
         prefix = f"{self.source}: " if self.source else ""
-        return "\n".join(f"{prefix}{problem}" for problem in self.problems)
+        return "\n".join(f"{prefix}{fault}" for fault in self.faults)
 
 
 class NoPlanExists(RightOfWayError):

@@ -15,7 +15,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @dataclass(frozen=True)
-class Ended:
+class RunResult:
     """How a command ended: its exit code, standard output and standard error."""
 
     code: int
@@ -23,7 +23,7 @@ class Ended:
     err: str
 
 
-Cli = Callable[..., Ended]
+Cli = Callable[..., RunResult]
 
 
 @pytest.fixture
@@ -31,10 +31,10 @@ def cli(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
     """Return a function that runs a command in an empty directory."""
     monkeypatch.chdir(tmp_path)
 
-    def call(*args: object) -> Ended:
+    def call(*args: object) -> RunResult:
         code = run([str(arg) for arg in args])
         captured = capsys.readouterr()
-        return Ended(code, captured.out, captured.err)
+        return RunResult(code, captured.out, captured.err)
 
     return call
 

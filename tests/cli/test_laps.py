@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import load
 from rightofway.cli.laps_theory import rival_lines
-from rightofway.timetables import best_timetable
+from rightofway.cyclic import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
 SLOWER = """

@@ -65,7 +65,7 @@ def test_a_deadlock_would_be_told_by_the_exit_code(
 ) -> None:
     """There is none, so one is made up."""
     outcome = replace(rightofway.simulate(rightofway.load_plan(plan), runs=1), deadlocks=1)
-    monkeypatch.setattr("rightofway.floor.simulate", lambda *_, **__: outcome)
+    monkeypatch.setattr("rightofway.execution.simulate", lambda *_, **__: outcome)
     ended = cli("simulate", plan)
     assert ended.code == 1
     assert "right of way  no collisions, 1 deadlock\n" in ended.out

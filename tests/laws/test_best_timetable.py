@@ -8,12 +8,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from rightofway.cyclic import GroupTimetable, best_timetable, plan_of, run_laps, run_of
 from rightofway.errors import GaveUp, InputError
-from rightofway.laps import plan_of, run_laps
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
 from rightofway.precedence import critical_circuit
-from rightofway.timetables import GroupTimetable, best_timetable, run_of
 from tests.fleets import random_fleet
 from tests.oracles import circle as oracle
 

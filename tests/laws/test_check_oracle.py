@@ -68,7 +68,7 @@ def horizon(plan: Plan) -> int:
 
 def booked(plan: Plan, robot: int, visit: int, headway: int) -> set[int]:
     """Return every tick that a visit books, up to the horizon."""
-    track, itinerary = plan.tracks[robot], plan.scenario.timing.itineraries[robot]
+    track, itinerary = plan.tracks[robot], plan.scenario.problem.itineraries[robot]
     last = visit == len(track) - 1
     approach = itinerary.edge_ticks[0] if visit and plan.scenario.rules.occupancy == "both" else 0
     leave = horizon(plan) if last else int(track.enter[visit + 1])
@@ -76,7 +76,7 @@ def booked(plan: Plan, robot: int, visit: int, headway: int) -> set[int]:
 
 
 def meetings(plan: Plan) -> Iterator[Told]:
-    headway = plan.scenario.timing.headway
+    headway = plan.scenario.problem.headway
     visits = [
         (robot, visit) for robot, track in enumerate(plan.tracks) for visit in range(len(track))
     ]

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.model import Tick
-from rightofway.precedence import EventGraph
-from rightofway.search import Circle
+from rightofway.precedence import TimedEventGraph
+from rightofway.search import PeriodicBookings
 from tests.oracles import circle as oracle
 from tests.periodic import random_timetable
 
@@ -31,11 +31,11 @@ def test_a_way_round_is_found_exactly_where_there_is_one(
     drawn = random_timetable(
         seed, robots=robots, headway=headway, books_ahead=books_ahead, most_laps=1
     )
-    graph = EventGraph(drawn, headway=Tick(headway), books_ahead=books_ahead)
+    graph = TimedEventGraph(drawn, headway=Tick(headway), books_ahead=books_ahead)
     least = graph.critical_circuit().cycle_time
     timetable = graph.earliest(Tick(-(-least.numerator // least.denominator) + spare))
     period = timetable.period
-    circle = Circle(robots + 5, period, headway=Tick(headway), books_ahead=books_ahead)
+    circle = PeriodicBookings(robots + 5, period, headway=Tick(headway), books_ahead=books_ahead)
     for robot in range(1, robots):
         circle.add(robot, timetable.laps[robot], 1, timetable.enter[robot])
     # A home that others pass: the search has to try all its starts by itself.

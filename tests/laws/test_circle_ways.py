@@ -9,11 +9,11 @@ from fractions import Fraction
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rightofway.laps.endless import endless_routes
+from rightofway.cyclic.route import cyclic_routes
 from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, edge_ticks
 from rightofway.planners import planning_headway
-from rightofway.precedence import PeriodicTimetable
-from rightofway.search import Circle, Distances, Tour
+from rightofway.precedence import CyclicSchedule
+from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.fleets import grid_fleet, random_fleet
 from tests.oracles import circle as oracle
 from tests.periodic import timetable_of
@@ -22,11 +22,13 @@ law = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]
 
 
-def crowd(scenario: Scenario, draw: random.Random) -> tuple[Circle, PeriodicTimetable, list[Lap]]:
+def crowd(
+    scenario: Scenario, draw: random.Random
+) -> tuple[PeriodicBookings, CyclicSchedule, list[Lap]]:
     """Put robots on a circle, all but the first, as far as they find a place; return all laps."""
-    laps = [one.lap for one in endless_routes(scenario, draw.choice(("clear", "shortest")))]
+    laps = [one.lap for one in cyclic_routes(scenario, draw.choice(("clear", "shortest")))]
     period = Tick(int(laps[0].duration) + draw.randrange(25))
-    circle = Circle(
+    circle = PeriodicBookings(
         scenario.roadmap.n_vertices,
         period,
         headway=planning_headway(scenario),
@@ -67,8 +69,8 @@ def test_a_way_is_found_exactly_where_there_is_one(seed: int, robots: int, rules
     scenario = random_fleet(seed, size=size, robots=robots, rules=rules)
     assume(all(robot.stops[0].at != robot.home for robot in scenario.robots))
     circle, others, laps = crowd(scenario, draw)
-    itinerary = scenario.timing.itineraries[0]
-    tour = Tour.of(itinerary, Distances(scenario.roadmap))
+    itinerary = scenario.problem.itineraries[0]
+    tour = RoundTrip.of(itinerary, Distances(scenario.roadmap))
     headway, ahead = int(planning_headway(scenario)), scenario.rules.books_ahead
     passed = any(itinerary.home in other.vertices for other in others.laps)
     period = int(circle.period)
@@ -100,9 +102,9 @@ def test_a_way_is_found_exactly_where_there_is_one(seed: int, robots: int, rules
 
 def test_it_does_not_enter_what_is_forbidden() -> None:
     scenario = grid_fleet(["...", "...", "..."], [("N0", "N8")])
-    itinerary, distances = scenario.timing.itineraries[0], Distances(scenario.roadmap)
-    circle = Circle(9, Tick(20), headway=Tick(0), books_ahead=False)
+    itinerary, distances = scenario.problem.itineraries[0], Distances(scenario.roadmap)
+    circle = PeriodicBookings(9, Tick(20), headway=Tick(0), books_ahead=False)
     forbidden = {1, 5, 4}
-    found = circle.find_way(Tour.of(itinerary, distances, forbidden=forbidden), 0)
+    found = circle.find_way(RoundTrip.of(itinerary, distances, forbidden=forbidden), 0)
     assert found is not None
     assert found[0].vertices == (0, 3, 6, 7, 8, 7, 6, 3)

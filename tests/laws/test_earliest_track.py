@@ -41,11 +41,11 @@ def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(problems())
-def test_the_search_finds_the_earliest_completion(problem: tuple[Scenario, list[Booked]]) -> None:
-    scenario, booked = problem
-    timing, both = scenario.timing, scenario.rules.occupancy == "both"
-    itinerary = timing.itineraries[0]
-    bookings = Bookings(scenario.roadmap, headway=timing.headway, books_ahead=both)
+def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Booked]]) -> None:
+    scenario, booked = drawn
+    problem, both = scenario.problem, scenario.rules.occupancy == "both"
+    itinerary = problem.itineraries[0]
+    bookings = Bookings(scenario.roadmap, headway=problem.headway, books_ahead=both)
     for one in booked:
         bookings.book(one.vertex, Booking(Tick(one.start), Tick(one.end), one.robot))
     track = earliest_track(itinerary, bookings, Distances(scenario.roadmap))
@@ -53,7 +53,7 @@ def test_the_search_finds_the_earliest_completion(problem: tuple[Scenario, list[
         scenario.roadmap,
         itinerary,
         booked,
-        headway=timing.headway,
+        headway=problem.headway,
         books_ahead=both,
         horizon=HORIZON,
     )

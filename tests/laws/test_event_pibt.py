@@ -53,7 +53,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
 
 
 def both(scenario: Scenario, seed: int) -> tuple[Instants, Fleet]:
-    rules, trips = scenario.rules, scenario.timing.itineraries
+    rules, trips = scenario.rules, scenario.problem.itineraries
     headway = planning_headway(scenario)
     may_rotate = rules.rotations and not rules.books_ahead and headway == 0
     stages = [trip.stages for trip in trips]
@@ -121,7 +121,7 @@ def test_a_ring_turns_at_the_pace_of_its_slowest() -> None:
         speeds=SPEEDS,
     )
     kernel, oracle = both(ring, seed=0)
-    trips = ring.timing.itineraries
+    trips = ring.problem.itineraries
     fixed = [(robot, int(trip.last)) for robot, trip in enumerate(trips)]
     moves = kernel.choose(np.arange(4, dtype=np.int32), np.array(fixed, np.int32))
     assert moves is not None

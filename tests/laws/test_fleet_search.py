@@ -36,7 +36,7 @@ FLEETS = st.builds(
 
 
 def search_of(scenario: Scenario, *, seed: int = 0, threads: int = 1) -> FleetSearch:
-    return FleetSearch(scenario, headway=scenario.timing.headway, seed=seed, threads=threads)
+    return FleetSearch(scenario, headway=scenario.problem.headway, seed=seed, threads=threads)
 
 
 def judged(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:
@@ -99,7 +99,7 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
 def test_tracks_that_break_the_rules_are_not_taken_over() -> None:
     scenario = random_fleet(3, size=6, robots=2)
     search = search_of(scenario)
-    stay = tuple(Track.of([itinerary.home], [0]) for itinerary in scenario.timing.itineraries)
+    stay = tuple(Track.of([itinerary.home], [0]) for itinerary in scenario.problem.itineraries)
     with pytest.raises(ValueError, match="robot: 0 has a track that breaks the rules"):
         search.start(stay)
 

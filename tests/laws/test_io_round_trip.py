@@ -29,7 +29,7 @@ from rightofway.model import (
     Robot,
     Rules,
     Scenario,
-    Steady,
+    SteadyState,
     Stop,
     Tick,
     Track,
@@ -139,11 +139,11 @@ def plans(draw: st.DrawFn) -> Plan:
 
 
 @st.composite
-def repeating(draw: st.DrawFn, tracks: Sequence[Track]) -> tuple[Steady, ...]:
+def repeating(draw: st.DrawFn, tracks: Sequence[Track]) -> tuple[SteadyState, ...]:
     lasts = [len(track) - 1 for track in tracks]
     robots = draw(st.lists(st.integers(0, len(tracks) - 1), max_size=len(tracks), unique=True))
     return tuple(
-        Steady(
+        SteadyState(
             robots=(robot,),
             start=Tick(draw(st.integers(0, 2**40))),
             period=Tick(draw(st.integers(1, 2**40))),

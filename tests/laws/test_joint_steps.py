@@ -9,7 +9,7 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.model import Plan, PlannerRun, Rules, Scenario
 from rightofway.planners.joint import timetable_of
-from rightofway.search import joint_steps
+from rightofway.search import untimed_lacam
 from tests.fleets import grid_fleet
 from tests.oracles.joint import can_get_through, is_step
 
@@ -35,7 +35,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
 def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: int) -> None:
     may_rotate = scenario.rules.occupancy == "one"
     try:
-        steps = joint_steps(scenario, seed=seed)
+        steps = untimed_lacam(scenario, seed=seed)
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=may_rotate)
         return
@@ -48,7 +48,7 @@ def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: i
 @given(fleets())
 def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> None:
     try:
-        steps = joint_steps(scenario)
+        steps = untimed_lacam(scenario)
     except NoPlanExists:
         return
     tracks = tuple(timetable_of(scenario, steps))

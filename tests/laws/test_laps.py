@@ -7,16 +7,16 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
+from rightofway.cyclic import ROUTES, RULES, CyclicResult, CyclicRoute, cyclic_routes, run_laps
+from rightofway.cyclic.backjumping import Deadlock
+from rightofway.cyclic.groups import independent_groups
+from rightofway.cyclic.native_rules import Native
+from rightofway.cyclic.pattern import pattern_of
+from rightofway.cyclic.rolling_horizon import Rolling
+from rightofway.cyclic.rules import FAR_SIGHTED
+from rightofway.cyclic.to_plan import whole_laps
+from rightofway.cyclic.window import Ground
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.laps import ROUTES, RULES, Endless, LapsRun, endless_routes, run_laps
-from rightofway.laps.giving import Deadlock
-from rightofway.laps.groups import independent_groups
-from rightofway.laps.native import Native
-from rightofway.laps.pattern import pattern_of
-from rightofway.laps.plan import whole_laps
-from rightofway.laps.rolling import Rolling
-from rightofway.laps.rules import FAR_SIGHTED
-from rightofway.laps.window import Ground
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, Task, planning_headway
 from tests.fleets import fleet_on, random_grid
@@ -45,19 +45,19 @@ def small_fleet(seed: int, rules: Rules) -> Scenario | None:
     grid = random_grid(draw, size=draw.randint(4, 7), walls=0.15)
     try:
         scenario = fleet_on(grid, draw, robots=draw.randint(2, 5), rules=rules)
-        endless_routes(scenario)
+        cyclic_routes(scenario)
     except (InputError, NoPlanExists, ValueError):
         return None
     return scenario
 
 
-def small_run(seed: int, rule: str, rules: Rules) -> LapsRun | None:
+def small_run(seed: int, rule: str, rules: Rules) -> CyclicResult | None:
     """Run a random fleet; None if it has no laps."""
     scenario = small_fleet(seed, rules)
     return None if scenario is None else run_laps(scenario, rule, time_limit=2)
 
 
-def ground_of(scenario: Scenario, group: list[Endless]) -> Ground:
+def ground_of(scenario: Scenario, group: list[CyclicRoute]) -> Ground:
     """Return a group at the beginning."""
     return Ground(
         task=Task(scenario=scenario, options={"swaps": "resolve"}),
@@ -67,7 +67,7 @@ def ground_of(scenario: Scenario, group: list[Endless]) -> Ground:
     )
 
 
-def going_on(scenario: Scenario, group: list[Endless], rule: str) -> Rolling | Native:
+def going_on(scenario: Scenario, group: list[CyclicRoute], rule: str) -> Rolling | Native:
     """Return what goes on by a rule."""
     ground = ground_of(scenario, group)
     return Rolling(ground, rule) if rule in FAR_SIGHTED else Native(ground, rule)
@@ -94,7 +94,7 @@ def test_the_kernel_decides_as_one_window_after_the_other_does(
     grid = random_grid(draw, size=draw.randint(3, 7), walls=0.1)
     try:
         scenario = fleet_on(grid, draw, robots=draw.randint(2, 10), rules=rules)
-        groups = independent_groups(endless_routes(scenario, draw.choice(ROUTES)))
+        groups = independent_groups(cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
         assume(False)
     for group in groups:
@@ -188,7 +188,7 @@ def test_what_comes_after_is_what_was_foretold(rule: str, seed: int, rules: Rule
     scenario = small_fleet(seed, rules)
     assume(scenario is not None)
     assert scenario is not None
-    for group in independent_groups(endless_routes(scenario)):
+    for group in independent_groups(cyclic_routes(scenario)):
         rolling = going_on(scenario, group, rule)
         try:
             known = rolling.until_it_repeats(Deadline.after(2))

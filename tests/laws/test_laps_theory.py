@@ -6,11 +6,11 @@ from fractions import Fraction
 
 import pytest
 
+from rightofway.cyclic import CyclicResult, run_laps
 from rightofway.errors import InputError
-from rightofway.laps import LapsRun, run_laps
 from rightofway.model import Rules
 from rightofway.planners import planning_headway
-from rightofway.precedence import EventGraph
+from rightofway.precedence import TimedEventGraph
 from tests.fleets import random_fleet
 
 FLEETS = 40
@@ -31,14 +31,14 @@ def test_the_period_by_theory_is_the_period_of_the_simulation(rule: str, rules: 
     assert repeats > FLEETS // 4
 
 
-def agrees(run: LapsRun) -> int:
+def agrees(run: CyclicResult) -> int:
     """Return how many groups repeat; fail if theory says another period of one of them."""
     ahead, repeats = run.scenario.rules.books_ahead, 0
     for group in run.groups:
         if group.timetable is None or len(group.robots) == 1:
             continue
         headway = planning_headway(run.scenario)
-        graph = EventGraph(group.timetable, headway=headway, books_ahead=ahead)
+        graph = TimedEventGraph(group.timetable, headway=headway, books_ahead=ahead)
         assert graph.critical_circuit().cycle_time == group.timetable.period
         assert graph.slack().min() >= 0
         repeats += 1

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.model import Plan, Rules, Tick
-from rightofway.precedence import NEVER, DelayedPlan, Execution, Hazards, Setbacks
+from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel, DelaySample, Execution
 from tests.fleets import random_fleet
 from tests.oracles import late_floor
 
@@ -38,7 +38,7 @@ def some_plan(seed: int, rules: int) -> Plan:
     return rightofway.solve(scenario, "lacam" if seed % 2 else "two-level")
 
 
-def some_hazards(draw: random.Random, robots: int, makespan: int) -> Hazards:
+def some_hazards(draw: random.Random, robots: int, makespan: int) -> DelayModel:
     def standstills() -> tuple[tuple[Tick, Tick], ...]:
         if draw.random() < 0.6:
             return ()
@@ -47,14 +47,14 @@ def some_hazards(draw: random.Random, robots: int, makespan: int) -> Hazards:
         every = sorted([(draw.randint(0, makespan), lasts), *more])
         return tuple((Tick(tick), Tick(ticks)) for tick, ticks in every)
 
-    return Hazards(
+    return DelayModel(
         random=draw.choice(HAZARDS),
         pace=tuple(draw.choice([1.0, 1.0, 1.7, 0.6]) for _ in range(robots)),
         standstills=tuple(standstills() for _ in range(robots)),
     )
 
 
-def oracle_of(floor: DelayedPlan, setbacks: Setbacks) -> late_floor.Floor:
+def oracle_of(floor: ActionDependencyGraph, delay_sample: DelaySample) -> late_floor.Floor:
     return late_floor.Floor(
         first_visit=floor.first_visit.tolist(),
         vertex=floor.vertex.tolist(),
@@ -62,11 +62,11 @@ def oracle_of(floor: DelayedPlan, setbacks: Setbacks) -> late_floor.Floor:
         nominal_drive=floor.drive.tolist(),
         before=floor.before.tolist(),
         since=floor.since.tolist(),
-        headway=int(floor.scenario.timing.headway),
+        headway=int(floor.scenario.problem.headway),
         books_ahead=floor.scenario.rules.books_ahead,
-        dwell=setbacks.dwell.tolist(),
-        drive=setbacks.drive.tolist(),
-        standstills=[setbacks.of(robot) for robot in range(len(floor.routes))],
+        dwell=delay_sample.dwell.tolist(),
+        drive=delay_sample.drive.tolist(),
+        standstills=[delay_sample.of(robot) for robot in range(len(floor.routes))],
     )
 
 
@@ -82,13 +82,13 @@ def test_the_kernel_equals_robots_that_look(seed: int, rules: int, chance: int) 
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     last = max(int(track.enter[-1]) for track in plan.tracks)
     hazards = some_hazards(draw, len(plan.tracks), last)
-    floor = DelayedPlan(plan.scenario, plan.tracks, hazards)
+    floor = ActionDependencyGraph(plan.scenario, plan.tracks, hazards)
     told = np.array([draw.choice([0, 0, 0, 12]) for _ in floor.vertex], np.int64)
     floor = floor.reordered(floor.before, told)
-    setbacks = floor.setbacks(chance, 3)
-    slow = oracle_of(floor, setbacks)
+    delay_sample = floor.delay_sample(chance, 3)
+    slow = oracle_of(floor, delay_sample)
     for clock, run in ((False, late_floor.by_right_of_way), (True, late_floor.by_clock)):
-        found, expected = floor.execute(setbacks, clock=clock), run(slow)
+        found, expected = floor.execute(delay_sample, clock=clock), run(slow)
         assert times(found) == times(expected)
         assert tuple(found.collisions.tolist()) == late_floor.collisions(slow, expected)
         if not clock:
@@ -103,8 +103,8 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
 ) -> None:
     """Two visits next to each other at one vertex change places."""
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
-    hazards = Hazards.none(len(plan.tracks))
-    floor = DelayedPlan(plan.scenario, plan.tracks, hazards)
+    hazards = DelayModel.none(len(plan.tracks))
+    floor = ActionDependencyGraph(plan.scenario, plan.tracks, hazards)
     firsts = set(floor.first_visit.tolist())
     swappable = [
         visit
@@ -120,10 +120,10 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     before[visit], before[other] = before[other], visit
     before[after] = other
     floor = floor.reordered(before)
-    setbacks = floor.setbacks(0, 0)
+    delay_sample = floor.delay_sample(0, 0)
     found, expected = (
-        floor.execute(setbacks),
-        late_floor.by_right_of_way(oracle_of(floor, setbacks)),
+        floor.execute(delay_sample),
+        late_floor.by_right_of_way(oracle_of(floor, delay_sample)),
     )
     assert found.completion.tolist() == expected.completion
     stuck = [robot for robot, tick in enumerate(expected.completion) if tick >= NEVER]
@@ -137,12 +137,12 @@ def test_runs_are_what_single_runs_are_however_they_are_cut_up(
 ) -> None:
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     hazards = some_hazards(draw, len(plan.tracks), 20)
-    floor = DelayedPlan(plan.scenario, plan.tracks, hazards)
+    floor = ActionDependencyGraph(plan.scenario, plan.tracks, hazards)
     whole, second = floor.runs(chance, 0, 8), floor.runs(chance, 5, 3)
     assert np.array_equal(whole.completion[5:], second.completion)
     for run in range(8):
-        setbacks = floor.setbacks(chance, run)
-        one, clocked = floor.execute(setbacks), floor.execute(setbacks, clock=True)
+        delay_sample = floor.delay_sample(chance, run)
+        one, clocked = floor.execute(delay_sample), floor.execute(delay_sample, clock=True)
         assert one.completion.tolist() == whole.completion[run].tolist()
         assert one.is_broken.tolist() == whole.is_broken[run].tolist()
         assert one.collisions.tolist() == whole.by_right_of_way[run].tolist()
@@ -154,7 +154,7 @@ def test_runs_are_what_single_runs_are_however_they_are_cut_up(
 def test_what_lateness_is_put_down_to_sums_up_to_it(seed: int, rules: int, chance: int) -> None:
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     hazards = some_hazards(draw, len(plan.tracks), 20)
-    floor = DelayedPlan(plan.scenario, plan.tracks, hazards)
+    floor = ActionDependencyGraph(plan.scenario, plan.tracks, hazards)
     runs = floor.runs(chance, 0, 5)
     ends = floor.first_visit[1:] - 1
     late = runs.completion - floor.planned[ends] - floor.dwell[ends]

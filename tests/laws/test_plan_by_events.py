@@ -14,7 +14,7 @@ from rightofway.errors import NoPlanExists
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners import planning_headway
 from rightofway.precedence import graph_of
-from rightofway.search import plan_by_events
+from rightofway.search import plan_by_lacam
 from tests.fleets import grid_fleet
 from tests.oracles.joint import can_get_through, is_step
 
@@ -52,7 +52,7 @@ def fleets(draw: st.DrawFn, *, own_speeds: bool = True) -> Scenario:
 
 def tracks_of(scenario: Scenario, seed: int = 0) -> list[Track] | None:
     headway = planning_headway(scenario)
-    return plan_by_events(scenario, headway=headway, seed=seed, most_effort=PATIENCE)
+    return plan_by_lacam(scenario, headway=headway, seed=seed, most_effort=PATIENCE)
 
 
 def may_rotate(scenario: Scenario) -> bool:

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.check import check
 from rightofway.errors import NoPlanExists
-from rightofway.floor.phases import run_in_phases
-from rightofway.floor.replanning import plan_the_rest
-from rightofway.floor.standing import Rest, breakdown, come_to_a_stand
+from rightofway.execution.replan import plan_the_rest
+from rightofway.execution.run import run_in_phases
+from rightofway.execution.stop import Rest, breakdown, stop_all
 from rightofway.model import Plan, Rules, Scenario, Tick
-from rightofway.precedence import NEVER, DelayedPlan, Hazards
+from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel
 from tests.fleets import fleet_on
 from tests.oracles.rest import most_who_can_finish
 
@@ -46,19 +46,19 @@ def small_plan(draw: random.Random, robots: int) -> Plan | None:
         return None
 
 
-def floor_with_breakdowns(draw: random.Random, plan: Plan, most: int) -> DelayedPlan:
+def floor_with_breakdowns(draw: random.Random, plan: Plan, most: int) -> ActionDependencyGraph:
     last = max(int(track.enter[-1]) for track in plan.tracks)
     robots = range(len(plan.tracks))
     broken = draw.sample(robots, draw.randint(1, most))
     slow = draw.choice(robots)
-    hazards = Hazards(
+    hazards = DelayModel(
         random=draw.choice([(), (("exponential", 0.3, 0.0),), (("chance", 0.1, 5.0),)]),
         pace=tuple(1.6 if robot == slow else 1.0 for robot in robots),
         standstills=tuple(
             ((Tick(draw.randint(0, last)), NEVER),) if robot in broken else () for robot in robots
         ),
     )
-    return DelayedPlan(plan.scenario, plan.tracks, hazards)
+    return ActionDependencyGraph(plan.scenario, plan.tracks, hazards)
 
 
 def most_by_brute_force(rest: Rest, scenario: Scenario) -> int:
@@ -66,7 +66,7 @@ def most_by_brute_force(rest: Rest, scenario: Scenario) -> int:
         [int(stage.vertex) for stage in left] or [int(at)]
         for left, at in zip(rest.stages, rest.at, strict=True)
     ]
-    may_rotate = scenario.rules.occupancy == "one" and scenario.timing.headway == 0
+    may_rotate = scenario.rules.occupancy == "one" and scenario.problem.headway == 0
     return most_who_can_finish(
         scenario.roadmap, rest.at, goals, rest.broken, rest.closed, may_rotate=may_rotate
     )
@@ -80,9 +80,9 @@ def test_as_many_finish_as_brute_force_finds(chance: int) -> None:
     if plan is None:
         return
     floor = floor_with_breakdowns(draw, plan, most=1)
-    setbacks = floor.setbacks(chance, 0)
-    since = min(breakdown(setbacks, robot) for robot in range(len(plan.tracks)))
-    _, rest = come_to_a_stand(floor, setbacks, since, frozenset())
+    delay_sample = floor.delay_sample(chance, 0)
+    since = min(breakdown(delay_sample, robot) for robot in range(len(plan.tracks)))
+    _, rest = stop_all(floor, delay_sample, since, frozenset())
     anew = plan_the_rest(rest, 0)
     assert anew is not None
     assert check(anew.plan).ok

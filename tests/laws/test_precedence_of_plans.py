@@ -27,10 +27,10 @@ def fleets(draw: st.DrawFn) -> Scenario:
 
 def late(scenario: Scenario, delays: list[int]) -> list[Track]:
     """Return tracks found one after the other, each then started later by its delay if it can."""
-    timing, both = scenario.timing, scenario.rules.occupancy == "both"
-    bookings = Bookings(scenario.roadmap, headway=timing.headway, books_ahead=both)
+    problem, both = scenario.problem, scenario.rules.occupancy == "both"
+    bookings = Bookings(scenario.roadmap, headway=problem.headway, books_ahead=both)
     tracks: list[Track] = []
-    for robot, itinerary in enumerate(timing.itineraries):
+    for robot, itinerary in enumerate(problem.itineraries):
         track = earliest_track(itinerary, bookings, Distances(scenario.roadmap))
         if track is None:
             return []
@@ -67,7 +67,7 @@ def test_an_order_kept_at_once_is_the_same_as_right_of_way_given_one_by_one(
     at_once = graph_of(scenario, tracks)
     one_by_one = PrecedenceGraph(
         at_once.routes,
-        headway=scenario.timing.headway,
+        headway=scenario.problem.headway,
         books_ahead=scenario.rules.occupancy == "both",
     )
     for first, second in at_once.rights_of_way():

@@ -7,15 +7,15 @@ from fractions import Fraction
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from rightofway.cyclic.closing import Stretch, closed, stretches
+from rightofway.cyclic.groups import independent_groups
+from rightofway.cyclic.native_rules import Native
+from rightofway.cyclic.result import GroupRun
+from rightofway.cyclic.route import cyclic_routes
+from rightofway.cyclic.run import go_on, make_simulator
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.laps.endless import endless_routes
-from rightofway.laps.groups import independent_groups
-from rightofway.laps.native import Native
-from rightofway.laps.outcome import GroupRun
-from rightofway.laps.run import go_on, set_out
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, Task
-from rightofway.timetables.seams import Stretch, closed, stretches
 from tests.fleets import random_fleet
 from tests.laws.test_windows import shift_of
 from tests.oracles import circle as oracle
@@ -40,11 +40,11 @@ def runs(draw: st.DrawFn) -> tuple[Scenario, GroupRun]:
             rules=draw(st.sampled_from(RULES)),
         )
         routes = draw(st.sampled_from(["clear", "direct"]))
-        group = max(independent_groups(endless_routes(scenario, routes)), key=len)
+        group = max(independent_groups(cyclic_routes(scenario, routes)), key=len)
     except (InputError, NoPlanExists):
         assume(False)
     rule = draw(st.sampled_from(["first-come", "least-loss"]))
-    going = set_out(Task(scenario=scenario), group, rule)
+    going = make_simulator(Task(scenario=scenario), group, rule)
     assume(len(group) > 1 and isinstance(going, Native))
     longest = max(endless.lap.duration for endless in group)
     run = go_on(going, Deadline())

@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.precedence import EventGraph, cycle_time_without, sensitivity
-from tests.laws.test_event_graph import patterns
+from rightofway.precedence import TimedEventGraph, cycle_time_without, sensitivity
+from tests.laws.test_timed_event_graph import patterns
 
 law = settings(max_examples=150, derandomize=True, deadline=None)
 LITTLE = Fraction(1, 10**5)
@@ -19,7 +19,7 @@ LITTLE = Fraction(1, 10**5)
 @law
 @given(patterns(), st.randoms(use_true_random=False))
 def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
-    graph: EventGraph, draw: np.random.Generator
+    graph: TimedEventGraph, draw: np.random.Generator
 ) -> None:
     lengths = graph.arcs.length.tolist()
     share = np.array([draw.choice((0, length)) for length in lengths], np.int64)

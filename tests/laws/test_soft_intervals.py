@@ -43,7 +43,7 @@ def test_the_search_finds_the_least_completion_and_prices(
     problem: tuple[Scenario, list[Booked], list[int]],
 ) -> None:
     scenario, booked, prices = problem
-    itinerary, roadmap = scenario.timing.itineraries[0], scenario.roadmap
+    itinerary, roadmap = scenario.problem.itineraries[0], scenario.roadmap
     table = _core.BookingTable(roadmap.n_vertices)
     for one in booked:
         table.insert(one.vertex, one.start, one.end, one.robot)
@@ -54,7 +54,7 @@ def test_the_search_finds_the_least_completion_and_prices(
         roadmap.length_class,
         np.array(itinerary.edge_ticks, np.int32),
         table,
-        int(scenario.timing.headway),
+        int(scenario.problem.headway),
         scenario.rules.books_ahead,
         int(itinerary.home),
         np.array([stage.vertex for stage in itinerary.stages], np.int32),
@@ -69,7 +69,7 @@ def test_the_search_finds_the_least_completion_and_prices(
         itinerary,
         booked,
         prices,
-        headway=scenario.timing.headway,
+        headway=scenario.problem.headway,
         books_ahead=scenario.rules.books_ahead,
         horizon=HORIZON,
     )

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from rightofway import _core
 from tests.oracles.distances import Edge, distances_to
-from tests.oracles.traffic import Traffic
+from tests.oracles.traffic import Congestion
 
 law = settings(max_examples=200, derandomize=True, deadline=None)
 
 
 @st.composite
-def floors(draw: st.DrawFn) -> Traffic:
+def floors(draw: st.DrawFn) -> Congestion:
     """Small graphs without loops or parallel edges; most edges go both ways."""
     n_vertices = draw(st.integers(2, 8))
     vertex = st.integers(0, n_vertices - 1)
@@ -24,7 +24,7 @@ def floors(draw: st.DrawFn) -> Traffic:
     one_ways = draw(st.booleans())
     ends = {(u, v) for u, v in pairs if u != v}
     ends |= set() if one_ways else {(v, u) for u, v in ends}
-    return Traffic(
+    return Congestion(
         n_vertices=n_vertices,
         edges=[Edge(u, v, draw(ticks)) for u, v in sorted(ends)],
         shares=draw(st.sampled_from([1, 16])),
@@ -34,9 +34,9 @@ def floors(draw: st.DrawFn) -> Traffic:
     )
 
 
-def kernel_of(floor: Traffic) -> _core.Traffic:
+def kernel_of(floor: Congestion) -> _core.Congestion:
     starts = [edge.start for edge in floor.edges]
-    return _core.Traffic(
+    return _core.Congestion(
         np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
         np.array([edge.end for edge in floor.edges], np.int32),
         floor.shares,
@@ -47,7 +47,7 @@ def kernel_of(floor: Traffic) -> _core.Traffic:
 @law
 @given(floors(), st.data())
 def test_each_robots_path_is_the_cheapest_among_those_before(
-    floor: Traffic, data: st.DataObject
+    floor: Congestion, data: st.DataObject
 ) -> None:
     kernel = kernel_of(floor)
     ticks = np.array([edge.ticks for edge in floor.edges], np.int32)
@@ -64,7 +64,7 @@ def test_each_robots_path_is_the_cheapest_among_those_before(
 
 
 def test_a_target_out_of_reach_and_a_path_with_a_gap_are_refused() -> None:
-    floor = Traffic(n_vertices=3, edges=[Edge(0, 1, 1)], shares=16, station=[0, 0, 0])
+    floor = Congestion(n_vertices=3, edges=[Edge(0, 1, 1)], shares=16, station=[0, 0, 0])
     kernel, ticks = kernel_of(floor), np.array([1], np.int32)
     with pytest.raises(ValueError, match="target: 2 cannot be reached from 0"):
         kernel.path(0, 2, ticks, np.array([-1, -1, 0], np.int32))

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.floor.outlook import Outlook
-from rightofway.floor.watching import Draw, Watch
+from rightofway.execution.forecast import Forecast
+from rightofway.execution.monitor import Draw, ExecutionMonitor
 from rightofway.model import Tick
-from rightofway.precedence import NEVER, DelayedPlan, Hazards, Setbacks
+from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel, DelaySample
 from tests.fleets import random_fleet
 from tests.laws.test_late_floor import RULES, oracle_of, some_hazards, some_plan, times
 from tests.oracles import late_floor
@@ -25,12 +25,15 @@ CARES = ((True, False), (False, True), (True, True))
 
 
 def watched(
-    floor: DelayedPlan, chance: int, care: tuple[bool, bool], kind: type[Watch] = Watch
-) -> Watch:
+    floor: ActionDependencyGraph,
+    chance: int,
+    care: tuple[bool, bool],
+    kind: type[ExecutionMonitor] = ExecutionMonitor,
+) -> ExecutionMonitor:
     switch, replan = care
 
-    def draw(one: DelayedPlan) -> Setbacks:
-        return one.setbacks(chance, 0)
+    def draw(one: ActionDependencyGraph) -> DelaySample:
+        return one.delay_sample(chance, 0)
 
     return kind(floor, draw(floor), switch=switch, draw=draw if replan else None, seed=chance)
 
@@ -47,9 +50,9 @@ def test_robots_that_look_find_the_new_plan_possible(
 ) -> None:
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     hazards = some_hazards(draw, len(plan.tracks), 20)
-    watch = watched(DelayedPlan(plan.scenario, plan.tracks, hazards), chance, care)
-    floor, found = watch.floor, watch.floor.execute(watch.setbacks)
-    slow = oracle_of(floor, watch.setbacks)
+    watch = watched(ActionDependencyGraph(plan.scenario, plan.tracks, hazards), chance, care)
+    floor, found = watch.floor, watch.floor.execute(watch.delay_sample)
+    slow = oracle_of(floor, watch.delay_sample)
     expected = late_floor.by_right_of_way(slow)
     assert times(found) == times(expected)
     assert late_floor.collisions(slow, expected)[:3] == (0, 0, 0)
@@ -68,13 +71,13 @@ def test_the_judge_finds_everything_done_and_nobody_meeting(
 ) -> None:
     """Robots are late, never early: the judge would find them too fast."""
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
-    hazards = Hazards(
+    hazards = DelayModel(
         random=draw.choice([(("chance", 0.1, 9.0),), (("exponential", 0.5, 0.0),)]),
         pace=tuple(draw.choice([1.0, 1.0, 2.0]) for _ in plan.tracks),
         standstills=tuple(() for _ in plan.tracks),
     )
-    watch = watched(DelayedPlan(plan.scenario, plan.tracks, hazards), chance, care)
-    found = watch.floor.execute(watch.setbacks)
+    watch = watched(ActionDependencyGraph(plan.scenario, plan.tracks, hazards), chance, care)
+    found = watch.floor.execute(watch.delay_sample)
     assert (found.completion < NEVER).all()
     happened = check(replace(plan, tracks=watch.floor.split(found.enter)))
     assert happened.ok, happened
@@ -86,11 +89,11 @@ def test_nothing_is_changed_where_nobody_is_late(
     care: tuple[bool, bool], seed: int, rules: int
 ) -> None:
     plan = some_plan(seed, rules)
-    floor = DelayedPlan(plan.scenario, plan.tracks, Hazards.none(len(plan.tracks)))
+    floor = ActionDependencyGraph(plan.scenario, plan.tracks, DelayModel.none(len(plan.tracks)))
     assert watched(floor, 0, care).floor is floor
 
 
-def seen_until(watch: Watch, tick: int) -> list[list[tuple[int, int]]]:
+def seen_until(watch: ExecutionMonitor, tick: int) -> list[list[tuple[int, int]]]:
     """Return for each robot which vertices it has booked before a tick, since when."""
     floor, start = watch.floor, watch.happens.start
     ranges = pairwise(floor.first_visit.tolist())
@@ -98,19 +101,19 @@ def seen_until(watch: Watch, tick: int) -> list[list[tuple[int, int]]]:
     return [[(int(floor.vertex[x]), int(start[x])) for x in one] for one in visits]
 
 
-class Witness(Watch):
+class Witness(ExecutionMonitor):
     """Looks whether changes leave alone what was before them."""
 
     changes = 0
 
-    def try_to_switch(self, outlook: Outlook) -> Outlook:
+    def try_to_switch(self, outlook: Forecast) -> Forecast:
         before = seen_until(self, outlook.now)
         found = super().try_to_switch(outlook)
         assert seen_until(self, outlook.now) == before
         Witness.changes += found is not outlook
         return found
 
-    def try_to_plan_anew(self, outlook: Outlook, draw: Draw) -> None:
+    def try_to_plan_anew(self, outlook: Forecast, draw: Draw) -> None:
         before = seen_until(self, outlook.now)
         super().try_to_plan_anew(outlook, draw)
         assert seen_until(self, outlook.now) == before
@@ -130,14 +133,16 @@ def test_no_change_reaches_into_the_past(
     """Who has waited until now for its right of way goes now, not when it could have gone."""
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     hazards = some_hazards(draw, len(plan.tracks), 20)
-    watched(DelayedPlan(plan.scenario, plan.tracks, hazards), chance, care, Witness)
+    watched(ActionDependencyGraph(plan.scenario, plan.tracks, hazards), chance, care, Witness)
 
 
 def test_the_witness_has_seen_changes() -> None:
     plan = some_plan(0, 1)
-    hazards = replace(Hazards.none(len(plan.tracks)), random=(("chance", 0.1, 20.0),))
+    hazards = replace(DelayModel.none(len(plan.tracks)), random=(("chance", 0.1, 20.0),))
     for run in range(20):
-        watched(DelayedPlan(plan.scenario, plan.tracks, hazards), run, (True, True), Witness)
+        watched(
+            ActionDependencyGraph(plan.scenario, plan.tracks, hazards), run, (True, True), Witness
+        )
     assert Witness.changes > 0
 
 
@@ -153,9 +158,11 @@ def test_what_is_still_to_come_decides_nothing(
     for later in ([], [(Tick(cut), Tick(50))]):
         each = [[stop] for stop in stops]
         each[0] = sorted([stop for stop in each[0] if sum(stop) < cut] + later)
-        hazards = Hazards.none(len(plan.tracks))
+        hazards = DelayModel.none(len(plan.tracks))
         standstills = tuple(tuple(one) for one in each)
-        floor = DelayedPlan(plan.scenario, plan.tracks, replace(hazards, standstills=standstills))
+        floor = ActionDependencyGraph(
+            plan.scenario, plan.tracks, replace(hazards, standstills=standstills)
+        )
         seen.append(seen_until(watched(floor, 0, care), cut))
     assert seen[0] == seen[1]
 

@@ -10,13 +10,13 @@ from itertools import islice
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rightofway.laps import run_laps
-from rightofway.laps.outcome import GroupRun
-from rightofway.laps.pattern import Pattern
+from rightofway.cyclic import run_laps
+from rightofway.cyclic.pattern import Pattern
+from rightofway.cyclic.problem import CyclicProblem
+from rightofway.cyclic.result import GroupRun
+from rightofway.cyclic.windows import windows
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, planning_headway
-from rightofway.timetables.shift import Shift
-from rightofway.timetables.windows import windows
 from tests.fleets import random_fleet
 from tests.oracles import circle as oracle
 
@@ -50,8 +50,8 @@ def watched(scenario: Scenario) -> tuple[GroupRun, Pattern]:
     return replace(run, ends="open", why="", history=history, pattern=None), pattern
 
 
-def shift_of(scenario: Scenario, run: GroupRun) -> Shift:
-    return Shift(
+def shift_of(scenario: Scenario, run: GroupRun) -> CyclicProblem:
+    return CyclicProblem(
         n_vertices=scenario.roadmap.n_vertices,
         headway=planning_headway(scenario),
         books_ahead=scenario.rules.books_ahead,

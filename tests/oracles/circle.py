@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 
 from rightofway.model import Itinerary, Lap, Roadmap, edge_ticks
-from rightofway.precedence import PeriodicTimetable
+from rightofway.precedence import CyclicSchedule
 
 
 def bookings(
@@ -24,7 +24,7 @@ def bookings(
     ]
 
 
-def faults(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool) -> list[str]:
+def faults(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) -> list[str]:
     """Return what is wrong in a timetable: drives too fast, overlaps, swaps; over three periods."""
     period = int(timetable.period)
     found = []
@@ -43,7 +43,7 @@ def faults(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool) -> 
 
 
 def _meetings(
-    timetable: PeriodicTimetable, one: int, other: int, *, headway: int, books_ahead: bool
+    timetable: CyclicSchedule, one: int, other: int, *, headway: int, books_ahead: bool
 ) -> list[str]:
     period = int(timetable.period)
     own, others = (
@@ -68,13 +68,13 @@ def _meetings(
     return found
 
 
-def _swaps(timetable: PeriodicTimetable, one: int, other: int, shift: int) -> list[str]:
+def _swaps(timetable: CyclicSchedule, one: int, other: int, shift: int) -> list[str]:
     moves = [_moves(timetable, robot) for robot in (one, other)]
     there = {(tick + shift, head, tail) for tick, tail, head in moves[1]}
     return [f"{one} and {other} swap at {move[0]}" for move in moves[0] if move in there]
 
 
-def _moves(timetable: PeriodicTimetable, robot: int) -> list[tuple[int, int, int]]:
+def _moves(timetable: CyclicSchedule, robot: int) -> list[tuple[int, int, int]]:
     lap, enter = timetable.laps[robot], timetable.enter[robot].tolist()
     return [
         (tick, lap.vertices[(k - 1) % len(lap)], lap.vertices[k % len(lap)])
@@ -82,7 +82,7 @@ def _moves(timetable: PeriodicTimetable, robot: int) -> list[tuple[int, int, int
     ]
 
 
-def can_go_round(lap: Lap, others: PeriodicTimetable, *, headway: int, books_ahead: bool) -> bool:
+def can_go_round(lap: Lap, others: CyclicSchedule, *, headway: int, books_ahead: bool) -> bool:
     """Tell whether one lap fits in among others, by trying all starts and all waits, tick by tick.
 
     The robot's state is (visit, ticks since it entered it, up to what it needs there); it must be
@@ -97,7 +97,7 @@ def can_go_round(lap: Lap, others: PeriodicTimetable, *, headway: int, books_ahe
 
 
 def _taken(
-    others: PeriodicTimetable, *, headway: int, books_ahead: bool
+    others: CyclicSchedule, *, headway: int, books_ahead: bool
 ) -> tuple[Callable[[int, int, int], bool], set[tuple[int, int, int]]]:
     """Return whether a vertex is free from one tick to another, and who moves when from where."""
     period = int(others.period)
@@ -120,7 +120,7 @@ def _taken(
 def has_a_way(
     itinerary: Itinerary,
     roadmap: Roadmap,
-    others: PeriodicTimetable,
+    others: CyclicSchedule,
     *,
     headway: int,
     books_ahead: bool,

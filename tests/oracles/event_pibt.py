@@ -57,7 +57,7 @@ class Fleet:
 
     def __post_init__(self) -> None:
         roadmap = self.scenario.roadmap
-        self.trips = self.scenario.timing.itineraries
+        self.trips = self.scenario.problem.itineraries
         self.heads = [
             roadmap.heads[roadmap.indptr[v] : roadmap.indptr[v + 1]].tolist()
             for v in range(roadmap.n_vertices)

@@ -50,7 +50,7 @@ def best_on(
 def routes_of(plan: Plan) -> list[Route]:
     """Return the routes of a plan, without its times."""
     scenario = plan.scenario
-    pairs = zip(scenario.timing.itineraries, plan.tracks, strict=True)
+    pairs = zip(scenario.problem.itineraries, plan.tracks, strict=True)
     return [route_of(scenario.roadmap, itinerary, track) for itinerary, track in pairs]
 
 
@@ -61,7 +61,7 @@ def system_of(scenario: Scenario, routes: Sequence[Route]) -> System:
         routes=tuple(route.vertices for route in routes),
         least=tuple(route.least(visit) for route in routes for visit in range(len(route))),
         approach=tuple(int(drive) if ahead else 0 for route in routes for drive in route.drive),
-        headway=scenario.timing.headway,
+        headway=scenario.problem.headway,
         active=(True,) * len(routes),
     )
 

@@ -15,8 +15,8 @@ State = tuple[tuple[int, ...], tuple[int, ...]]
 
 def can_get_through(scenario: Scenario, *, may_rotate: bool) -> bool:
     """Search all configurations that can be reached, the nearest first."""
-    goals = [[int(s.vertex) for s in it.stages] for it in scenario.timing.itineraries]
-    homes = tuple(int(itinerary.home) for itinerary in scenario.timing.itineraries)
+    goals = [[int(s.vertex) for s in it.stages] for it in scenario.problem.itineraries]
+    homes = tuple(int(itinerary.home) for itinerary in scenario.problem.itineraries)
     start = advance(homes, (0,) * len(homes), goals)
     queue, seen = deque([start]), {start}
     while queue:

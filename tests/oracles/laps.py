@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise, product
 
-from rightofway.precedence import PeriodicTimetable
+from rightofway.precedence import CyclicSchedule
 
 __all__ = ["largest_mean_cycle_is", "replay"]
 
@@ -16,7 +16,7 @@ GIVEN = 2
 """Periods whose times are given: no arc reaches further."""
 
 
-def event_arcs(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool) -> list[Arc]:
+def event_arcs(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) -> list[Arc]:
     """Return what each visit of a period has to wait for: its robot, and the one before it.
 
     A visit belongs to the period in which it begins, so no height is negative.
@@ -43,7 +43,7 @@ def event_arcs(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool)
     return arcs
 
 
-def lasts(timetable: PeriodicTimetable, robot: int, index: int) -> int:
+def lasts(timetable: CyclicSchedule, robot: int, index: int) -> int:
     """Return how long a visit lasts."""
     enter: list[int] = [
         *timetable.enter[robot].tolist(),
@@ -53,7 +53,7 @@ def lasts(timetable: PeriodicTimetable, robot: int, index: int) -> int:
 
 
 def replay(
-    timetable: PeriodicTimetable, periods: int, *, headway: int, books_ahead: bool
+    timetable: CyclicSchedule, periods: int, *, headway: int, books_ahead: bool
 ) -> dict[tuple[int, int, int], int]:
     """Return when visits (robot, index, period) begin if the orders of a period are kept.
 
@@ -77,7 +77,7 @@ def replay(
     return when
 
 
-def largest_mean_cycle_is(timetable: PeriodicTimetable, *, headway: int, books_ahead: bool) -> bool:
+def largest_mean_cycle_is(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) -> bool:
     """Tell whether the period is the largest mean cycle of the orders: length by height."""
     arcs = event_arcs(timetable, headway=headway, books_ahead=books_ahead)
     most = sum(height for *_, height in arcs)

@@ -11,7 +11,7 @@ from tests.oracles.distances import Edge
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Traffic:
+class Congestion:
     """What the kernel does, edge by edge; edges in order of where they start, then as they come."""
 
     n_vertices: int

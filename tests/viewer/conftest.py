@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rightofway.model import Actual, Plan, Steady
+from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz import write_page
 
 if TYPE_CHECKING:
@@ -96,8 +96,8 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         plan: Plan,
         fragment: str = "",
         *,
-        steady: Sequence[Steady] = (),
-        actual: Actual | None = None,
+        steady: Sequence[SteadyState] = (),
+        actual: ExecutionTrace | None = None,
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"

@@ -8,16 +8,16 @@ import numpy as np
 
 from rightofway.metrics.stays import stays_of
 from rightofway.model import (
-    Actual,
     Decision,
     Edge,
+    ExecutionTrace,
     Plan,
     PlannerRun,
     Reroute,
     Robot,
     Rules,
     Scenario,
-    Steady,
+    SteadyState,
     Stop,
     Tick,
     Track,
@@ -194,23 +194,23 @@ def counter(laps: int = 4) -> Plan:
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
 
 
-def counter_steady() -> Steady:
+def counter_steady() -> SteadyState:
     """Return the steady period of `counter`.
 
     From tick 6 on, when R2 comes to the counter and R1 is home, everything comes again. The circle:
     R1 comes to N1 and goes home, so R2 comes to N1 and goes home, so R1 comes to N1, 10 ticks on.
     """
     critical = ((0, 3), (0, 2), (1, 1), (1, 2))  # at ticks 11, 6 (so 16), 6 (so 16) and 11 (so 21)
-    return Steady(robots=(0, 1), start=Tick(6), period=Tick(10), critical=critical)
+    return SteadyState(robots=(0, 1), start=Tick(6), period=Tick(10), critical=critical)
 
 
-def counter_late() -> Actual:
+def counter_late() -> ExecutionTrace:
     """Return a run of `counter`: R1 is held up for 4 ticks at its first work, R2 breaks down.
 
     R1 stands still from 3 to 7 and leaves N1 at 10 instead of 6; all that follows is 4 late. R2
     comes to N1 at 20 instead of 16 and breaks down there at 22; R1, home since 20, waits for ever.
     """
-    return Actual(
+    return ExecutionTrace(
         tracks=(
             Track.of([0, 1, 0, 1, 0], [0, 1, 10, 15, 20]),
             Track.of([2, 1, 2, 1], [0, 10, 15, 20]),
@@ -222,7 +222,7 @@ def counter_late() -> Actual:
     )
 
 
-def delayed(plan: Plan, every: int = 9) -> Actual:
+def delayed(plan: Plan, every: int = 9) -> ExecutionTrace:
     """Return a run of a plan in which each robot loses ticks by itself, and heeds nobody.
 
     Each drive into every ninth visit takes a tick longer, and each robot stands still for 12 ticks.
@@ -240,7 +240,7 @@ def delayed(plan: Plan, every: int = 9) -> Actual:
         dwells.append(stay.dwell)
         drives.append(np.append(0, stay.drive[:-1]) + slow)
         standstills.append(((Tick(begin), Tick(12)),) if begin < enter[-1] else ())
-    return Actual(
+    return ExecutionTrace(
         tracks=tuple(tracks),
         dwell=tuple(dwells),
         drive=tuple(drives),

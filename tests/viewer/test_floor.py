@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rightofway.model import Actual, Tick, Track
+from rightofway.model import ExecutionTrace, Tick, Track
 from tests.viewer.conftest import Opener, Viewer
 from tests.viewer.plans import counter, counter_late, counter_steady, crowd, delayed, door
 from tests.viewer.test_laps import pixel
@@ -87,7 +87,7 @@ def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Viewer) ->
 
 def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
     """R2 of the door breaks down in N4 at 3; R1 turns back in N1 and is home at 6."""
-    actual = Actual(
+    actual = ExecutionTrace(
         tracks=(Track.of([0, 1, 0], [0, 2, 6]), Track.of([2, 1, 3], [0, 1, 2])),
         dwell=(np.zeros(3, np.int64), np.zeros(3, np.int64)),
         drive=(np.array([0, 1, 1]), np.array([0, 1, 1])),

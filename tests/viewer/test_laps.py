@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from rightofway.model import Steady, Tick
+from rightofway.model import SteadyState, Tick
 from tests.viewer.conftest import Opener, Viewer
 from tests.viewer.plans import counter, counter_late, counter_steady, door
 
@@ -101,7 +101,7 @@ def test_groups_keep_their_own_periods_in_the_loop(show: Opener) -> None:
     own = counter_steady()
     groups = [
         replace(own, robots=(0,), critical=()),
-        Steady(robots=(1,), start=Tick(11), period=Tick(20)),
+        SteadyState(robots=(1,), start=Tick(11), period=Tick(20)),
     ]
     viewer = show(counter(), "#tick=6", steady=groups)
     viewer.ask("loop.toggle(), clock.pause(), clock.advance(27 / clock.rate)")

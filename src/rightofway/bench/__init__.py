@@ -7,7 +7,7 @@ distributed are needed for reports, Parquet files and clusters only, and importe
 from rightofway.bench.cases import Case, cases_of
 from rightofway.bench.cluster import run_on_cluster
 from rightofway.bench.extras import need
-from rightofway.bench.groups import Group, Spread, by_planner
+from rightofway.bench.groups import Group, Quantiles, by_planner
 from rightofway.bench.local import run_here
 from rightofway.bench.machine import machine
 from rightofway.bench.report import write_report
@@ -19,9 +19,9 @@ __all__ = [
     "Case",
     "Column",
     "Group",
+    "Quantiles",
     "Results",
     "Row",
-    "Spread",
     "Suite",
     "by_planner",
     "cases_of",

@@ -112,7 +112,7 @@ def _combinations(suite: Suite) -> Iterator[Case]:
     for ground in suite.grounds:
         fleets: tuple[Fleet | None, ...] = (None,) if ground.has_fleet else suite.fleets
         for source, fleet, count in product(ground.sources, fleets, ground.counts):
-            problem, data = source.problem(count), _data(fleet) if fleet else None
+            problem, data = source.fault(count), _data(fleet) if fleet else None
             for seed, limit, contender in product(suite.seeds, suite.limits, suite.contenders):
                 yield Case(
                     map=ground.name,

@@ -57,7 +57,7 @@ def run_on_cluster(
             report(f"{address} has no workers yet; waiting for some")
         yield from _rows(client, iter(cases))
     except InputError as error:
-        raise InputError(error.problems, address) from None
+        raise InputError(error.faults, address) from None
     except Exception as error:
         is_cut_off = isinstance(error, OSError)  # the client may not have noticed yet
         if client.status == "running" and not is_cut_off:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.bench.fleets import largest_part, random_grid
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io import dump_scenario, read, scenario_of
 from rightofway.io.faults import Faults, under
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -40,7 +40,7 @@ class Source:
     map: Mapping[str, Any]
     ends: tuple[tuple[Cell, Cell], ...] = ()
 
-    def problem(self, robots: int) -> dict[str, Any]:
+    def fault(self, robots: int) -> dict[str, Any]:
         """Return the map with the ends of so many robots."""
         return {**self.map, "ends": self.ends[:robots]} if self.ends else dict(self.map)
 
@@ -149,8 +149,7 @@ def _rows_of(document: MapCasesDocument, index: int, robots: int, base: Path) ->
     except InputError as error:
         keys = {"map.file": "file", "robots.scen": f"scens[{index}]", "robots.count": "counts"}
         raise InputError(
-            Problem(keys.get(problem.place, problem.place), problem.message)
-            for problem in error.problems
+            InputFault(keys.get(fault.place, fault.place), fault.message) for fault in error.faults
         ) from None
     grid = scenario.roadmap.grid
     assert grid is not None, "or its reader would have refused the rows"

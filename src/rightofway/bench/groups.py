@@ -11,11 +11,11 @@ import numpy as np
 
 from rightofway.bench.rows import Row
 
-__all__ = ["Group", "Spread", "by_planner", "by_robots", "grouped", "planner_names"]
+__all__ = ["Group", "Quantiles", "by_planner", "by_robots", "grouped", "planner_names"]
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class Quantiles:
     """The middle of some numbers, and how far half of them spread."""
 
     first_quartile: float
@@ -23,7 +23,7 @@ class Spread:
     third_quartile: float
 
     @classmethod
-    def of(cls, values: Iterable[float | None]) -> Spread | None:
+    def of(cls, values: Iterable[float | None]) -> Quantiles | None:
         """Return the spread of those that are there, or None if there is none."""
         known = [value for value in values if value is not None]
         return cls(*map(float, np.percentile(known, [25, 50, 75]))) if known else None
@@ -49,8 +49,8 @@ class Group:
 
     cases: int
     solved: int
-    ratio: Spread | None
-    seconds: Spread | None
+    ratio: Quantiles | None
+    seconds: Quantiles | None
     memory: float | None
     statuses: Mapping[str, int]
 
@@ -61,8 +61,8 @@ class Group:
         return cls(
             cases=len(rows),
             solved=sum(row["solved"] for row in rows),
-            ratio=Spread.of(row["ratio"] for row in rows if row["solved"]),
-            seconds=Spread.of(row["first_plan_seconds"] for row in rows),
+            ratio=Quantiles.of(row["ratio"] for row in rows if row["solved"]),
+            seconds=Quantiles.of(row["first_plan_seconds"] for row in rows),
             memory=max(memory, default=None),
             statuses=dict(Counter(row["status"] for row in rows)),
         )

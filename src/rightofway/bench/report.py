@@ -7,7 +7,7 @@ import html
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from rightofway.bench.groups import Group, Spread, by_planner, by_robots, grouped, planner_names
+from rightofway.bench.groups import Group, Quantiles, by_planner, by_robots, grouped, planner_names
 from rightofway.bench.plots import cactus_plot, ratio_plot
 from rightofway.bench.rows import Row
 from rightofway.errors import InputError
@@ -144,7 +144,7 @@ def _numbers(group: Group) -> Iterator[str]:
     yield "" if group.memory is None else f"{group.memory:.0f}"
 
 
-def _words(spread: Spread | None, form: str) -> str:
+def _words(spread: Quantiles | None, form: str) -> str:
     if spread is None:
         return ""
     low, high = (f"{each:{form}}" for each in (spread.first_quartile, spread.third_quartile))

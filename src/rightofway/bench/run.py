@@ -80,7 +80,7 @@ def _judged(plan: Plan) -> dict[str, Any]:
         "makespan": int(metrics.makespan),
         "lower_bound": int(metrics.lower_bound),
         "ratio": round(1 + metrics.gap, 6) if math.isfinite(metrics.gap) else None,
-        "tick": str(plan.scenario.timing.clock.tick),
+        "tick": str(plan.scenario.problem.clock.tick),
         "first_plan_seconds": _rounded(plan.run.first_plan_seconds),
     }
 

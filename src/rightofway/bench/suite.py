@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.bench.grounds import Ground, ground_of
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io import scenario_of
 from rightofway.io.faults import Faults, blaming, checked, checked_format
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT
@@ -177,7 +177,7 @@ def _try_out(fleet: Fleet) -> None:
             }
         )
     except InputError as error:
-        first = error.problems[0]  # the robots are alike, and so are their faults
+        first = error.faults[0]  # the robots are alike, and so are their faults
         key = first.place.removeprefix("rules.")
         raise InputError.at("speeds" if key == "robots" else key, first.message) from None
 
@@ -188,7 +188,7 @@ def _contender(document: PlannerDocument) -> Contender:
         options = spec.settle(_plain(document.options))
     except InputError as error:
         raise InputError(
-            Problem(_place(problem.place), problem.message) for problem in error.problems
+            InputFault(_place(fault.place), fault.message) for fault in error.faults
         ) from None
     return Contender(planner=spec.name, options=options)
 

@@ -21,7 +21,7 @@ __all__ = ["judge_meetings"]
 
 def judge_meetings(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> None:
     """Find vertex conflicts, and those that only the headway makes."""
-    headway = plan.scenario.timing.headway
+    headway = plan.scenario.problem.headway
     approaches = plan.scenario.rules.occupancy == "both"
     bookings = _crowded_only(_bookings(visits, headway, approaches=approaches))
     judgement = _Meetings(bookings, headway, words, sieve)

@@ -25,7 +25,7 @@ def judge_trips(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> None:
         end = begin + len(track)
         trip = _Trip(
             robot=robot,
-            itinerary=plan.scenario.timing.itineraries[robot],
+            itinerary=plan.scenario.problem.itineraries[robot],
             vertices=track.vertices.tolist(),
             enter=track.enter.tolist(),
             spare=spare[begin:end],

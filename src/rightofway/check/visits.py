@@ -75,11 +75,11 @@ def visits_of(plan: Plan) -> Visits:
 
 
 def _integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:
-    timing = plan.scenario.timing
+    problem = plan.scenario.problem
     edge_ticks: Iterable[int] = chain.from_iterable(
-        {itinerary.edge_ticks for itinerary in timing.itineraries}
+        {itinerary.edge_ticks for itinerary in problem.itineraries}
     )
-    largest = max(int(enter.max()), -int(enter.min()), timing.headway, *edge_ticks)
+    largest = max(int(enter.max()), -int(enter.min()), problem.headway, *edge_ticks)
     return np.dtype(np.int64 if largest < SAFE else object)
 
 
@@ -106,7 +106,7 @@ def _drives(
     paces: dict[tuple[int, ...], int] = {}
     pace_of = [
         paces.setdefault(itinerary.edge_ticks, len(paces))
-        for itinerary in plan.scenario.timing.itineraries
+        for itinerary in plan.scenario.problem.itineraries
     ]
     ticks = np.array(list(paces), integers)
     drive = np.zeros(len(edge), integers)

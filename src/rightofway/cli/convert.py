@@ -49,7 +49,7 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
     try:
         losses = write_scen(scenario, path, map_name=map_path.name)
     except InputError as error:
-        raise InputError(error.problems, error.source or str(path)) from None
+        raise InputError(error.faults, error.source or str(path)) from None
     write_map(scenario.roadmap, map_path)
     for loss in losses:
         say(f"{path}: {loss}")

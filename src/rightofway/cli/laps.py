@@ -12,7 +12,7 @@ from rightofway.cli.planning import refuse_bad_outputs, seconds, write
 from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
 
 if TYPE_CHECKING:
-    from rightofway.laps import LapsRun
+    from rightofway.cyclic import CyclicResult
 
 __all__ = ["laps"]
 
@@ -80,9 +80,8 @@ def laps(
     per hour where the unit is a second.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.laps import plan_of, run_laps, shown
-    from rightofway.model.steady import within
-    from rightofway.timetables import best_timetable, run_of
+    from rightofway.cyclic import best_timetable, plan_of, run_laps, run_of, shown
+    from rightofway.model.steady_state import within
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
     if rule == "timetable" and routes:
@@ -115,8 +114,8 @@ def laps(
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
 
 
-def _write_page(run: LapsRun, page: str) -> None:
-    from rightofway.laps import shown
+def _write_page(run: CyclicResult, page: str) -> None:
+    from rightofway.cyclic import shown
     from rightofway.viz import write_page
 
     plan, steady = shown(run)

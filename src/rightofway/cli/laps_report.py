@@ -15,8 +15,7 @@ from rightofway.cli.laps_theory import (
     sensitivity_lines,
 )
 from rightofway.cli.words import wrapped
-from rightofway.laps import Bottleneck, Conflict, GroupRun, LapsRun, in_words
-from rightofway.timetables import GroupTimetable
+from rightofway.cyclic import Bottleneck, Conflict, CyclicResult, GroupRun, GroupTimetable, in_words
 
 __all__ = ["laps_data", "laps_report"]
 
@@ -39,7 +38,7 @@ Sights = dict[tuple[int, int, int], list[Fraction]]
 """By place, who waits and for whom: when [time unit]."""
 
 
-def laps_data(run: LapsRun, chosen: Sequence[GroupTimetable] = ()) -> dict[str, Any]:
+def laps_data(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> dict[str, Any]:
     """Return a run for programs; times are exact fractions of the scenario's unit.
 
     Of timetables that were chosen, also how they compare.
@@ -55,9 +54,9 @@ def laps_data(run: LapsRun, chosen: Sequence[GroupTimetable] = ()) -> dict[str, 
     }
 
 
-def _group_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
+def _group_data(run: CyclicResult, group: GroupRun) -> dict[str, Any]:
     names, pattern = _names(run, group), group.pattern
-    time = run.scenario.timing.clock.time
+    time = run.scenario.problem.clock.time
     means = [None if mean is None else str(mean * time(1)) for mean in group.mean_laps()]
     shares = [None if share is None else str(share) for share in group.waiting_shares()]
     return {
@@ -88,7 +87,7 @@ def _is_long(group: GroupRun) -> bool:
     return sum(laps * each for laps, each in visits) > MOST_VISITS
 
 
-def _waits_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
+def _waits_data(run: CyclicResult, group: GroupRun) -> dict[str, Any]:
     """Return who waits for whom, and what sets the pace."""
     return {
         "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
@@ -98,19 +97,19 @@ def _waits_data(run: LapsRun, group: GroupRun) -> dict[str, Any]:
     }
 
 
-def _measured_data(run: LapsRun, group: GroupRun) -> dict[str, Any] | None:
+def _measured_data(run: CyclicResult, group: GroupRun) -> dict[str, Any] | None:
     """Return what the means are of, where nothing is known to repeat."""
     if group.pattern:
         return None
     measured, names = group.measured(), _names(run, group)
     return {
-        "from": str(run.scenario.timing.clock.time(measured.warm_up)),
+        "from": str(run.scenario.problem.clock.time(measured.warm_up)),
         "laps": dict(zip(names, measured.laps, strict=True)),
     }
 
 
-def _conflict_data(run: LapsRun, conflict: Conflict, when: str) -> dict[str, Any]:
-    time, robots = run.scenario.timing.clock.time, run.scenario.robots
+def _conflict_data(run: CyclicResult, conflict: Conflict, when: str) -> dict[str, Any]:
+    time, robots = run.scenario.problem.clock.time, run.scenario.robots
     return {
         "vertex": run.scenario.roadmap.name(conflict.vertex),
         "robots": [robots[robot].name for robot in conflict.pair],
@@ -120,8 +119,8 @@ def _conflict_data(run: LapsRun, conflict: Conflict, when: str) -> dict[str, Any
     }
 
 
-def _bottleneck_data(run: LapsRun, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
-    time, scenario = run.scenario.timing.clock.time, run.scenario
+def _bottleneck_data(run: CyclicResult, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+    time, scenario = run.scenario.problem.clock.time, run.scenario
     return [
         {
             "kind": piece.kind,
@@ -133,12 +132,12 @@ def _bottleneck_data(run: LapsRun, bottleneck: Bottleneck | None) -> list[dict[s
     ]
 
 
-def laps_report(run: LapsRun, chosen: Sequence[GroupTimetable] = ()) -> str:
+def laps_report(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> str:
     """Return a run for people; of timetables that were chosen, also how they compare."""
     return "\n".join(_lines(run, {one.timetable.robots: one for one in chosen}))
 
 
-def _lines(run: LapsRun, chosen: Mapping[tuple[int, ...], GroupTimetable]) -> Iterator[str]:
+def _lines(run: CyclicResult, chosen: Mapping[tuple[int, ...], GroupTimetable]) -> Iterator[str]:
     together = [group for group in run.groups if len(group.robots) > 1]
     yield f"rule        {run.rule}, on {run.routes} routes"
     yield f"groups      {_groups(run, together)}"
@@ -154,7 +153,7 @@ def _lines(run: LapsRun, chosen: Mapping[tuple[int, ...], GroupTimetable]) -> It
         yield f"… and {len(largest) - MOST_GROUPS} more groups, none larger (--json has them all)"
 
 
-def _groups(run: LapsRun, together: Sequence[GroupRun]) -> str:
+def _groups(run: CyclicResult, together: Sequence[GroupRun]) -> str:
     ends = Counter(group.ends for group in together)
     counts = [
         (ends["repeats"], "repeats itself"),
@@ -167,8 +166,8 @@ def _groups(run: LapsRun, together: Sequence[GroupRun]) -> str:
     return "; ".join([*told, *lonely])
 
 
-def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
-    time = run.scenario.timing.clock.time
+def _group_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+    time = run.scenario.problem.clock.time
     who = f"{len(group.robots)} robots"
     if group.pattern is None:
         yield from wrapped(f"{who}: {group.why}. {_so_far(run, group)}:")
@@ -187,18 +186,18 @@ def _group_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
         yield from sensitivity_lines(run, group)
 
 
-def _so_far(run: LapsRun, group: GroupRun) -> str:
+def _so_far(run: CyclicResult, group: GroupRun) -> str:
     """Say what the means of laps are of, where nothing is known to repeat."""
     if group.ends == "deadlock":
         return "Their laps so far"
     measured = group.measured()
     laps = sum(measured.laps) / len(measured.laps)
-    since = _short(run.scenario.timing.clock.time(measured.warm_up))
+    since = _short(run.scenario.problem.clock.time(measured.warm_up))
     return f"Means of {laps:.1f} laps each, from time {since} on, not proven to stay so"
 
 
-def _robot_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
-    names, tick = _names(run, group), run.scenario.timing.clock.tick
+def _robot_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+    names, tick = _names(run, group), run.scenario.problem.clock.tick
     counts = group.pattern.counts if group.pattern else group.measured().laps
     title = "laps/period" if group.pattern else "laps"
     width = max(map(len, ("robot", *names[:MOST_LINES])))
@@ -219,7 +218,7 @@ def _short(number: Fraction) -> str:
     return str(number) if number.denominator <= MOST_OF_DENOMINATOR else f"{float(number):.2f}"
 
 
-def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
+def _conflict_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
     """Yield who waits where for whom: in each period, and in the first lap."""
     first, steady = (
         _sights(run, found) for found in (run.first_conflicts(group), run.conflicts(group))
@@ -241,10 +240,10 @@ def _conflict_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
         yield f"  … and {more} more"
 
 
-def _sights(run: LapsRun, conflicts: Sequence[Conflict]) -> Sights:
+def _sights(run: CyclicResult, conflicts: Sequence[Conflict]) -> Sights:
     found: Sights = {}
     for one in conflicts:
-        when = run.scenario.timing.clock.time(one.tick)
+        when = run.scenario.problem.clock.time(one.tick)
         found.setdefault((one.vertex, one.waits, one.for_robot), []).append(when)
     return found
 
@@ -254,5 +253,5 @@ def _times(times: Sequence[Fraction]) -> str:
     return told if len(times) <= MOST_TIMES else f"{told} and {len(times) - MOST_TIMES} times more"
 
 
-def _names(run: LapsRun, group: GroupRun) -> list[str]:
+def _names(run: CyclicResult, group: GroupRun) -> list[str]:
     return [run.scenario.robots[robot].name for robot in group.robots]

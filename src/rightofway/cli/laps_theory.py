@@ -7,9 +7,14 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.cli.words import wrapped
-from rightofway.laps import GroupRun, LapsRun, Lever, levers_of
+from rightofway.cyclic import (
+    CyclicResult,
+    GroupRun,
+    GroupTimetable,
+    ParameterEffect,
+    parameter_effects,
+)
 from rightofway.model import Scenario
-from rightofway.timetables import GroupTimetable
 
 __all__ = ["HOUR", "rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
 
@@ -24,16 +29,16 @@ MOST_VISITS = 200_000
 """In periods of more visits nobody looks for what would help: each search takes long."""
 
 
-def sensitivity_data(run: LapsRun, group: GroupRun) -> list[dict[str, Any]]:
+def sensitivity_data(run: CyclicResult, group: GroupRun) -> list[dict[str, Any]]:
     """Return what would help, for programs; times are exact fractions of the unit."""
     graph = run.graph(group)
     if graph is None or len(graph.vertex) > MOST_VISITS:
         return []
-    return [_lever_data(run.scenario, lever) for lever in levers_of(run.scenario, graph)]
+    return [_lever_data(run.scenario, lever) for lever in parameter_effects(run.scenario, graph)]
 
 
-def _lever_data(scenario: Scenario, lever: Lever) -> dict[str, Any]:
-    time, effect = scenario.timing.clock.tick, lever.effect
+def _lever_data(scenario: Scenario, lever: ParameterEffect) -> dict[str, Any]:
+    time, effect = scenario.problem.clock.tick, lever.effect
     return {
         "kind": lever.kind,
         "robot": None if lever.robot is None else scenario.robots[lever.robot].name,
@@ -46,7 +51,7 @@ def _lever_data(scenario: Scenario, lever: Lever) -> dict[str, Any]:
     }
 
 
-def sensitivity_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
+def sensitivity_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
     """Say what would make a period shorter."""
     graph = run.graph(group)
     if graph is None:
@@ -54,20 +59,20 @@ def sensitivity_lines(run: LapsRun, group: GroupRun) -> Iterator[str]:
     if len(graph.vertex) > MOST_VISITS:
         yield "  what would help is not looked for in a period as long as this"
         return
-    levers = levers_of(run.scenario, graph, most=MOST_LEVERS)
-    helps = [lever for lever in levers if lever.ten_per_cent < lever.effect.cycle_time]
+    effects = parameter_effects(run.scenario, graph, most=MOST_LEVERS)
+    helps = [lever for lever in effects if lever.ten_per_cent < lever.effect.cycle_time]
     for lever in helps:
         yield f"  {_said(run.scenario, lever)}"
     if not helps:
         yield "  nothing helps alone: other circuits are as long"
 
 
-def _said(scenario: Scenario, lever: Lever) -> str:
+def _said(scenario: Scenario, lever: ParameterEffect) -> str:
     saved = 1 - lever.ten_per_cent / lever.effect.cycle_time
     return f"{_what(scenario, lever)}: the period gets {float(saved):.2%} shorter"
 
 
-def _what(scenario: Scenario, lever: Lever) -> str:
+def _what(scenario: Scenario, lever: ParameterEffect) -> str:
     if lever.robot is None:
         return "10% less headway"
     robot = scenario.robots[lever.robot]
@@ -80,7 +85,7 @@ def _what(scenario: Scenario, lever: Lever) -> str:
 
 def rival_data(scenario: Scenario, chosen: GroupTimetable) -> dict[str, Any]:
     """Return how a chosen timetable compares with first come first served, for programs."""
-    hour = HOUR / scenario.timing.clock.tick
+    hour = HOUR / scenario.problem.clock.tick
     return {
         "throughput_per_hour": str(chosen.throughput * hour),
         "fairness": str(chosen.fairness),

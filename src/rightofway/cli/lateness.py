@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from rightofway.cli.summary import MOST_LINES, short
 from rightofway.cli.words import COLUMNS, names_of
-from rightofway.floor import Outcome, Spread, Won
+from rightofway.execution import Outcome, PolicyGain, Quantiles
 
 __all__ = ["report"]
 
@@ -64,7 +64,7 @@ def _by_clock(outcome: Outcome) -> str:
     return f"{clock.runs / outcome.runs:.1%} of runs collide, {often}, {first}"
 
 
-def _spread(spread: Spread) -> str:
+def _spread(spread: Quantiles) -> str:
     if spread.mean is None:
         return "nobody ever completes"
     return (
@@ -73,7 +73,7 @@ def _spread(spread: Spread) -> str:
     )
 
 
-def _won(won: Won) -> str:
+def _won(won: PolicyGain) -> str:
     """Say what was won; what was lost is won below zero."""
     spread, runs = won.flowtime, won.runs
     return (

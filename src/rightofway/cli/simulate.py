@@ -9,7 +9,7 @@ import click
 from rightofway.cli.terminal import progress, put, put_json, read_plan, say, writable
 
 if TYPE_CHECKING:
-    from rightofway.floor import Outcome
+    from rightofway.execution import Outcome
 
 __all__ = ["simulate"]
 
@@ -27,7 +27,7 @@ class _SimulateCommand(click.Command):
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the delays, then what else there is."""
-        from rightofway.floor import CAUSES
+        from rightofway.execution import CAUSES
 
         with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
             formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
@@ -104,8 +104,8 @@ def simulate(
     """
     if run is not None and not 0 <= run < runs:
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
-    from rightofway.floor import DEFAULT
-    from rightofway.floor import simulate as run_on_the_floor
+    from rightofway.execution import DEFAULT
+    from rightofway.execution import simulate as run_on_the_floor
 
     texts = [text for one in delays or [DEFAULT] for text in _texts(one)]
     found = read_plan(plan)

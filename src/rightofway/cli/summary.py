@@ -39,7 +39,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "seed": run.seed,
             "status": run.status,
         },
-        "tick": str(plan.scenario.timing.clock.tick),
+        "tick": str(plan.scenario.problem.clock.tick),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
         "robots": [
             {"name": name, "completion": completion, "alone": alone, "waiting": waiting}
@@ -60,7 +60,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
 
 
 def _head(plan: Plan, metrics: Metrics) -> Iterator[str]:
-    tick = plan.scenario.timing.clock.tick
+    tick = plan.scenario.problem.clock.tick
     above = f"{metrics.gap:.1%} above the lower bound {metrics.lower_bound}"
     rows = [
         ("planner", f"{plan.run.name}: {plan.run.status}"),

@@ -1,4 +1,4 @@
-"""Files with a list of what makes robots late; what a line means, `rightofway.floor` says."""
+"""Files with a list of what makes robots late; what a line means, `rightofway.execution` says."""
 
 from __future__ import annotations
 

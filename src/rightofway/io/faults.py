@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io.formats import PLAN_FORMAT, SCENARIO_FORMAT, SUITE_FORMAT
 from rightofway.io.words import nearest, place_of, shown
 
@@ -29,7 +29,7 @@ class Faults:
     """The problems found so far in one document."""
 
     def __init__(self) -> None:
-        self._problems: list[Problem] = []
+        self._faults: list[InputFault] = []
 
     def attempt(self, place: str, read: Callable[..., T], *arguments: Any) -> T | None:
         """Return what ``read`` makes of a part of the document, or None after noting its faults."""
@@ -37,7 +37,7 @@ class Faults:
             with under(place):
                 return read(*arguments)
         except InputError as error:
-            self._problems += error.problems
+            self._faults += error.faults
             return None
 
     def part(
@@ -48,7 +48,7 @@ class Faults:
 
     def note(self, place: str, message: str) -> None:
         """Note one problem."""
-        self._problems.append(Problem(place, message))
+        self._faults.append(InputFault(place, message))
 
     def stop(self, order: Iterable[str] = ()) -> None:
         """Raise all problems, if there are any, in the order of the document's keys.
@@ -58,17 +58,17 @@ class Faults:
         InputError
             With every problem, each told once.
         """
-        if not self._problems:
+        if not self._faults:
             return
         ranks = {key: rank for rank, key in enumerate(order)}
-        problems = sorted(dict.fromkeys(self._problems), key=lambda problem: _rank(problem, ranks))
-        left = len(problems) - MAX_PROBLEMS
-        more = [Problem("", f"and {left} more (mend these first)")] if left > 0 else []
-        raise InputError([*problems[:MAX_PROBLEMS], *more])
+        faults = sorted(dict.fromkeys(self._faults), key=lambda fault: _rank(fault, ranks))
+        left = len(faults) - MAX_PROBLEMS
+        more = [InputFault("", f"and {left} more (mend these first)")] if left > 0 else []
+        raise InputError([*faults[:MAX_PROBLEMS], *more])
 
 
-def _rank(problem: Problem, ranks: dict[str, int]) -> tuple[int, int]:
-    key, index = re.match(r"([^.\[]*)(?:\[(\d+)\])?", problem.place).groups()  # type: ignore[union-attr]
+def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
+    key, index = re.match(r"([^.\[]*)(?:\[(\d+)\])?", fault.place).groups()  # type: ignore[union-attr]
     return ranks.get(key, len(ranks)), int(index or -1)
 
 
@@ -80,9 +80,9 @@ def under(place: str) -> Iterator[None]:
     except InputError as error:
         if error.source:  # it lies in another file that the document names
             raise InputError(
-                Problem(place, f"{error.source}: {each}") for each in error.problems
+                InputFault(place, f"{error.source}: {each}") for each in error.faults
             ) from None
-        raise InputError(each.within(place) if place else each for each in error.problems) from None
+        raise InputError(each.within(place) if place else each for each in error.faults) from None
 
 
 @contextmanager
@@ -91,7 +91,7 @@ def blaming(source: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(error.problems, error.source or source) from None
+        raise InputError(error.faults, error.source or source) from None
 
 
 def checked_format(document: Any, known: str) -> dict[str, Any]:
@@ -148,9 +148,9 @@ _KINDS = {
 }
 
 
-def _problem(details: ErrorDetails, model: type[BaseModel]) -> Problem:
+def _problem(details: ErrorDetails, model: type[BaseModel]) -> InputFault:
     location = tuple(part for part in details["loc"] if part != "[key]")
-    return Problem(place_of(location), _message(details, model))
+    return InputFault(place_of(location), _message(details, model))
 
 
 def _message(details: ErrorDetails, model: type[BaseModel]) -> str:

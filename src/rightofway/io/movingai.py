@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
 from rightofway.io.text.files import read_text
@@ -199,7 +199,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     """
     grid = _grid_of(scenario.roadmap)
     problems = [
-        Problem(
+        InputFault(
             f"robots[{index}].stops",
             f"{len(robot.stops)} stops, a .scen row has one goal (leave one, or write .yaml)",
         )

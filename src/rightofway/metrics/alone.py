@@ -47,7 +47,7 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     Where all edges are equally long, hops are counted for the whole fleet at once; on other
     roadmaps Dijkstra searches once for each pace and place.
     """
-    itineraries = scenario.timing.itineraries
+    itineraries = scenario.problem.itineraries
     wanted: defaultdict[Pace, set[Leg]] = defaultdict(set)
     for itinerary in itineraries:
         wanted[itinerary.edge_ticks].update(_legs(itinerary))
@@ -97,7 +97,7 @@ def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, d
 
 
 def _driving(scenario: Scenario, robot: int, ways: Mapping[Pace, Mapping[Leg, int]]) -> int:
-    itinerary = scenario.timing.itineraries[robot]
+    itinerary = scenario.problem.itineraries[robot]
     own = ways[itinerary.edge_ticks]
     driving = 0
     for leg in _legs(itinerary):

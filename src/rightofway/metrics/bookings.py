@@ -43,7 +43,7 @@ def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Sta
     lengths = [len(track) for track in tracks]
     last = np.cumsum(lengths) - 1
     enter = np.concatenate([track.enter for track in tracks])
-    end = np.append(enter[1:] + scenario.timing.headway, FOREVER)
+    end = np.append(enter[1:] + scenario.problem.headway, FOREVER)
     end[last] = FOREVER
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), lengths)

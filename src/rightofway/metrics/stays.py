@@ -48,7 +48,7 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
 
     All tracks lie side by side in the arrays that the answer looks into.
     """
-    itineraries = scenario.timing.itineraries
+    itineraries = scenario.problem.itineraries
     ends = np.cumsum([len(track) for track in tracks])
     enter = np.concatenate([track.enter for track in tracks])
     drive, dwell = _drives(scenario, tracks), np.zeros(len(enter), np.int64)
@@ -68,7 +68,7 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
 
 def _drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
     """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
-    itineraries, lengths = scenario.timing.itineraries, [len(track) for track in tracks]
+    itineraries, lengths = scenario.problem.itineraries, [len(track) for track in tracks]
     paces = {itinerary.edge_ticks: None for itinerary in itineraries}
     row = {pace: index for index, pace in enumerate(paces)}
     rows = np.repeat([row[itinerary.edge_ticks] for itinerary in itineraries], lengths)

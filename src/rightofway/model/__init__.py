@@ -1,23 +1,23 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
-from rightofway.model.actual import Actual
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
-from rightofway.model.itinerary import Itinerary, Stage, Timing, least_dwell
 from rightofway.model.lap import Lap, lap_of
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
+from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
 from rightofway.model.robot import Robot, Stop, TripEnd, Turn
 from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
-from rightofway.model.steady import Steady
+from rightofway.model.steady_state import SteadyState
+from rightofway.model.trace import ExecutionTrace
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
 __all__ = [
-    "Actual",
     "Clock",
     "Decision",
     "Edge",
+    "ExecutionTrace",
     "Floor",
     "Grid",
     "Itinerary",
@@ -26,6 +26,7 @@ __all__ = [
     "Occupancy",
     "Plan",
     "PlannerRun",
+    "Problem",
     "Reroute",
     "Roadmap",
     "Robot",
@@ -33,10 +34,9 @@ __all__ = [
     "Rules",
     "Scenario",
     "Stage",
-    "Steady",
+    "SteadyState",
     "Stop",
     "Tick",
-    "Timing",
     "Track",
     "TripEnd",
     "Turn",

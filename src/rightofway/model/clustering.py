@@ -16,7 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 
 __all__ = ["MAX_CELLS", "Floor", "Obstacle", "cluster", "node_length", "steps_per_unit"]
 
@@ -67,22 +67,24 @@ class Floor:
     obstacles: tuple[Obstacle, ...] = ()
 
     def __post_init__(self) -> None:
-        problems = list(_floor_problems(self))
-        if problems:
-            raise InputError(problems)
+        faults = list(_floor_faults(self))
+        if faults:
+            raise InputError(faults)
 
 
-def _floor_problems(floor: Floor) -> Iterator[Problem]:
+def _floor_faults(floor: Floor) -> Iterator[InputFault]:
     if floor.width <= 0 or floor.height <= 0:
-        yield Problem("size", f"[{floor.width}, {floor.height}] is not positive (give two lengths)")
+        yield InputFault(
+            "size", f"[{floor.width}, {floor.height}] is not positive (give two lengths)"
+        )
         return
     for index, obstacle in enumerate(floor.obstacles):
         place = f"obstacles[{index}].rect"
         if obstacle.width <= 0 or obstacle.height <= 0:
             size = f"{obstacle.width} by {obstacle.height}"
-            yield Problem(place, f"is {size}, not positive (give [x, y, width, height])")
+            yield InputFault(place, f"is {size}, not positive (give [x, y, width, height])")
         elif not _reaches(obstacle, floor):
-            yield Problem(place, "lies outside the floor (move it, or take it out)")
+            yield InputFault(place, "lies outside the floor (move it, or take it out)")
 
 
 def _reaches(obstacle: Obstacle, floor: Floor) -> bool:

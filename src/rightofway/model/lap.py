@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import takewhile
 
-from rightofway.model.itinerary import Itinerary
+from rightofway.model.problem import Itinerary
 from rightofway.model.route import Route
 from rightofway.model.units import Tick, VertexId
 

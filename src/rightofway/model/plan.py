@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model.scenario import Scenario
-from rightofway.model.steady import Steady, refuse_strangers
+from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
 
 __all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "Track"]
@@ -180,7 +180,7 @@ class Plan:
     scenario: Scenario
     tracks: tuple[Track, ...]
     run: PlannerRun
-    steady: tuple[Steady, ...] = ()
+    steady: tuple[SteadyState, ...] = ()
 
     def __post_init__(self) -> None:
         robots, tracks = len(self.scenario.robots), len(self.tracks)
@@ -189,4 +189,4 @@ class Plan:
                 "robots", f"{tracks} tracks for {robots} robots (give one for each)"
             )
         names = [robot.name for robot in self.scenario.robots]
-        refuse_strangers(self.steady, names, list(map(len, self.tracks)))
+        refuse_unknown_robots(self.steady, names, list(map(len, self.tracks)))

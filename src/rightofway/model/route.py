@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rightofway.model.itinerary import Itinerary, Stage, least_dwell
 from rightofway.model.plan import Track
+from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Tick, VertexId
 

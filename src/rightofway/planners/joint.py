@@ -17,7 +17,7 @@ from rightofway.model import Route, Scenario, Track, VertexId, route_through
 from rightofway.planners.routing import refuse_shared_ends, refuse_the_impossible
 from rightofway.planners.task import Task, planning_headway
 from rightofway.precedence import PrecedenceGraph
-from rightofway.search import Distances, joint_steps, plan_by_events
+from rightofway.search import Distances, plan_by_lacam, untimed_lacam
 
 __all__ = ["plan_jointly", "timetable_in_order"]
 
@@ -65,7 +65,7 @@ def plan_jointly(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]
         return tracks, "instant by instant"
     task.report("no end by instants: planning the order of moves without clocks")
     left = task.deadline.seconds_left()
-    steps = joint_steps(task.scenario, seed=task.seed, time_limit=left)
+    steps = untimed_lacam(task.scenario, seed=task.seed, time_limit=left)
     tracks = timetable_of(task.scenario, steps)
     task.has_plan()
     return tracks, "order of moves first"
@@ -74,7 +74,7 @@ def plan_jointly(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]
 def _by_events(task: Task, *, spreads: bool) -> list[Track] | None:
     refuse_shared_ends(task.scenario)
     try:
-        return plan_by_events(
+        return plan_by_lacam(
             task.scenario,
             headway=planning_headway(task.scenario),
             seed=task.seed,
@@ -105,7 +105,7 @@ def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
     scenario
         The problem.
     steps
-        The vertex of every robot after each step, shape (T, R), as from `joint_steps`.
+        The vertex of every robot after each step, shape (T, R), as from `untimed_lacam`.
     """
     arrivals = [_arrivals(steps[:, robot]) for robot in range(steps.shape[1])]
     visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
@@ -142,4 +142,4 @@ def _arrivals(places: NDArray[np.int32]) -> list[int]:
 
 
 def _route(scenario: Scenario, robot: int, vertices: list[VertexId]) -> Route:
-    return route_through(scenario.roadmap, scenario.timing.itineraries[robot], vertices)
+    return route_through(scenario.roadmap, scenario.problem.itineraries[robot], vertices)

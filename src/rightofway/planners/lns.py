@@ -111,7 +111,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
     """Return the tracks with the headway of planning, where that is more than the scenario's."""
     headway = planning_headway(task.scenario)
-    if headway == task.scenario.timing.headway:
+    if headway == task.scenario.problem.headway:
         return tracks
     return graph_of(task.scenario, tracks, headway=headway).tracks()
 

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 from rightofway.errors import GaveUp
 from rightofway.model import Tick
-from rightofway.planners.giving_way import rights_if_waits
+from rightofway.planners.conflict_resolution import rights_if_waits
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment

@@ -87,7 +87,7 @@ def fleet_search(task: Task) -> FleetSearch:
     refuse_shared_ends(scenario)
     search = FleetSearch(scenario, headway=planning_headway(scenario), seed=task.seed)
     for robot in np.flatnonzero(search.alone() < 0).tolist():
-        name, itinerary = scenario.robots[robot].name, scenario.timing.itineraries[robot]
+        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
         refuse_unreachable(name, itinerary, Distances(scenario.roadmap))
     return search
 
@@ -127,7 +127,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     paced = _paced(task.scenario)
     # Haste is not needed here, and beside it this would take longer on a busy machine.
-    search = FleetSearch(paced, headway=paced.timing.headway, seed=task.seed, threads=1)
+    search = FleetSearch(paced, headway=paced.problem.headway, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):

@@ -202,19 +202,19 @@ PLANNERS = (
     ),
     PlannerSpec(
         "fixed-priority",
-        "rightofway.planners.priority:fixed_priority",
+        "rightofway.planners.priorities:fixed_priority",
         "Right of way by the robots' numbers: the first in the scenario goes first.",
         (ROUTES,),
     ),
     PlannerSpec(
         "random-priority",
-        "rightofway.planners.priority:random_priority",
+        "rightofway.planners.priorities:random_priority",
         "Right of way by random orders of the robots; the best of several plans.",
         (Count("restarts", 20, 1, "How many orders to try."), ROUTES),
     ),
     PlannerSpec(
         "priority-search",
-        "rightofway.planners.priority:priority_search",
+        "rightofway.planners.priorities:priority_search",
         "Right of way by an order of the robots that hill climbing improves.",
         (
             Count("rounds", 10, 1, "How many orders to try in a climb."),

@@ -27,7 +27,7 @@ class _Floor:
         scenario = task.scenario
         self.task = task
         self.distances = distances
-        self.itineraries = scenario.timing.itineraries
+        self.itineraries = scenario.problem.itineraries
         self.tracks = tracks
         self.bookings = Bookings(
             scenario.roadmap,

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
-from rightofway.search import Distances, Path, Surcharges, Traffic
+from rightofway.search import Congestion, CongestionCosts, Distances, Path
 
 __all__ = [
     "clear_routes",
@@ -29,7 +29,7 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
     refuse_the_impossible(scenario, distances)
-    return [shortest_route(itinerary, distances) for itinerary in scenario.timing.itineraries]
+    return [shortest_route(itinerary, distances) for itinerary in scenario.problem.itineraries]
 
 
 def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
@@ -63,8 +63,8 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
     refuse_the_impossible(scenario, distances)
-    itineraries = scenario.timing.itineraries
-    traffic = Traffic(distances, Surcharges.once(distances, itineraries))
+    itineraries = scenario.problem.itineraries
+    traffic = Congestion(distances, CongestionCosts.single_trip(distances, itineraries))
     return [_clear(scenario, traffic, robot) for robot in range(len(itineraries))]
 
 
@@ -83,8 +83,8 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
     routes
         One for each robot.
     """
-    itineraries, found = scenario.timing.itineraries, list(routes)
-    traffic = Traffic(distances, Surcharges.often(distances, itineraries))
+    itineraries, found = scenario.problem.itineraries, list(routes)
+    traffic = Congestion(distances, CongestionCosts.per_lap(distances, itineraries))
     detours = []
     for robot, (itinerary, route) in enumerate(zip(itineraries, routes, strict=True)):
         trips = _trips(itinerary)
@@ -98,9 +98,9 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
     return found
 
 
-def _clear(scenario: Scenario, traffic: Traffic, robot: int) -> Route:
+def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
     """Return a robot's way through the traffic, and have it there from now on."""
-    itinerary = scenario.timing.itineraries[robot]
+    itinerary = scenario.problem.itineraries[robot]
     trips = _trips(itinerary)
     legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
     for leg in legs:
@@ -126,7 +126,7 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
     NoPlanExists
         If a robot cannot get to a place, or two would have to stay at one for ever.
     """
-    for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
+    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
         refuse_unreachable(robot.name, itinerary, distances)
     refuse_shared_ends(scenario)
 
@@ -140,7 +140,7 @@ def refuse_shared_ends(scenario: Scenario) -> None:
         Naming the two.
     """
     holders: dict[VertexId, str] = {}
-    for robot, itinerary in zip(scenario.robots, scenario.timing.itineraries, strict=True):
+    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
         holder = holders.setdefault(itinerary.last, robot.name)
         if holder != robot.name:
             place = scenario.roadmap.name(itinerary.last)

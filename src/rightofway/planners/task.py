@@ -122,4 +122,4 @@ def planning_headway(scenario: Scenario) -> Tick:
     Where rotations are forbidden it is at least one tick: a vertex that is never entered at the
     very instant it is left cannot be part of a rotation.
     """
-    return Tick(max(scenario.timing.headway, 0 if scenario.rules.rotations else 1))
+    return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))

@@ -30,7 +30,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rightofway.model import Decision, Tick
-from rightofway.planners.giving_way import (
+from rightofway.planners.conflict_resolution import (
     Fleet,
     Right,
     Settlement,

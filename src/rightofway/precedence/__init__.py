@@ -1,24 +1,16 @@
 """Rights of way between visits, and the earliest timetable that keeps them."""
 
-from rightofway.precedence.delayed import (
+from rightofway.precedence.adg import (
     NEVER,
-    DelayedPlan,
+    ActionDependencyGraph,
+    DelayModel,
+    DelaySample,
     Execution,
-    Hazards,
-    Runs,
-    Setbacks,
+    RunBatch,
     order_of,
 )
-from rightofway.precedence.endless import EndlessRun, Look, Standstill
-from rightofway.precedence.event_graph import (
-    Arcs,
-    Circuit,
-    EventGraph,
-    critical_circuit,
-    event_graph,
-)
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
-from rightofway.precedence.periodic import PeriodicTimetable, unrolled
+from rightofway.precedence.schedule import CyclicSchedule, unrolled
 from rightofway.precedence.segments import Segment, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
@@ -26,33 +18,37 @@ from rightofway.precedence.sensitivity import (
     sensitivity,
     tight_arcs,
 )
+from rightofway.precedence.timed_event_graph import (
+    Arcs,
+    Circuit,
+    TimedEventGraph,
+    critical_circuit,
+    timed_event_graph,
+)
 
 __all__ = [
     "NEVER",
+    "ActionDependencyGraph",
     "Arcs",
     "Circuit",
-    "DelayedPlan",
-    "EndlessRun",
-    "EventGraph",
+    "CyclicSchedule",
+    "DelayModel",
+    "DelaySample",
     "Execution",
-    "Hazards",
-    "Look",
     "Meeting",
-    "PeriodicTimetable",
     "PrecedenceGraph",
-    "Runs",
+    "RunBatch",
     "Segment",
     "Sensitivity",
-    "Setbacks",
-    "Standstill",
+    "TimedEventGraph",
     "critical_circuit",
     "crossing",
     "cycle_time_without",
-    "event_graph",
     "graph_of",
     "order_of",
     "sensitivity",
     "shared_segment",
     "tight_arcs",
+    "timed_event_graph",
     "unrolled",
 ]

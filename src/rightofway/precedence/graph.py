@@ -263,13 +263,13 @@ def graph_of(
     -----
     With the headway of the scenario, no robot is later in the timetable than in the plan.
     """
-    itineraries = scenario.timing.itineraries
+    itineraries = scenario.problem.itineraries
     graph = PrecedenceGraph(
         [
             route_of(scenario.roadmap, itinerary, track)
             for itinerary, track in zip(itineraries, tracks, strict=True)
         ],
-        headway=scenario.timing.headway if headway is None else headway,
+        headway=scenario.problem.headway if headway is None else headway,
         books_ahead=scenario.rules.books_ahead,
     )
     graph.keep_order([track.enter.tolist() for track in tracks])

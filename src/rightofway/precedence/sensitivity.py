@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.precedence.event_graph import Arcs, Circuit, EventGraph, circuit_of
+from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, circuit_of
 
 __all__ = ["Sensitivity", "cycle_time_without", "sensitivity", "tight_arcs"]
 
@@ -49,7 +49,7 @@ class Sensitivity:
 
 
 def sensitivity(
-    graph: EventGraph,
+    graph: TimedEventGraph,
     share: NDArray[np.int64],
     *,
     tight: NDArray[np.bool_] | None = None,
@@ -82,7 +82,7 @@ def sensitivity(
     return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
 
 
-def tight_arcs(graph: EventGraph, *, time_limit: float | None = None) -> NDArray[np.bool_]:
+def tight_arcs(graph: TimedEventGraph, *, time_limit: float | None = None) -> NDArray[np.bool_]:
     """Return a mask of arcs with no slack at the cycle time: all critical circuits are of these.
 
     Raises
@@ -103,7 +103,7 @@ def tight_arcs(graph: EventGraph, *, time_limit: float | None = None) -> NDArray
 
 
 def cycle_time_without(
-    graph: EventGraph,
+    graph: TimedEventGraph,
     share: NDArray[np.int64],
     part: Fraction,
     *,
@@ -120,7 +120,7 @@ def cycle_time_without(
 
 
 def _without(
-    graph: EventGraph, share: NDArray[np.int64], part: Fraction, time_limit: float | None
+    graph: TimedEventGraph, share: NDArray[np.int64], part: Fraction, time_limit: float | None
 ) -> Circuit:
     whole, saved = part.denominator, part.numerator
     arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
@@ -129,13 +129,13 @@ def _without(
 
 
 def _mean(
-    graph: EventGraph, arcs: Arcs, length: NDArray[np.int64], time_limit: float | None
+    graph: TimedEventGraph, arcs: Arcs, length: NDArray[np.int64], time_limit: float | None
 ) -> Fraction:
     return circuit_of(len(graph), arcs.stretched(length), time_limit=time_limit).cycle_time
 
 
 def _reach(
-    graph: EventGraph,
+    graph: TimedEventGraph,
     share: NDArray[np.int64],
     now: Fraction,
     gain: Fraction,

@@ -33,7 +33,7 @@ class FleetSearch:
     def __init__(
         self, scenario: Scenario, *, headway: Tick, seed: int = 0, threads: int | None = None
     ) -> None:
-        roadmap, itineraries = scenario.roadmap, scenario.timing.itineraries
+        roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
         paces = list(dict.fromkeys(itinerary.edge_ticks for itinerary in itineraries))
         number = {pace: index for index, pace in enumerate(paces)}
         stages = [itinerary.stages for itinerary in itineraries]

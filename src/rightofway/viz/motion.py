@@ -110,7 +110,7 @@ class Trip:
 def trips_of(plan: Plan) -> tuple[Trip, ...]:
     """Return the trip of each robot."""
     stays = stays_of(plan.scenario, plan.tracks)
-    itineraries = plan.scenario.timing.itineraries
+    itineraries = plan.scenario.problem.itineraries
     return tuple(map(_trip, plan.tracks, stays, itineraries))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from collections.abc import Sequence
 
-from rightofway.model import Actual, Plan, Steady
+from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page import page_of
 
 __all__ = ["frame_of"]
@@ -18,8 +18,8 @@ def frame_of(
     plan: Plan,
     *,
     height: int = HEIGHT,
-    steady: Sequence[Steady] = (),
-    actual: Actual | None = None,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
 ) -> str:
     """Return HTML that shows a plan in a notebook; what ``_repr_html_`` is to return.
 

@@ -103,7 +103,7 @@ def _read(document: dict[str, Any]) -> Plan:
 
 
 def _check_tick(tick: Fraction, scenario: Scenario) -> None:
-    own = scenario.timing.clock.tick
+    own = scenario.problem.clock.tick
     if tick != own:
         remedy = "plan the scenario again; these times mean something else"
         raise InputError.at("", f"{shown(tick)}, but the scenario's is {own} ({remedy})")

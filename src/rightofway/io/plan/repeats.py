@@ -8,7 +8,7 @@ from rightofway.errors import InputError
 from rightofway.io.faults import Faults, checked, under
 from rightofway.io.plan.names import Names
 from rightofway.io.words import shown
-from rightofway.model import Steady, Tick
+from rightofway.model import SteadyState, Tick
 
 if TYPE_CHECKING:
     from rightofway.io.plan.shape import SteadyDocument
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["steady_of"]
 
 
-def steady_of(data: Any, names: Names | None) -> tuple[Steady, ...]:
+def steady_of(data: Any, names: Names | None) -> tuple[SteadyState, ...]:
     """Return where a plan repeats itself; without names, only look for faults of shape.
 
     Raises
@@ -37,7 +37,7 @@ def steady_of(data: Any, names: Names | None) -> tuple[Steady, ...]:
     return tuple(group for group in groups if group)
 
 
-def _group(document: SteadyDocument, names: Names) -> Steady:
+def _group(document: SteadyDocument, names: Names) -> SteadyState:
     robots, critical = [], []
     for index, name in enumerate(document.robots):
         with under(f"robots[{index}]"):
@@ -49,7 +49,7 @@ def _group(document: SteadyDocument, names: Names) -> Steady:
                 message = f"{shown(visit.robot)} is not of this group (name one of its robots)"
                 raise InputError.at("", message)
             critical.append((robot, visit.visit))
-    return Steady(
+    return SteadyState(
         robots=tuple(robots),
         start=Tick(document.start),
         period=Tick(document.period),

@@ -11,7 +11,7 @@ from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text.exact import written
 from rightofway.io.text.json_layout import json_text
-from rightofway.model import Decision, Plan, PlannerRun, Scenario, Steady
+from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 
 __all__ = ["dump_plan", "plan_text", "save_plan"]
 
@@ -36,7 +36,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     return {
         "format": PLAN_FORMAT,
         "scenario": dump_scenario(scenario),
-        "tick": written(scenario.timing.clock.tick),
+        "tick": written(scenario.problem.clock.tick),
         "planner": _planner(plan.run, scenario, seconds=seconds),
         "metrics": _metrics(plan),
         "robots": robots,
@@ -112,7 +112,7 @@ def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def _steady(steady: Steady, scenario: Scenario) -> dict[str, Any]:
+def _steady(steady: SteadyState, scenario: Scenario) -> dict[str, Any]:
     names = [robot.name for robot in scenario.robots]
     return {
         "robots": [names[robot] for robot in steady.robots],

@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import read_scen
 
-__all__ = ["classic_document", "classic_problem"]
+__all__ = ["classic_document", "classic_fault"]
 
 
 def classic_document(path: Path) -> dict[str, Any]:
@@ -38,8 +38,8 @@ def _map_beside(path: Path) -> Path:
     raise InputError.at("", message, str(path))
 
 
-def classic_problem(problem: Problem, path: Path) -> Problem:
+def classic_fault(fault: InputFault, path: Path) -> InputFault:
     """Return a problem of that document as one of the `.scen` file."""
-    if problem.place != "robots.scen":
-        return problem
-    return Problem("", problem.message.removeprefix(f"{path}: "))
+    if fault.place != "robots.scen":
+        return fault
+    return InputFault("", fault.message.removeprefix(f"{path}: "))

@@ -9,10 +9,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io.faults import Faults, blaming, checked, checked_format
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.scenario.classic import classic_document, classic_problem
+from rightofway.io.scenario.classic import classic_document, classic_fault
 from rightofway.io.scenario.draft import Draft
 from rightofway.io.scenario.ground import Ground
 from rightofway.io.scenario.maps import ground_of
@@ -78,8 +78,8 @@ def _read_classic(path: Path) -> Loaded:
     try:
         return read_scenario(document, path.parent)
     except InputError as error:
-        problems = (classic_problem(problem, path) for problem in error.problems)
-        raise InputError(problems, str(path)) from None
+        faults = (classic_fault(fault, path) for fault in error.faults)
+        raise InputError(faults, str(path)) from None
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -146,8 +146,8 @@ def _assembled(
         scenario = Scenario(roadmap=ground.roadmap, robots=robots, rules=rules)
         _check_ticks(scenario)
     except InputError as error:
-        for problem in error.problems:
-            faults.note(*_in_document(problem, drafts))
+        for fault in error.faults:
+            faults.note(*_in_document(fault, drafts))
         return None
     return scenario
 
@@ -162,29 +162,29 @@ def _check_stages(robots: Sequence[Robot], rules: Rules) -> None:
 
 
 def _check_ticks(scenario: Scenario) -> None:
-    timing = scenario.timing
+    problem = scenario.problem
     longest = max(
-        timing.headway,
-        *(max(itinerary.edge_ticks, default=0) for itinerary in timing.itineraries),
-        *(stage.work + stage.turn for it in timing.itineraries for stage in it.stages),
+        problem.headway,
+        *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
+        *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
     )
     if longest > MAX_TICKS:
-        ticks = f"{shown(longest)} ticks of {shown(timing.clock.tick)}"
+        ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"
         message = f"a duration of {ticks} is too long (bring speeds and times closer together)"
         raise InputError.at("robots", message)
 
 
-def _in_document(problem: Problem, drafts: Sequence[Draft]) -> tuple[str, str]:
+def _in_document(fault: InputFault, drafts: Sequence[Draft]) -> tuple[str, str]:
     """Return place and message of a model's problem as the document has them.
 
     The model numbers the robots it was given, which lack those with faults of their own.
     """
-    found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", problem.place)
+    found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", fault.place)
     if not found:
-        return problem.place, problem.message
+        return fault.place, fault.message
     draft, key = drafts[int(found[1])], found[2]
-    other = re.match(r"(.*) of robots\[(\d+)\] already", problem.message)
-    message = problem.message
+    other = re.match(r"(.*) of robots\[(\d+)\] already", fault.message)
+    message = fault.message
     if other:
         twin = drafts[int(other[2])].place
         message = f"{other[1]} of {twin} already{message[other.end() :]}"
@@ -192,7 +192,7 @@ def _in_document(problem: Problem, drafts: Sequence[Draft]) -> tuple[str, str]:
 
 
 def _clock_notes(scenario: Scenario) -> Iterator[str]:
-    if not scenario.timing.clock.exact:
+    if not scenario.problem.clock.exact:
         yield (
             f"durations are rounded up to 1/{MAX_TICKS_OF_SHORTEST} of the shortest;"
             " give speeds with smaller denominators to be exact"

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.io.text.exact import decimal, whole
 from rightofway.io.words import place_of, shown
 
@@ -61,9 +61,9 @@ def _mapping(
     return mapping
 
 
-def _twice(data: Any, mapping: dict[str, Any], key: str) -> Problem:
+def _twice(data: Any, mapping: dict[str, Any], key: str) -> InputFault:
     message = f"the key {shown(key)} is given twice (take one out)"
-    return Problem(place_of(_path_to(mapping, data)), message)
+    return InputFault(place_of(_path_to(mapping, data)), message)
 
 
 def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:

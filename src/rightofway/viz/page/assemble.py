@@ -18,7 +18,7 @@ from importlib.resources import files
 from typing import Any
 
 from rightofway.files import write_whole
-from rightofway.model import Actual, Plan, Steady
+from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
@@ -39,7 +39,9 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 """Escapes that mean the same in JSON, and nothing in HTML."""
 
 
-def page_of(plan: Plan, *, steady: Sequence[Steady] = (), actual: Actual | None = None) -> str:
+def page_of(
+    plan: Plan, *, steady: Sequence[SteadyState] = (), actual: ExecutionTrace | None = None
+) -> str:
     """Return a page that plays a plan, as one HTML document.
 
     Parameters
@@ -77,8 +79,8 @@ def write_page(
     plan: Plan,
     path: str | os.PathLike[str],
     *,
-    steady: Sequence[Steady] = (),
-    actual: Actual | None = None,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 

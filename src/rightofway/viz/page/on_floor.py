@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError
 from rightofway.metrics.stays import Stays
 from rightofway.metrics.waits import waits_in
-from rightofway.model import Actual, Plan, Tick, Track
+from rightofway.model import ExecutionTrace, Plan, Tick, Track
 from rightofway.viz.motion import Trip, trips_of
 from rightofway.viz.page.figures import differences, wait_row
 
@@ -21,7 +21,7 @@ __all__ = ["floor_of"]
 Standstills = Sequence[tuple[Tick, Tick | None]]
 
 
-def floor_of(plan: Plan, actual: Actual, trips: Sequence[Trip]) -> dict[str, Any]:
+def floor_of(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[str, Any]:
     """Return what became of a plan, as plain data for JSON.
 
     Parameters

@@ -13,7 +13,15 @@ from typing import Any
 import numpy as np
 
 from rightofway.metrics import Metrics, measure, waits
-from rightofway.model import Actual, Decision, Itinerary, Plan, Reroute, Roadmap, Steady
+from rightofway.model import (
+    Decision,
+    ExecutionTrace,
+    Itinerary,
+    Plan,
+    Reroute,
+    Roadmap,
+    SteadyState,
+)
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.ordering import vertices_in_line
 from rightofway.viz.page.figures import differences, wait_row
@@ -29,7 +37,7 @@ DECIMALS = 3
 
 
 def payload_of(
-    plan: Plan, *, steady: Sequence[Steady] = (), actual: Actual | None = None
+    plan: Plan, *, steady: Sequence[SteadyState] = (), actual: ExecutionTrace | None = None
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
@@ -62,9 +70,9 @@ def payload_of(
 def _plan(plan: Plan, trips: Sequence[Trip]) -> dict[str, Any]:
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     return {
-        "tick": _pair(scenario.timing.clock.tick),
+        "tick": _pair(scenario.problem.clock.tick),
         "end": max(end_of(trips), 1),
-        "headway": scenario.timing.headway,
+        "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
         "line": vertices_in_line([trip.vertices for trip in trips]),
@@ -101,7 +109,7 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
 
 
 def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[str, Any]]:
-    itineraries = plan.scenario.timing.itineraries
+    itineraries = plan.scenario.problem.itineraries
     colours = robot_colours(len(trips))
     return [
         {

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.model import Plan, Steady, Track
-from rightofway.model.steady import refuse_strangers
+from rightofway.model import Plan, SteadyState, Track
+from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip
 
 __all__ = ["laps_of", "last_tick_of_all", "steady_of"]
 
 
-def steady_of(plan: Plan, steady: Sequence[Steady]) -> list[dict[str, Any]]:
+def steady_of(plan: Plan, steady: Sequence[SteadyState]) -> list[dict[str, Any]]:
     """Return the steady periods of a plan, as plain data for JSON.
 
     Parameters
@@ -30,7 +30,7 @@ def steady_of(plan: Plan, steady: Sequence[Steady]) -> list[dict[str, Any]]:
         If these are no groups of the plan.
     """
     names = [robot.name for robot in plan.scenario.robots]
-    refuse_strangers(steady, names, list(map(len, plan.tracks)))
+    refuse_unknown_robots(steady, names, list(map(len, plan.tracks)))
     return [
         {
             "robots": list(group.robots),
@@ -62,7 +62,7 @@ def last_tick_of_all(trips: Sequence[Trip], groups: Sequence[dict[str, Any]]) ->
     return max(1, min(ends))
 
 
-def _until(group: Steady, track: Track) -> int:
+def _until(group: SteadyState, track: Track) -> int:
     """Return the tick up to which a robot does what it did a period before.
 
     A plan ends, so the first visit that is missing or comes at another tick ends the repetition:

@@ -51,7 +51,7 @@ class Axes:
 
     def draw(self, pen: Pen, scene: Scene) -> None:
         """Draw moments along the bottom, with hairlines up through the diagram."""
-        clock, theme = scene.plan.scenario.timing.clock, scene.theme
+        clock, theme = scene.plan.scenario.problem.clock, scene.theme
         for tick in range(0, self.end + 1, self._label_step()):
             x, time = self.x(tick), clock.time(tick)
             pen.line([(x, 0), (x, self.bottom)], theme.line, 1)

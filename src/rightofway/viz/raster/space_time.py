@@ -35,7 +35,7 @@ def draw_space_time(pen: Pen, scene: Scene, axes: Axes, line: Sequence[int]) -> 
 
 def _bookings(scene: Scene, trip: Trip) -> Iterator[tuple[int, int, int]]:
     """Yield (begin, end, vertex) of what a robot books."""
-    headway = scene.plan.scenario.timing.headway
+    headway = scene.plan.scenario.problem.headway
     ahead = scene.plan.scenario.rules.books_ahead
     ends = [*(leave + headway for leave in trip.enter[1:]), scene.end]
     for vertex, enter, end, drive in zip(trip.vertices, trip.enter, ends, trip.drive, strict=True):

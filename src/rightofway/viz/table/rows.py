@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import partial
 
-from rightofway.errors import InputError, Problem
+from rightofway.errors import InputError, InputFault
 from rightofway.metrics import collisions, completions_of, free_running, waits
 from rightofway.model import Plan, Roadmap, Scenario, Tick, Track
 from rightofway.viz.table.runs import Span, runs_of
@@ -54,7 +54,7 @@ def table_of(
     return TimeSpaceTable(
         first_tick=first,
         last_tick=last,
-        tick=plan.scenario.timing.clock.tick,
+        tick=plan.scenario.problem.clock.tick,
         rows=tuple(fleet.row(robot, first, last) for robot in shown for fleet in fleets),
     )
 
@@ -66,7 +66,7 @@ def _indices(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
         if name not in all_names:
             near = (get_close_matches(name, all_names, 1) or all_names)[0]
             message = f"no robot is named {name!r} (did you mean {near!r}?)"
-            problems.append(Problem("robots", message))
+            problems.append(InputFault("robots", message))
     if problems:
         raise InputError(problems)
     return [index for index, name in enumerate(all_names) if not names or name in names]

@@ -1,0 +1,335 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "bindings.hpp"
+#include "core/reject.hpp"
+#include "deadline.hpp"
+#include "lns/anytime_lns.hpp"
+#include "lns/prioritized_portfolio.hpp"
+#include "precedence/retiming.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, and better ones.
+
+Parameters
+----------
+indptr, heads : int32[V + 1], int32[E]
+    The directed graph in compressed rows.
+length_class : int32[E]
+    The length class of each edge.
+paces : int32[P * C]
+    Ticks for an edge of each of the C length classes, one row for each pace.
+pace_of : int32[R]
+    The pace of each robot.
+home : int32[R]
+    Where each robot is at tick 0.
+first_stage : int32[R + 1]
+    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
+    Where each stage is, and how long it takes to work and then to turn. [ticks]
+n_classes : int
+    C.
+headway : int
+    Ticks that a vertex stays booked after it was left.
+books_ahead : bool
+    Whether a vertex is booked from when a robot starts to drive there.
+seed : int
+    For all that is drawn.
+n_threads : int
+    For `improve`; what it finds does not depend on it.
+
+Raises
+------
+ValueError
+    If the arrays do not fit together; names the array, the index and the value.
+
+Notes
+-----
+Robots without a track are left where they are by `tracks`: an empty one. The GIL is released in all
+long calls; Ctrl-C is obeyed, and leaves a plan as good as before.)";
+
+constexpr auto alone_doc = R"(Return the least completion of each robot without the others.
+
+Returns
+-------
+int64[R]
+    Ticks; -1 for a robot that cannot get to a stage.)";
+
+constexpr auto start_doc = R"(Take over tracks.
+
+Parameters
+----------
+first_visit : int32[R + 1]
+    Robot ``r`` has visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+vertices, enter : int32[N], int64[N]
+    Where each visit is, and when it begins. [ticks]
+
+Raises
+------
+ValueError
+    If they are no tracks of these trips, or overlap.)";
+
+constexpr auto prioritize_doc = R"(Give the robots tracks one after another.
+
+Parameters
+----------
+order : int32[R]
+    Every robot once.
+n_searches : int
+    After so many searches it gives up.
+time_limit : float or None
+    After so many seconds as well.
+with_net : float or None
+    After so many seconds instead, once there is a plan made in haste.
+
+Returns
+-------
+bool
+    Whether every robot has a track now; if not, `go_on` may change that.)";
+
+constexpr auto go_on_doc = R"(Go on with giving the robots tracks one after another.
+
+Parameters
+----------
+n_searches : int
+    After so many searches since the beginning it gives up.
+time_limit : float or None
+    After so many seconds as well.
+
+Returns
+-------
+bool
+    Whether every robot has a track now; false as well where nothing was begun.)";
+
+constexpr auto improve_doc = R"(Replace tracks by better ones, a few robots at a time.
+
+Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
+other. Ends when nothing can be better.
+
+Parameters
+----------
+n_tasks : int
+    How many times some robots are planned anew.
+patience : int
+    It ends after so many times in a row without a gain.
+time_limit : float or None
+    After so many seconds it stops at once.
+pause : float or None
+    After so many seconds it stops at the next point that does not depend on clocks.
+
+Returns
+-------
+int
+    How many times that was done.)";
+
+constexpr auto retime_doc =
+    R"(Have all robots as early as the order of visits at every vertex allows.
+
+Every robot has a track. `improve` begins anew after that.)";
+
+using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+class FleetSearch {
+  public:
+    FleetSearch(const ProblemArrays& arrays, std::int32_t n_classes, const BookingRules& rules,
+                std::uint64_t seed, std::size_t n_threads)
+        : fleet_(arrays, n_classes, rules, bytes_for_distances),
+          plan_(fleet_),
+          seed_(seed),
+          n_threads_(n_threads) {}
+
+    const std::vector<Tick>& alone(const Deadline& deadline) {
+        if (alone_.empty()) {
+            std::vector<Tick> alone(static_cast<std::size_t>(fleet_.n_robots()));
+            for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+                alone[static_cast<std::size_t>(robot)] = fleet_.alone(robot);
+                if (robot % 64 == 0) {
+                    deadline();
+                }
+            }
+            alone_ = std::move(alone);
+            bound_ = 0;
+            for (const Tick one : alone_) {
+                bound_ += one;
+            }
+        }
+        return alone_;
+    }
+
+    bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
+                    const Deadline& deadline, const Deadline& with_net) {
+        clear();
+        in_turn_.emplace(fleet_, plan_, order);
+        return go_on(n_searches, deadline, with_net);
+    }
+
+    bool go_on(std::int64_t n_searches, const Deadline& deadline, const Deadline& with_net) {
+        if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
+            return false;
+        }
+        in_turn_.reset();
+        return true;
+    }
+
+    void start(std::span<const std::int32_t> first_visit, std::span<const VertexId> vertices,
+               std::span<const Tick> enter) {
+        clear();
+        TripReader reader(fleet_);
+        for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+            TimedTrack track;
+            for (auto k = static_cast<std::size_t>(first_visit[robot]);
+                 k < static_cast<std::size_t>(first_visit[robot + 1]); ++k) {
+                const bool is_first = track.visits.empty();
+                const std::int32_t drive =
+                    is_first ? 0 : fleet_.drive(robot, vertices[k - 1], vertices[k]);
+                if (drive < 0) {
+                    reject_entry("vertices", k, vertices[k], "is not next to the one before");
+                }
+                track.visits.push_back({enter[k], vertices[k], drive});
+            }
+            track.completion = track.visits.empty() ? -1 : reader.completion(robot, track.visits);
+            if (track.completion < 0 || !plan_.fits(robot, track)) {
+                clear();
+                reject("robot", robot, "has a track that breaks the rules");
+            }
+            plan_.exchange(robot, track);
+        }
+    }
+
+    std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const Deadline& deadline,
+                         const Deadline& pause) {
+        alone(deadline);
+        if (!improvement_) {
+            improvement_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
+        }
+        const std::int64_t before = improvement_->n_tasks();
+        improvement_->run(n_tasks, patience, deadline,
+                          [&] { return plan_.flowtime() == bound_ || pause(); });
+        return improvement_->n_tasks() - before;
+    }
+
+    void retime() {
+        improvement_.reset();
+        rightofway::retime(fleet_, plan_);
+    }
+
+    TrackArrays tracks() const {
+        Tracks all = plan_.tracks();
+        return {to_numpy(std::move(all.first_visit)), to_numpy(std::move(all.vertex)),
+                to_numpy(std::move(all.enter))};
+    }
+
+    RobotId n_robots() const { return fleet_.n_robots(); }
+    Tick flowtime() const { return plan_.flowtime(); }
+    std::int64_t n_idle() const { return improvement_ ? improvement_->n_idle() : 0; }
+    std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
+
+  private:
+    static constexpr std::size_t bytes_for_distances = std::size_t{256} << 20;
+
+    void clear() {
+        in_turn_.reset();
+        improvement_.reset();
+        plan_ = FleetPlan(fleet_);
+    }
+
+    Problem fleet_;
+    FleetPlan plan_;
+    std::uint64_t seed_;
+    std::size_t n_threads_;
+    std::vector<Tick> alone_;
+    Tick bound_ = 0;
+    std::optional<PrioritizedPortfolio> in_turn_;
+    std::optional<AnytimeLns> improvement_;
+};
+
+void init(FleetSearch* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& heads,
+          const ArrayIn<std::int32_t>& length_class, const ArrayIn<std::int32_t>& paces,
+          const ArrayIn<std::int32_t>& pace_of, const ArrayIn<VertexId>& home,
+          const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
+          const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn, std::int32_t n_classes,
+          Tick headway, bool books_ahead, std::uint64_t seed, std::size_t n_threads) {
+    const ProblemArrays arrays{
+        view(indptr), view(heads),       view(length_class), view(paces),      view(pace_of),
+        view(home),   view(first_stage), view(stage_vertex), view(stage_work), view(stage_turn)};
+    new (self) FleetSearch(arrays, n_classes, {headway, books_ahead}, seed, n_threads);
+}
+
+}  // namespace
+
+void bind_fleet(nb::module_& module) {
+    nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
+        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("heads").noconvert(),
+             nb::arg("length_class").noconvert(), nb::arg("paces").noconvert(),
+             nb::arg("pace_of").noconvert(), nb::arg("home").noconvert(),
+             nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
+             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
+             nb::arg("n_classes"), nb::arg("headway"), nb::arg("books_ahead"), nb::arg("seed"),
+             nb::arg("n_threads"))
+        .def(
+            "alone",
+            [](FleetSearch& self) {
+                const Deadline deadline(std::nullopt);
+                {
+                    const nb::gil_scoped_release released;
+                    self.alone(deadline);
+                }
+                return to_numpy(std::span<const Tick>(self.alone(deadline)));
+            },
+            alone_doc)
+        .def(
+            "start",
+            [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
+               const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter) {
+                const nb::gil_scoped_release released;
+                self.start(view(first_visit), view(vertices), view(enter));
+            },
+            nb::arg("first_visit").noconvert(), nb::arg("vertices").noconvert(),
+            nb::arg("enter").noconvert(), start_doc)
+        .def(
+            "prioritize",
+            [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
+               std::optional<double> time_limit, std::optional<double> with_net) {
+                const Deadline deadline(time_limit);
+                const Deadline deadline_with_net(with_net);
+                const nb::gil_scoped_release released;
+                return self.prioritize(view(order), n_searches, deadline, deadline_with_net);
+            },
+            nb::arg("order").noconvert(), nb::arg("n_searches"), nb::arg("time_limit").none(),
+            nb::arg("with_net").none(), prioritize_doc)
+        .def(
+            "go_on",
+            [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.go_on(n_searches, deadline, deadline);
+            },
+            nb::arg("n_searches"), nb::arg("time_limit").none(), go_on_doc)
+        .def(
+            "improve",
+            [](FleetSearch& self, std::int64_t n_tasks, std::int64_t patience,
+               std::optional<double> time_limit, std::optional<double> pause) {
+                const Deadline deadline(time_limit);
+                const Deadline due(pause);
+                const nb::gil_scoped_release released;
+                return self.improve(n_tasks, patience, deadline, due);
+            },
+            nb::arg("n_tasks"), nb::arg("patience"), nb::arg("time_limit").none(),
+            nb::arg("pause").none(), improve_doc)
+        .def("retime", &FleetSearch::retime, nb::call_guard<nb::gil_scoped_release>(), retime_doc)
+        .def("tracks", &FleetSearch::tracks,
+             "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
+        .def_prop_ro("flowtime", &FleetSearch::flowtime, "The sum of completions. [ticks]")
+        .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
+        .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");
+}
+
+}  // namespace rightofway::bind

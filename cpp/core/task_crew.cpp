@@ -1,0 +1,53 @@
+#include "core/task_crew.hpp"
+
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace rightofway {
+namespace {
+
+constexpr auto between_questions = std::chrono::milliseconds(10);
+
+}  // namespace
+
+void TaskCrew::run(std::size_t n_tasks, const Work& work, const IsOver& is_over) {
+    next_task_ = 0;
+    is_stopped_ = false;
+    thrown_ = nullptr;
+    const auto take_tasks = [&](std::size_t worker, const IsOver& must_stop) {
+        for (std::size_t k = next_task_++; k < n_tasks && !must_stop(); k = next_task_++) {
+            work(worker, k, must_stop);
+        }
+    };
+    std::vector<std::thread> others;
+    for (std::size_t worker = 1; worker < n_workers_; ++worker) {
+        others.emplace_back(
+            [&, worker] { take_tasks(worker, [this] { return is_stopped_.load(); }); });
+    }
+    take_tasks(0, [&] { return ask(is_over); });
+    for (std::thread& other : others) {
+        other.join();
+    }
+}
+
+bool TaskCrew::ask(const IsOver& is_over) {
+    if (!is_stopped_ && std::chrono::steady_clock::now() - asked_ > between_questions) {
+        asked_ = std::chrono::steady_clock::now();
+        try {
+            is_stopped_ = is_over();
+        } catch (...) {
+            thrown_ = std::current_exception();
+            is_stopped_ = true;
+        }
+    }
+    return is_stopped_;
+}
+
+void TaskCrew::pass_on() {
+    if (thrown_) {
+        std::rethrow_exception(std::exchange(thrown_, nullptr));
+    }
+}
+
+}  // namespace rightofway

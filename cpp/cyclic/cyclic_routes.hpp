@@ -1,0 +1,95 @@
+// Laps one behind the other, without an end: where each robot is at any visit, and how long.
+//
+// Visits are numbered from 0 on for each robot; at home before the first lap, nobody turns.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+struct CyclicVisit {
+    RobotId robot;
+    std::int32_t number;
+
+    CyclicVisit next() const { return {robot, number + 1}; }
+    CyclicVisit before() const { return {robot, number - 1}; }
+    auto operator<=>(const CyclicVisit&) const = default;
+};
+
+struct CyclicRight {
+    CyclicVisit first;   // this visit leaves the vertex ...
+    CyclicVisit second;  // ... before this one enters it
+};
+
+// What laps are made of; n places of r laps. Borrowed, read once.
+struct LapArrays {
+    std::span<const std::int32_t> first_place;  // r + 1: lap k is first_place[k] .. [k + 1] - 1
+    std::span<const VertexId> vertex;           // n
+    std::span<const Tick> least;        // n: from an enter to the next at least, round the lap
+    std::span<const Tick> approach;     // n: a visit books its vertex so long before its enter
+    std::span<const Tick> first_least;  // r: of visit 0
+    Tick headway = 0;                   // a visit books its vertex so long after its leave
+};
+
+class CyclicRoutes {
+  public:
+    // Throws std::invalid_argument, naming the array, the index and the value.
+    explicit CyclicRoutes(const LapArrays& arrays);
+
+    RobotId n_robots() const { return static_cast<RobotId>(first_least_.size()); }
+    VertexId n_vertices() const { return n_vertices_; }
+    std::int32_t length(RobotId robot) const {
+        return first_place_[robot + 1] - first_place_[robot];
+    }
+    Tick duration(RobotId robot) const { return within_[end_of(robot)]; }
+    Tick headway() const { return headway_; }
+
+    VertexId vertex(CyclicVisit visit) const { return vertex_[place(visit)]; }
+    Tick approach(CyclicVisit visit) const { return approach_[place(visit)]; }
+    Tick gap_before(CyclicVisit visit) const { return headway_ + approach(visit); }
+    Tick least(CyclicVisit visit) const {
+        return visit.number == 0 ? first_least_[visit.robot] : least_[place(visit)];
+    }
+
+    // When a visit begins if nobody is ever in the way.
+    Tick free(CyclicVisit visit) const;
+    // How many visits from a later one than 0 on last that long at least.
+    std::int32_t lasting(CyclicVisit visit, Tick ticks) const;
+
+    // For loops along one route: all by place, and the place of a visit.
+    std::span<const Tick> leasts(RobotId robot) const {
+        return std::span(least_).subspan(first_place_[robot], length(robot));
+    }
+    VertexId vertex_at(RobotId robot, std::int32_t place) const {
+        return vertex_[first_place_[robot] + place];
+    }
+    Tick approach_at(RobotId robot, std::int32_t place) const {
+        return approach_[first_place_[robot] + place];
+    }
+    std::int32_t place_in_lap(CyclicVisit visit) const {
+        return visit.number % length(visit.robot);
+    }
+
+  private:
+    std::int32_t place(CyclicVisit visit) const {
+        return first_place_[visit.robot] + place_in_lap(visit);
+    }
+    std::int32_t end_of(RobotId robot) const { return first_place_[robot + 1] + robot; }
+    void check(RobotId robot) const;
+
+    std::vector<std::int32_t> first_place_;
+    std::vector<VertexId> vertex_;
+    std::vector<Tick> least_;
+    std::vector<Tick> approach_;
+    std::vector<Tick> first_least_;
+    Tick headway_;
+    VertexId n_vertices_ = 0;
+    std::vector<Tick> within_;  // length + 1 of each lap: ticks from its beginning to each place
+};
+
+}  // namespace rightofway

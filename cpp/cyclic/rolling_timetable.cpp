@@ -1,0 +1,364 @@
+#include "cyclic/rolling_timetable.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rightofway {
+
+RollingTimetable::RollingTimetable(const CyclicRoutes& routes)
+    : routes_(routes), lines_(routes.n_robots()), before_(routes.n_robots()) {
+    const Tick zero = 0;
+    for (RobotId r = 0; r < routes.n_robots(); ++r) {
+        put(r, 0, std::span(&zero, 1));
+    }
+}
+
+void RollingTimetable::put(RobotId robot, std::int32_t start, std::span<const Tick> enters) {
+    Line& line = lines_[robot];
+    forget_rights(line, line.base + static_cast<std::int32_t>(line.nodes.size()));
+    line.base = line.start = start;
+    line.nodes.clear();
+    for (const Tick tick : enters) {
+        line.nodes.push_back({tick, none});
+    }
+    line.trials.assign(line.nodes.size(), {0, {nobody, 0}});
+    line.frozen = start + static_cast<std::int32_t>(enters.size());
+    line.end = line.frozen - 1;
+    runs_.clear();
+    given_.clear();
+}
+
+void RollingTimetable::show(RobotId robot, std::int32_t end) {
+    Line& line = lines_[robot];
+    runs_.clear();
+    given_.clear();
+    line.nodes.resize(end + 1 - line.base, {0, none});
+    line.trials.resize(line.nodes.size(), {0, {nobody, 0}});
+    const std::int32_t old_end = std::exchange(line.end, end);
+    run_freely(robot, old_end);
+}
+
+// Lets a robot run freely from a visit on.
+void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
+    Line& line = lines_[robot];
+    const auto least = routes_.leasts(robot);
+    std::int32_t place = routes_.place_in_lap({robot, from});
+    for (std::int32_t k = from; k < line.end; ++k) {
+        Node* const own = &line.nodes[k - line.base];
+        Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[place];
+        if (k + 1 == line.frozen) {  // by the cut it has not left
+            lasts = std::max(lasts, cut_ + 1 - own->enter);
+        }
+        (own + 1)->enter = own->enter + lasts;
+        place = place + 1 == static_cast<std::int32_t>(least.size()) ? 0 : place + 1;
+    }
+}
+
+void RollingTimetable::freeze(RobotId robot, Tick tick) {
+    Line& line = lines_[robot];
+    while (line.frozen < line.end && line.nodes[line.frozen - line.base].enter <= tick) {
+        ++line.frozen;
+    }
+}
+
+void RollingTimetable::begin_at(Tick tick, Tick cut) {
+    begins_ = tick;
+    cut_ = cut;
+    for (Line& line : lines_) {
+        while (line.start + 1 < line.frozen &&
+               line.nodes[line.start + 1 - line.base].enter <= tick) {
+            ++line.start;
+        }
+        const std::int32_t past = line.start - line.base;
+        if (2 * static_cast<std::size_t>(past) > line.nodes.size()) {
+            forget_rights(line, line.start);
+            line.nodes.erase(line.nodes.begin(), line.nodes.begin() + past);
+            line.trials.erase(line.trials.begin(), line.trials.begin() + past);
+            line.base = line.start;
+        }
+    }
+}
+
+void RollingTimetable::forget_rights(Line& line, std::int32_t below) {
+    for (std::int32_t k = line.base; k < below; ++k) {
+        std::int32_t& arc = line.nodes[k - line.base].rights;
+        for (; arc != none; arc = arcs_[arc].next) {
+            free_arcs_.push_back(arc);
+        }
+    }
+}
+
+std::int32_t RollingTimetable::find(CyclicVisit a, CyclicVisit b) const {
+    std::int32_t arc = node(a).rights;
+    while (arc != none && arcs_[arc].second != b) {
+        arc = arcs_[arc].next;
+    }
+    return arc;
+}
+
+void RollingTimetable::link(CyclicVisit a, CyclicVisit b, Owner owner) {
+    if (free_arcs_.empty()) {
+        free_arcs_.push_back(static_cast<std::int32_t>(arcs_.size()));
+        arcs_.emplace_back();
+    }
+    const std::int32_t arc = free_arcs_.back();
+    free_arcs_.pop_back();
+    arcs_[arc] = {b, node(a).rights, owner};
+    node(a).rights = arc;
+    given_.push_back(a);
+}
+
+void RollingTimetable::unlink_latest(CyclicVisit a) {
+    const std::int32_t arc = node(a).rights;
+    node(a).rights = arcs_[arc].next;
+    free_arcs_.push_back(arc);
+}
+
+bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, Owner owner) {
+    cycle_.clear();
+    cycle_owners_.clear();
+    if (is_frozen(b)) {
+        return false;
+    }
+    if (find(a, b) != none) {
+        return true;
+    }
+    const CyclicVisit source = a.next();
+    // A swap is a cycle of two robots and zero length; see Timetable.
+    if (find(b.before(), source) != none) {
+        cycle_ = {b, source};
+        cycle_owners_ = {arcs_[find(b.before(), source)].owner};
+        return false;
+    }
+    const Tick delta = enter(source) + routes_.gap_before(b) - enter(b);
+    if (delta > 0 && !spread(b, delta, source)) {
+        explain(source);
+        forget_trials();
+        return false;
+    }
+    link(a, b, owner);
+    if (delta > 0) {
+        accept();
+    }
+    return true;
+}
+
+// Tries the raise on all visits that could lead to the source; false as soon as it is reached.
+bool RollingTimetable::spread(CyclicVisit b, Tick delta, CyclicVisit source) {
+    latest_ = enter(source);
+    raise_by(b, delta, {nobody, 0});
+    while (!open_.empty()) {
+        std::pop_heap(open_.begin(), open_.end(), is_later);
+        const Raise top = open_.back();
+        open_.pop_back();
+        if (top.delta < trial(top.visit).raise) {
+            continue;  // raised further since
+        }
+        raise_successors(top.visit);
+        if (trial(source).raise > 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void RollingTimetable::raise_successors(CyclicVisit visit) {
+    if (visit.number < end(visit.robot)) {
+        raise_along(visit, visit.next(), routes_.least(visit));
+    }
+    for (std::int32_t k = node(visit.before()).rights; k != none; k = arcs_[k].next) {
+        raise_along(visit, arcs_[k].second, routes_.gap_before(arcs_[k].second));
+    }
+}
+
+void RollingTimetable::raise_along(CyclicVisit from, CyclicVisit to, Tick length) {
+    const Tick slack = enter(to) - enter(from) - length;
+    const Tick delta = trial(from).raise - slack;
+    if (delta > trial(to).raise) {
+        raise_by(to, delta, from);
+    }
+}
+
+void RollingTimetable::raise_by(CyclicVisit visit, Tick delta, CyclicVisit cause) {
+    Trial& own = trial(visit);
+    if (own.raise == 0) {
+        settled_.push_back(visit);
+    }
+    own = {delta, cause};
+    if (enter(visit) <= latest_) {
+        open_.push_back({delta, visit});
+        std::push_heap(open_.begin(), open_.end(), is_later);
+    }
+}
+
+// Largest raise first; equal raises by visit, so that the order is total.
+bool RollingTimetable::is_later(const Raise& left, const Raise& right) {
+    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
+}
+
+// The causes lead from the source back to b.
+void RollingTimetable::explain(CyclicVisit source) {
+    for (CyclicVisit x = source; x.robot != nobody; x = trial(x).cause) {
+        cycle_.push_back(x);
+    }
+    std::reverse(cycle_.begin(), cycle_.end());
+    for (std::size_t k = 1; k < cycle_.size(); ++k) {
+        if (cycle_[k - 1].robot != cycle_[k].robot) {
+            cycle_owners_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].owner);
+        }
+    }
+}
+
+void RollingTimetable::forget_trials() {
+    for (const CyclicVisit x : settled_) {
+        trial(x).raise = 0;
+    }
+    settled_.clear();
+    open_.clear();
+}
+
+// What was tried is done; what comes after it is raised now. No raise leads back to what was tried.
+void RollingTimetable::accept() {
+    for (const CyclicVisit x : settled_) {
+        const Tick delta = trial(x).raise;
+        trial(x).raise = 0;
+        if (enter(x) > latest_) {
+            push(delta, x);
+            continue;
+        }
+        node(x).enter += delta;
+        runs_.push_back({x.robot, x.number, x.number + 1, delta});
+        changed_.push_back({x.robot, x.number});
+    }
+    settled_.clear();
+    run_on();
+}
+
+void RollingTimetable::push(Tick delta, CyclicVisit visit) {
+    pushes_.push_back({delta, visit, enter(visit) + delta});
+    std::push_heap(pushes_.begin(), pushes_.end(), is_smaller);
+}
+
+bool RollingTimetable::is_smaller(const Push& left, const Push& right) {
+    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
+}
+
+void RollingTimetable::run_on() {
+    while (!pushes_.empty()) {
+        std::pop_heap(pushes_.begin(), pushes_.end(), is_smaller);
+        const Push top = pushes_.back();
+        pushes_.pop_back();
+        const Tick delta = top.enter - enter(top.visit);
+        if (delta > 0) {
+            run_from(top.visit, delta);
+        }
+    }
+}
+
+// Raises a visit and those after it, for as long as they have to move by as much.
+void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
+    const RobotId robot = visit.robot;
+    Line& line = lines_[robot];
+    const auto least = routes_.leasts(robot);
+    const auto length = static_cast<std::int32_t>(least.size());
+    std::int32_t place = routes_.place_in_lap(visit);
+    Node* own = &line.nodes[visit.number - line.base];
+    std::int32_t k = visit.number;
+    CyclicVisit last{nobody, 0};  // pushed from here, and until when its robot stays there
+    Tick last_leave = 0;
+    for (;; ++k, ++own) {
+        own->enter += delta;
+        for (std::int32_t arc = (own - 1)->rights; arc != none; arc = arcs_[arc].next) {
+            const CyclicVisit second = arcs_[arc].second;
+            const Tick least_enter = own->enter + routes_.gap_before(second);
+            const Tick raise = least_enter - enter(second);
+            const bool follows = last.next() == second && last_leave >= least_enter;
+            if (raise > 0 && !follows) {  // else the push before will lead there
+                push(raise, second);
+            }
+            if (raise > 0) {
+                last_leave = (follows ? last_leave : least_enter) + routes_.least(second);
+                last = second;
+            }
+        }
+        if (k == line.end) {
+            break;
+        }
+        const Tick raise = own->enter + least[place] - (own + 1)->enter;
+        if (raise != delta) {
+            if (raise > 0) {
+                push(raise, {robot, k + 1});
+            }
+            break;
+        }
+        place = place + 1 == length ? 0 : place + 1;
+    }
+    runs_.push_back({robot, visit.number, k + 1, delta});
+    changed_.push_back({robot, visit.number});
+}
+
+void RollingTimetable::rollback(const Mark& mark) {
+    while (given_.size() > mark.n_given) {
+        unlink_latest(given_.back());
+        given_.pop_back();
+    }
+    while (runs_.size() > mark.n_runs) {
+        const Run run = runs_.back();
+        runs_.pop_back();
+        Line& line = lines_[run.robot];
+        for (std::int32_t k = run.from; k < run.to; ++k) {
+            line.nodes[k - line.base].enter -= run.delta;
+        }
+        changed_.push_back({run.robot, run.from});
+    }
+}
+
+void RollingTimetable::take_away(const CyclicRight& right, Owner owner) {
+    std::int32_t* link = &node(right.first).rights;
+    while (*link != none && arcs_[*link].second != right.second) {
+        link = &arcs_[*link].next;
+    }
+    if (*link != none && arcs_[*link].owner == owner) {
+        const std::int32_t arc = *link;
+        *link = arcs_[arc].next;
+        free_arcs_.push_back(arc);
+    }
+}
+
+void RollingTimetable::run_again(std::span<const CyclicRight> rights) {
+    runs_.clear();
+    given_.clear();
+    for (RobotId r = 0; r < routes_.n_robots(); ++r) {
+        Line& line = lines_[r];
+        before_[r].clear();
+        for (std::int32_t k = line.frozen; k <= line.end; ++k) {
+            before_[r].push_back(line.nodes[k - line.base].enter);
+        }
+        run_freely(r, line.frozen - 1);
+    }
+    const std::size_t n_changed = changed_.size();
+    for (const auto& [first, second] : rights) {
+        const Tick delta = enter(first.next()) + routes_.gap_before(second) - enter(second);
+        if (delta > 0) {
+            push(delta, second);
+            run_on();
+        }
+    }
+    runs_.clear();
+    changed_.resize(n_changed);
+    tell_changes();
+}
+
+void RollingTimetable::tell_changes() {
+    for (RobotId r = 0; r < routes_.n_robots(); ++r) {
+        const Line& line = lines_[r];
+        for (std::int32_t k = line.frozen; k <= line.end; ++k) {
+            if (line.nodes[k - line.base].enter != before_[r][k - line.frozen]) {
+                changed_.push_back({r, k});
+                break;
+            }
+        }
+    }
+}
+
+}  // namespace rightofway

@@ -1,0 +1,173 @@
+// The earliest times of endless routes that keep the rights of way, for the stretch in view.
+//
+// Of each robot a stretch of visits is in view: `start` .. `end` - 1, and the enter of `end`, when
+// it leaves the view. Visits below `frozen` have begun by the cut; nothing delays them any more.
+// The view moves on with the cut; what is in it already is kept, not made anew.
+//
+// A right of way raises times as in `Timetable`: the largest raise first, each visit once, so a
+// cycle of positive length shows when the raise comes back to its source, and the cycle found is
+// the same one. Only visits entered no later than the source can lead there. All that comes after
+// them is raised for good at once, in runs along a route with one delta for all its visits.
+//
+// Reference: S. Cotton and O. Maler, Fast and flexible difference constraint propagation for
+// DPLL(T), SAT 2006.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/prefetch.hpp"
+#include "core/types.hpp"
+#include "cyclic/cyclic_routes.hpp"
+
+namespace rightofway {
+
+class RollingTimetable {
+  public:
+    using Owner = std::int64_t;  // what a right of way was given for; later ones are larger
+    struct Mark {
+        std::size_t n_runs = 0;
+        std::size_t n_given = 0;
+    };
+    struct Changed {
+        RobotId robot;
+        std::int32_t from;  // visits from here on may have other times
+    };
+
+    // Everybody begins visit 0 at tick 0, and that is frozen. The routes must outlive this.
+    explicit RollingTimetable(const CyclicRoutes& routes);
+
+    std::int32_t start(RobotId robot) const { return lines_[robot].start; }
+    std::int32_t frozen(RobotId robot) const { return lines_[robot].frozen; }
+    std::int32_t end(RobotId robot) const { return lines_[robot].end; }
+    Tick begins() const { return begins_; }
+    Tick enter(CyclicVisit visit) const { return node(visit).enter; }
+    // Makes it quick to ask soon when a visit enters, or the last one in view.
+    void prepare(CyclicVisit visit) const {
+        prefetch(&node({visit.robot, std::min(visit.number, end(visit.robot))}));
+    }
+    bool is_frozen(CyclicVisit visit) const { return visit.number < lines_[visit.robot].frozen; }
+
+    // Shows the visits below `end`, which is beyond all that is frozen or has a right of way.
+    void show(RobotId robot, std::int32_t end);
+    // Freezes a robot's visits that have begun by a tick; they are all in view.
+    void freeze(RobotId robot, Tick tick);
+    // Drops what was left by a tick, after freezing all that has begun by the cut.
+    void begin_at(Tick tick, Tick cut);
+    // Begins anew at a tick, where `enters` are those of visits from `start` on, all frozen. Gives
+    // up all rights of way of the robot and shows nothing more.
+    void put(RobotId robot, std::int32_t start, std::span<const Tick> enters);
+
+    // Lets visit a go before visit b of another robot at the same vertex. False, with nothing
+    // changed, if b is frozen or the fleet would be deadlocked or swap; cycle() then explains.
+    bool precede(CyclicVisit a, CyclicVisit b, Owner owner);
+
+    // The cycle that the last refused right of way would have closed, b first; empty if b is
+    // frozen. And the owners of the rights of way on it.
+    std::span<const CyclicVisit> cycle() const { return cycle_; }
+    std::span<const Owner> cycle_owners() const { return cycle_owners_; }
+
+    // Undoes what was done since a mark, as long as the view has not moved.
+    Mark mark() const { return {runs_.size(), given_.size()}; }
+    void rollback(const Mark& mark);
+
+    // For changes further back: takes rights of way away one by one, and then finds all times anew
+    // from what is frozen and from those that are left.
+    void take_away(const CyclicRight& right, Owner owner);
+    void run_again(std::span<const CyclicRight> rights);
+
+    // Where times have changed since this was last emptied.
+    std::vector<Changed>& changed() { return changed_; }
+
+  private:
+    static constexpr std::int32_t none = -1;
+
+    struct Node {
+        Tick enter;
+        std::int32_t rights;  // the latest right of way of this visit over others
+    };
+    struct Trial {  // of a raise that may still be refused
+        Tick raise;
+        CyclicVisit cause;
+    };
+    struct Line {
+        std::int32_t base = 0;  // the visit of nodes[0]
+        std::int32_t start = 0;
+        std::int32_t frozen = 1;
+        std::int32_t end = 0;
+        std::vector<Node> nodes;
+        std::vector<Trial> trials;
+    };
+    struct Arc {
+        CyclicVisit second;
+        std::int32_t next;
+        Owner owner;
+    };
+    struct Raise {
+        Tick delta;
+        CyclicVisit visit;
+    };
+    struct Push {
+        Tick delta;
+        CyclicVisit visit;
+        Tick enter;  // at least
+    };
+    struct Run {
+        RobotId robot;
+        std::int32_t from;
+        std::int32_t to;  // not raised any more
+        Tick delta;
+    };
+
+    Node& node(CyclicVisit visit) {
+        return lines_[visit.robot].nodes[visit.number - lines_[visit.robot].base];
+    }
+    const Node& node(CyclicVisit visit) const {
+        return lines_[visit.robot].nodes[visit.number - lines_[visit.robot].base];
+    }
+    Trial& trial(CyclicVisit visit) {
+        return lines_[visit.robot].trials[visit.number - lines_[visit.robot].base];
+    }
+    std::int32_t find(CyclicVisit a, CyclicVisit b) const;
+    void link(CyclicVisit a, CyclicVisit b, Owner owner);
+    void unlink_latest(CyclicVisit a);
+    void forget_rights(Line& line, std::int32_t below);
+    void run_freely(RobotId robot, std::int32_t from);
+    void tell_changes();
+    bool spread(CyclicVisit b, Tick delta, CyclicVisit source);
+    void raise_successors(CyclicVisit visit);
+    void raise_along(CyclicVisit from, CyclicVisit to, Tick length);
+    void raise_by(CyclicVisit visit, Tick delta, CyclicVisit cause);
+    void explain(CyclicVisit source);
+    void forget_trials();
+    void accept();
+    void push(Tick delta, CyclicVisit visit);
+    void run_on();
+    void run_from(CyclicVisit visit, Tick delta);
+    static bool is_later(const Raise& left, const Raise& right);
+    static bool is_smaller(const Push& left, const Push& right);
+
+    const CyclicRoutes& routes_;
+    Tick begins_ = 0;
+    Tick cut_ = 0;
+    std::vector<Line> lines_;
+    std::vector<Arc> arcs_;
+    std::vector<std::int32_t> free_arcs_;
+    std::vector<Run> runs_;
+    std::vector<CyclicVisit> given_;  // the first visits of rights of way, in order
+    std::vector<Changed> changed_;
+    std::vector<CyclicVisit> cycle_;
+    std::vector<Owner> cycle_owners_;
+
+    // What a change works on; reused, so that no step allocates.
+    Tick latest_ = 0;
+    std::vector<Raise> open_;                // a heap
+    std::vector<CyclicVisit> settled_;       // touched by a trial
+    std::vector<Push> pushes_;               // a heap
+    std::vector<std::vector<Tick>> before_;  // per robot
+};
+
+}  // namespace rightofway

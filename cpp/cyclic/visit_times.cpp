@@ -1,0 +1,40 @@
+#include "cyclic/visit_times.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+
+VisitTimes::VisitTimes(const CyclicRoutes& routes) : routes_(routes), lines_(routes.n_robots()) {
+    for (RobotId r = 0; r < routes.n_robots(); ++r) {
+        add(r, 0);
+    }
+}
+
+Tick VisitTimes::enter(CyclicVisit visit) const {
+    const Line& line = lines_[visit.robot];
+    const auto next = std::upper_bound(line.late.begin(), line.late.end(), visit.number);
+    const Tick waited = next == line.late.begin() ? 0 : line.waited[next - line.late.begin() - 1];
+    return routes_.free(visit) + waited;
+}
+
+void VisitTimes::add(RobotId robot, Tick enter) {
+    Line& line = lines_[robot];
+    const CyclicVisit visit{robot, line.n_begun++};
+    const Tick waited = enter - line.free;
+    if (waited > (line.waited.empty() ? 0 : line.waited.back())) {
+        line.late.push_back(visit.number);
+        line.waited.push_back(waited);
+    }
+    line.free += routes_.least(visit);
+}
+
+void VisitTimes::cut(RobotId robot, std::int32_t n_begun) {
+    Line& line = lines_[robot];
+    line.n_begun = n_begun;
+    line.free = routes_.free({robot, n_begun});
+    const auto kept = std::lower_bound(line.late.begin(), line.late.end(), n_begun);
+    line.waited.resize(static_cast<std::size_t>(kept - line.late.begin()));
+    line.late.erase(kept, line.late.end());
+}
+
+}  // namespace rightofway

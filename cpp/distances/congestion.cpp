@@ -1,0 +1,192 @@
+#include "distances/congestion.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+}  // namespace
+
+Congestion::Congestion(const Graph& graph, std::int64_t shares,
+                       std::span<const std::int64_t> station)
+    : indptr_(graph.indptr.begin(), graph.indptr.end()),
+      indices_(graph.indices.begin(), graph.indices.end()),
+      shares_(shares),
+      station_(station.begin(), station.end()) {
+    require_graph(graph);
+    require_length("station", station.size(), static_cast<std::size_t>(graph.n_vertices()));
+    if (shares < 1) {
+        reject("shares", shares, "is not above 0");
+    }
+    for (std::size_t v = 0; v < station.size(); ++v) {
+        if (station[v] < 0) {
+            reject_entry("station", v, station[v], "is negative");
+        }
+    }
+    oncoming_.assign(indices_.size(), 0);
+    cost_.assign(station_.size(), infinity);
+    cheapest_way_.assign(station_.size(), none);
+    is_marked_.assign(station_.size(), 0);
+    for (VertexId v = 0; v < n_vertices(); ++v) {
+        for (EdgeId e = indptr_[v]; e < indptr_[v + 1]; ++e) {
+            opposite_.push_back(edge(indices_[e], v));
+        }
+    }
+}
+
+EdgeId Congestion::edge(VertexId tail, VertexId head) const {
+    for (EdgeId e = indptr_[tail]; e < indptr_[tail + 1]; ++e) {
+        if (indices_[e] == head) {
+            return e;
+        }
+    }
+    return none;
+}
+
+std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const {
+    const VertexId head = indices_[edge];
+    std::int64_t per_tick = shares_;
+    if (head != target) {
+        per_tick += station_[head];
+    }
+    if (opposite_[edge] != none) {
+        per_tick += oncoming_[opposite_[edge]];
+    }
+    return per_tick * ticks;
+}
+
+std::vector<VertexId> Congestion::path(VertexId start, VertexId target,
+                                       std::span<const std::int32_t> edge_ticks,
+                                       std::span<const std::int32_t> to_go) {
+    require_id("start", start, n_vertices());
+    require_id("target", target, n_vertices());
+    require_length("edge_ticks", edge_ticks.size(), indices_.size());
+    require_length("to_go", to_go.size(), station_.size());
+    if (to_go[start] < 0) {
+        reject("target", target, "cannot be reached from " + std::to_string(start));
+    }
+    search(start, target, edge_ticks, to_go);
+    mark_cheapest(target);
+    std::vector<VertexId> path = first_marked(start, target);
+    clear();
+    return path;
+}
+
+// A* that goes on until every way that is as cheap as the cheapest is known.
+void Congestion::search(VertexId start, VertexId target, std::span<const std::int32_t> edge_ticks,
+                        std::span<const std::int32_t> to_go) {
+    cost_[start] = 0;
+    reached_.push_back(start);
+    open_.push_back({shares_ * to_go[start], shares_ * to_go[start], 0, start});
+    while (!open_.empty() && open_.front().cost <= cost_[target]) {
+        std::pop_heap(open_.begin(), open_.end(), is_later);
+        const Open top = open_.back();
+        open_.pop_back();
+        if (top.cost - top.to_go > cost_[top.vertex] || top.vertex == target) {
+            continue;  // reached more cheaply since
+        }
+        for (EdgeId e = indptr_[top.vertex]; e < indptr_[top.vertex + 1]; ++e) {
+            const VertexId head = indices_[e];
+            if (to_go[head] >= 0) {
+                const std::int64_t cost = cost_[top.vertex] + cost_of(e, target, edge_ticks[e]);
+                reach(head, top.vertex, cost, shares_ * to_go[head]);
+            }
+        }
+    }
+}
+
+void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go) {
+    if (cost > cost_[vertex]) {
+        return;
+    }
+    if (cost < cost_[vertex]) {
+        if (cost_[vertex] == infinity) {
+            reached_.push_back(vertex);
+        }
+        cost_[vertex] = cost;
+        cheapest_way_[vertex] = none;
+        open_.push_back({cost + to_go, to_go, static_cast<std::int64_t>(ways_.size()), vertex});
+        std::push_heap(open_.begin(), open_.end(), is_later);
+    }
+    ways_.push_back({from, cheapest_way_[vertex]});
+    cheapest_way_[vertex] = static_cast<std::int32_t>(ways_.size()) - 1;
+}
+
+// Marks every vertex that a cheapest path passes.
+void Congestion::mark_cheapest(VertexId target) {
+    std::vector<VertexId> to_mark{target};
+    is_marked_[target] = 1;
+    while (!to_mark.empty()) {
+        const VertexId vertex = to_mark.back();
+        to_mark.pop_back();
+        for (std::int32_t way = cheapest_way_[vertex]; way != none; way = ways_[way].next) {
+            if (is_marked_[ways_[way].from] == 0) {
+                is_marked_[ways_[way].from] = 1;
+                to_mark.push_back(ways_[way].from);
+            }
+        }
+    }
+}
+
+std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) const {
+    const auto leads_from = [this](VertexId head, VertexId tail) {
+        for (std::int32_t way = cheapest_way_[head]; way != none; way = ways_[way].next) {
+            if (ways_[way].from == tail) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::vector<VertexId> path{start};
+    while (path.back() != target) {
+        const auto heads = graph().heads(path.back());
+        path.push_back(*std::find_if(heads.begin(), heads.end(), [&](VertexId head) {
+            return is_marked_[head] != 0 && leads_from(head, path.back());
+        }));
+    }
+    return path;
+}
+
+void Congestion::clear() {
+    for (const VertexId vertex : reached_) {
+        cost_[vertex] = infinity;
+        cheapest_way_[vertex] = none;
+        is_marked_[vertex] = 0;
+    }
+    reached_.clear();
+    ways_.clear();
+    open_.clear();
+}
+
+bool Congestion::is_later(const Open& left, const Open& right) {
+    if (left.cost != right.cost) {
+        return left.cost > right.cost;
+    }
+    return left.to_go != right.to_go ? left.to_go > right.to_go : left.order > right.order;
+}
+
+void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {
+    if (oncoming < 0) {
+        reject("oncoming", oncoming, "is negative");
+    }
+    std::vector<EdgeId> edges;
+    for (std::size_t k = 0; k < path.size(); ++k) {
+        require_id("path[" + std::to_string(k) + "]", path[k], n_vertices());
+        if (k > 0) {
+            edges.push_back(edge(path[k - 1], path[k]));
+        }
+        if (k > 0 && edges.back() == none) {
+            reject_entry("path", k, path[k], "is no neighbour of " + std::to_string(path[k - 1]));
+        }
+    }
+    for (const EdgeId e : edges) {
+        oncoming_[e] += oncoming;
+    }
+}
+
+}  // namespace rightofway

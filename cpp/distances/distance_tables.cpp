@@ -1,0 +1,151 @@
+#include "distances/distance_tables.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/graph.hpp"
+#include "core/reject.hpp"
+#include "distances/distance_view.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t unreached = -1;
+constexpr Tick largest = std::numeric_limits<std::int32_t>::max();
+
+std::int32_t narrow(Tick distance, VertexId vertex, VertexId target) {
+    if (distance > largest) {
+        throw std::overflow_error("distance from " + std::to_string(vertex) + " to " +
+                                  std::to_string(target) + ": " + std::to_string(distance) +
+                                  " ticks do not fit int32 (use a larger tick)");
+    }
+    return static_cast<std::int32_t>(distance);
+}
+
+}  // namespace
+
+DistanceTables::DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices) {
+    require_graph({indptr, indices});
+    reverse(indptr, indices);
+}
+
+// A counting sort of the edges by the vertex they end at.
+void DistanceTables::reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices) {
+    const auto n_vertices = static_cast<VertexId>(indptr.size() - 1);
+    arriving_.assign(indptr.size(), 0);
+    source_.resize(indices.size());
+    edge_.resize(indices.size());
+    for (const VertexId end : indices) {
+        ++arriving_[end + 1];
+    }
+    for (VertexId v = 0; v < n_vertices; ++v) {
+        arriving_[v + 1] += arriving_[v];
+    }
+    std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
+    for (VertexId v = 0; v < n_vertices; ++v) {
+        for (EdgeId e = indptr[v]; e < indptr[v + 1]; ++e) {
+            const EdgeId place = next[indices[e]]++;
+            source_[place] = v;
+            edge_[place] = e;
+        }
+    }
+}
+
+void DistanceTables::check_request(VertexId target,
+                                   std::span<const std::int32_t> edge_ticks) const {
+    require_id("target", target, n_vertices());
+    require_length("edge_ticks", edge_ticks.size(), edge_.size());
+    for (std::size_t e = 0; e < edge_ticks.size(); ++e) {
+        if (edge_ticks[e] <= 0) {
+            reject_entry("edge_ticks", e, edge_ticks[e], "is not positive");
+        }
+    }
+}
+
+std::vector<std::int32_t> DistanceTables::to(VertexId target,
+                                             std::span<const std::int32_t> edge_ticks) const {
+    check_request(target, edge_ticks);
+    const bool uniform = std::adjacent_find(edge_ticks.begin(), edge_ticks.end(),
+                                            std::not_equal_to<>{}) == edge_ticks.end();
+    if (uniform) {
+        return breadth_first(target, edge_ticks.empty() ? 1 : edge_ticks.front());
+    }
+    return dijkstra(target, edge_ticks);
+}
+
+bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& counts) const {
+    require_id("target", target, n_vertices());
+    counts.assign(static_cast<std::size_t>(n_vertices()), DistanceView::no_way);
+    thread_local std::vector<VertexId> queue;
+    queue.resize(counts.size());
+    VertexId* end = queue.data();
+    *end++ = target;
+    counts[target] = 0;
+    for (const VertexId* next = queue.data(); next != end; ++next) {
+        const std::uint16_t farther = static_cast<std::uint16_t>(counts[*next] + 1);
+        if (farther == DistanceView::no_way) {
+            return false;
+        }
+        for (EdgeId k = arriving_[*next]; k < arriving_[*next + 1]; ++k) {
+            const VertexId from = source_[k];
+            if (counts[from] == DistanceView::no_way) {
+                counts[from] = farther;
+                *end++ = from;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<std::int32_t> DistanceTables::breadth_first(VertexId target, std::int32_t ticks) const {
+    std::vector<std::int32_t> distance(n_vertices(), unreached);
+    std::vector<VertexId> queue;
+    queue.reserve(distance.size());
+    distance[target] = 0;
+    queue.push_back(target);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+        const VertexId v = queue[head];
+        for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
+            const VertexId from = source_[k];
+            if (distance[from] == unreached) {
+                distance[from] = narrow(Tick{distance[v]} + ticks, from, target);
+                queue.push_back(from);
+            }
+        }
+    }
+    return distance;
+}
+
+std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
+                                                   std::span<const std::int32_t> edge_ticks) const {
+    using Key = std::pair<Tick, VertexId>;  // a total order: equal distances by vertex
+    std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
+    std::vector<Tick> best(n_vertices(), infinity);
+    std::vector<std::int32_t> distance(n_vertices(), unreached);
+    best[target] = 0;
+    open.emplace(0, target);
+    while (!open.empty()) {
+        const auto [ticks, v] = open.top();
+        open.pop();
+        if (distance[v] != unreached) {
+            continue;
+        }
+        // Only a least distance may be too large: a detour that is never taken does no harm.
+        distance[v] = narrow(ticks, v, target);
+        for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
+            const Tick through = ticks + edge_ticks[edge_[k]];
+            if (through < best[source_[k]]) {
+                best[source_[k]] = through;
+                open.emplace(through, source_[k]);
+            }
+        }
+    }
+    return distance;
+}
+
+}  // namespace rightofway

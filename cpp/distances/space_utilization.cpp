@@ -1,0 +1,198 @@
+#include "distances/space_utilization.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+constexpr EdgeId none = -1;
+constexpr VertexId nowhere = -1;
+
+// What an edge costs, and what it costs more for each path against it and each at its end, up to
+// a bound: a crowd is worth a detour, but not any detour.
+constexpr std::int64_t cost_of_edge = 16;
+constexpr std::int64_t cost_against = 8;
+constexpr std::int64_t most_against = 64;
+constexpr std::int64_t cost_shared = 1;
+constexpr std::int64_t most_shared = 16;
+// What it costs to drive over a robot at the end of its trip: it has to make room, and come back.
+constexpr std::int64_t cost_ended = 320;
+// Above cost_of_edge, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
+constexpr std::int64_t estimate_per_step = 24;
+// Estimates in one list differ by less than this.
+constexpr std::int64_t list_width = 4;
+
+// The effort is bounded. Where it comes to less than this for a leg, it would be spent in vain.
+constexpr std::int64_t most_opened = 3'000'000;
+constexpr std::int64_t least_for_a_leg = 500;
+constexpr std::int64_t legs_between_questions = 32;
+
+}  // namespace
+
+SpaceUtilization::SpaceUtilization(const Trips& trips, StepTables& tables)
+    : trips_(trips),
+      tables_(tables),
+      tail_(trips.graph.indices.size()),
+      back_(trips.graph.indices.size(), none),
+      ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), infinity),
+      edge_cost_(trips.graph.indices.size(), cost_of_edge),
+      into_cost_(ended_from_.size(), 0),
+      first_hop_(trips.stage_vertex.size(), 0),
+      end_hop_(trips.stage_vertex.size(), 0),
+      best_(ended_from_.size(), {0, 0, none, 0}) {}
+
+void SpaceUtilization::pair_edges() {
+    const Graph& graph = trips_.graph;
+    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
+        std::fill(tail_.begin() + graph.indptr[v], tail_.begin() + graph.indptr[v + 1], v);
+    }
+    for (EdgeId e = 0; e < static_cast<EdgeId>(tail_.size()); ++e) {
+        back_[e] = graph.edge(graph.indices[e], tail_[e]);
+    }
+}
+
+// The last stages, and when their robots are there if nobody makes them wait.
+void SpaceUtilization::find_ends() {
+    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        VertexId place = trips_.home[r];
+        Tick when = 0;
+        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
+            const VertexId target = trips_.stage_vertex[s];
+            when += trips_.pace(r) * tables_.steps(tables_.table_of(target), place);
+            if (trips_.is_last(r, s)) {
+                ended_from_[target] = when;
+            }
+            when += trips_.stage_dwell[s];
+            place = target;
+        }
+    }
+}
+
+bool SpaceUtilization::choose(const std::function<bool()>& is_over) {
+    const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
+    if (n_legs * least_for_a_leg > most_opened) {
+        return true;
+    }
+    pair_edges();
+    find_ends();
+    std::int64_t n_chosen = 0;
+    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        VertexId place = trips_.home[r];
+        Tick when = 0;
+        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
+            if (++n_chosen % legs_between_questions == 0 && is_over()) {
+                return false;
+            }
+            credit_ += most_opened / n_legs;  // what one leg leaves over is for the next ones
+            when = choose_leg({r, place, s}, when) + trips_.stage_dwell[s];
+            place = trips_.stage_vertex[s];
+        }
+    }
+    return true;
+}
+
+VertexId SpaceUtilization::next(std::int32_t stage, VertexId at) const {
+    const auto first = hops_.begin() + static_cast<std::ptrdiff_t>(first_hop_[stage]);
+    const auto end = hops_.begin() + static_cast<std::ptrdiff_t>(end_hop_[stage]);
+    const auto hop = std::lower_bound(
+        first, end, at, [](const Hop& left, VertexId from) { return left.from < from; });
+    return hop != end && hop->from == at ? hop->to : nowhere;
+}
+
+// Returns when the robot would be there.
+Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
+    const VertexId target = trips_.stage_vertex[leg.stage];
+    if (leg.start == target) {
+        return when;
+    }
+    if (search(leg, when)) {
+        keep(leg);
+        return best_[target].when;
+    }
+    return when + trips_.pace(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
+}
+
+bool SpaceUtilization::search(const Leg& leg, Tick when) {
+    const Graph& graph = trips_.graph;
+    const VertexId target = trips_.stage_vertex[leg.stage];
+    const StepTables::TableId table = tables_.table_of(target);
+    ++round_;
+    open_.clear();
+    std::fill(first_open_.begin(), first_open_.end(), none);
+    least_ = cost_of_edge * tables_.steps(table, leg.start);
+    list_ = first_open_.size();
+    open(leg.start, {0, when, none, round_}, table);
+    for (Open top{}; credit_ > 0 && take_next(top); --credit_) {
+        if (top.vertex == target) {
+            return true;
+        }
+        const Best best = best_[top.vertex];
+        if (top.cost > best.cost) {
+            continue;  // reached at less cost since
+        }
+        for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
+            const VertexId head = graph.indices[e];
+            const Tick then = best.when + trips_.drive(leg.robot, e);
+            const bool has_ended = head != target && ended_from_[head] <= then;
+            open(head,
+                 {best.cost + edge_cost_[e] + into_cost_[head] + (has_ended ? cost_ended : 0), then,
+                  e, round_},
+                 table);
+        }
+    }
+    return false;
+}
+
+void SpaceUtilization::open(VertexId vertex, const Best& reached, StepTables::TableId table) {
+    Best& best = best_[vertex];
+    if (best.round == round_ && best.cost <= reached.cost) {
+        return;
+    }
+    const std::int32_t steps = tables_.steps(table, vertex);
+    if (steps == StepTables::unreachable) {
+        return;
+    }
+    best = reached;
+    const std::int64_t estimate = reached.cost + estimate_per_step * steps;
+    const auto list = static_cast<std::size_t>((estimate - least_) / list_width);
+    if (list >= first_open_.size()) {
+        first_open_.resize(list + 1, none);
+    }
+    open_.push_back({reached.cost, vertex, first_open_[list]});
+    first_open_[list] = static_cast<std::int32_t>(open_.size()) - 1;
+    list_ = std::min(list_, list);  // the estimate is greedy, so it may fall
+}
+
+// The last one opened of those with the least estimate.
+bool SpaceUtilization::take_next(Open& next) {
+    while (list_ < first_open_.size() && first_open_[list_] == none) {
+        ++list_;
+    }
+    if (list_ == first_open_.size()) {
+        return false;
+    }
+    next = open_[first_open_[list_]];
+    first_open_[list_] = next.next;
+    return true;
+}
+
+// Goes back along the edges by which the search came.
+void SpaceUtilization::keep(const Leg& leg) {
+    const auto first = static_cast<std::ptrdiff_t>(hops_.size());
+    for (VertexId at = trips_.stage_vertex[leg.stage]; at != leg.start;) {
+        const EdgeId edge = best_[at].by;
+        into_cost_[at] = std::min(into_cost_[at] + cost_shared, most_shared);
+        if (const EdgeId back = back_[edge]; back != none) {
+            edge_cost_[back] =
+                std::min(edge_cost_[back] + cost_against, cost_of_edge + most_against);
+        }
+        hops_.push_back({tail_[edge], at});
+        at = tail_[edge];
+    }
+    std::sort(hops_.begin() + first, hops_.end(),
+              [](const Hop& left, const Hop& right) { return left.from < right.from; });
+    first_hop_[leg.stage] = static_cast<std::size_t>(first);
+    end_hop_[leg.stage] = hops_.size();
+}
+
+}  // namespace rightofway

@@ -1,0 +1,235 @@
+#include "distances/step_tables.hpp"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr StepTables::TableId none = -1;
+constexpr std::size_t first_block_size = std::size_t{1} << 20;
+constexpr std::size_t most_block_size = std::size_t{1} << 26;
+// Vertices of one line are at most so far from its first one.
+constexpr std::int32_t line_radius = 15;
+constexpr std::int32_t most_steps = std::numeric_limits<std::uint16_t>::max() - 1;
+constexpr std::size_t legs_between_questions = 64;
+constexpr std::size_t least_for_a_thread = 16;
+
+// Whether some edge does not lead back.
+bool has_one_way(const Graph& graph) {
+    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
+        for (const VertexId head : graph.heads(v)) {
+            if (graph.edge(head, v) < 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Robots read from all over their tables: with small pages, most of the time goes to finding these.
+void ask_for_large_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    constexpr std::size_t large = std::size_t{1} << 21;
+    constexpr std::size_t worth_it = 8 * large;
+    const auto first = (reinterpret_cast<std::uintptr_t>(block) + large - 1) / large * large;
+    const auto end = (reinterpret_cast<std::uintptr_t>(block) + bytes) / large * large;
+    if (bytes >= worth_it) {
+        madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+    }
+#endif
+}
+
+}  // namespace
+
+StepTables::StepTables(const Graph& graph)
+    : is_wide_(has_one_way(graph)),
+      place_(static_cast<std::size_t>(graph.n_vertices()), none),
+      source_(graph.indices.size()),
+      by_target_(place_.size(), none) {
+    find_places(graph);
+    arriving_.assign(static_cast<std::size_t>(size_) + 1, 0);
+    for (const VertexId head : graph.indices) {
+        ++arriving_[place_[head] + 1];
+    }
+    std::partial_sum(arriving_.begin(), arriving_.end(), arriving_.begin());
+    std::vector<EdgeId> next(arriving_.begin(), arriving_.end() - 1);
+    for (VertexId v = 0; v < graph.n_vertices(); ++v) {
+        for (const VertexId head : graph.heads(v)) {
+            source_[next[place_[head]]++] = place_[v];
+        }
+    }
+}
+
+// Each line takes the first vertex that has no place yet, and those nearest to it.
+void StepTables::find_places(const Graph& graph) {
+    const Place cell_size = is_wide_ ? 2 : 1;
+    std::vector<VertexId> reached;
+    std::vector<VertexId> reached_from(place_.size(), none);  // by which search
+    for (VertexId first = 0; first < graph.n_vertices(); ++first) {
+        if (place_[first] != none) {
+            continue;
+        }
+        Place next = size_ + (is_wide_ ? 0 : 2);
+        size_ += line_size;
+        reached.assign(1, first);
+        reached_from[first] = first;
+        std::size_t end_of_level = 1;
+        std::int32_t distance = 0;
+        for (std::size_t k = 0; k < reached.size() && next < size_; ++k) {
+            if (k == end_of_level) {
+                end_of_level = reached.size();
+                if (++distance > line_radius) {
+                    break;
+                }
+            }
+            if (place_[reached[k]] == none) {
+                place_[reached[k]] = next;
+                next += cell_size;
+            }
+            for (const VertexId head : graph.heads(reached[k])) {
+                if (reached_from[head] != first) {
+                    reached_from[head] = first;
+                    reached.push_back(head);
+                }
+            }
+        }
+    }
+}
+
+StepTables::TableId StepTables::table_of(VertexId target) {
+    require_id("target", target, n_vertices());
+    if (by_target_[target] == none) {
+        by_target_[target] = static_cast<TableId>(cells_.size());
+        cells_.push_back(new_cells());
+        searches_.push_back({{place_[target]}, 0});
+        write(cells_.back(), place_[target], 0);
+    }
+    return by_target_[target];
+}
+
+void StepTables::write(Byte* table, Place place, std::int32_t steps) const {
+    if (is_wide_) {
+        *reinterpret_cast<std::uint16_t*>(table + place) = static_cast<std::uint16_t>(steps + 1);
+        return;
+    }
+    if (base(table, place) == 0) {  // searches go outwards, so this is the least
+        *reinterpret_cast<std::uint16_t*>(table + place / line_size * line_size) =
+            static_cast<std::uint16_t>(steps + 1);
+    }
+    table[place] = static_cast<Byte>(steps + 2 - base(table, place));
+}
+
+// Tables come from blocks that the system hands out zeroed, and mostly page by page as they are
+// used. Each is twice as large as the one before.
+StepTables::Byte* StepTables::new_cells() {
+    const auto size = static_cast<std::size_t>(size_);
+    if (n_free_ < size) {
+        const std::size_t wanted =
+            std::min(first_block_size << std::min<std::size_t>(blocks_.size(), 6), most_block_size);
+        n_free_ = std::max(wanted / size, std::size_t{1}) * size;
+        void* block = std::calloc(n_free_ + line_size, 1);
+        if (block == nullptr) {
+            throw std::bad_alloc();
+        }
+        blocks_.emplace_back(static_cast<Byte*>(block));
+        ask_for_large_pages(block, n_free_);
+        const auto past_line = reinterpret_cast<std::uintptr_t>(block) % line_size;
+        next_cells_ = blocks_.back().get() + (line_size - past_line) % line_size;
+    }
+    n_free_ -= size;
+    next_cells_ += size;
+    return next_cells_ - size;
+}
+
+std::int32_t StepTables::search_on(TableId table, VertexId from) {
+    while (!searches_[table].frontier.empty()) {
+        next_level(table, scratch_);
+        if (const std::int32_t steps = read(cells_[table], place_[from]); steps >= 0) {
+            return steps;
+        }
+    }
+    return unreachable;
+}
+
+// Each thread has tables of its own.
+void StepTables::search_all(std::span<const Request> requests) {
+    const auto search_share = [&](std::size_t share, std::size_t n_shares) {
+        std::vector<Place> scratch;
+        for (const auto& [table, from] : requests) {
+            if (static_cast<std::size_t>(table) % n_shares != share) {
+                continue;
+            }
+            const Search& search = searches_[table];
+            while (read(cells_[table], place_[from]) < 0 && !search.frontier.empty() &&
+                   search.depth < most_steps) {
+                next_level(table, scratch);
+            }
+        }
+    };
+    const std::size_t n_shares = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1,
+                                                         1 + requests.size() / least_for_a_thread);
+    std::vector<std::jthread> threads;
+    for (std::size_t share = 1; share < n_shares; ++share) {
+        threads.emplace_back(search_share, share, n_shares);
+    }
+    search_share(0, n_shares);
+}
+
+void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
+    Search& search = searches_[table];
+    if (++search.depth > most_steps) {
+        throw std::overflow_error("steps: more than " + std::to_string(most_steps) +
+                                  " to a target");
+    }
+    Byte* const cells = cells_[table];
+    scratch.clear();
+    for (const Place place : search.frontier) {
+        for (EdgeId k = arriving_[place]; k < arriving_[place + 1]; ++k) {
+            if (read(cells, source_[k]) < 0) {
+                write(cells, source_[k], search.depth);
+                scratch.push_back(source_[k]);
+            }
+        }
+    }
+    search.frontier.assign(scratch.begin(), scratch.end());
+}
+
+SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables,
+                    const std::function<bool()>& is_over) {
+    std::vector<StepTables::Request> legs;
+    for (RobotId r = 0; r < goals.n_robots(); ++r) {
+        VertexId place = goals.home[r];
+        for (std::int32_t s = goals.first_stage[r]; s < goals.first_stage[r + 1]; ++s) {
+            legs.push_back({tables.table_of(goals.stage_vertex[s]), place});
+            place = goals.stage_vertex[s];
+        }
+    }
+    for (std::size_t first = 0; first < legs.size(); first += legs_between_questions) {
+        const auto some =
+            std::span(legs).subspan(first, std::min(legs_between_questions, legs.size() - first));
+        tables.search_all(some);
+        for (const StepTables::Request& leg : some) {
+            if (tables.steps(leg.table, leg.from) == StepTables::unreachable) {
+                return SearchEnd::proven_none;
+            }
+        }
+        if (some.size() == legs_between_questions && is_over()) {
+            return SearchEnd::stopped;
+        }
+    }
+    return SearchEnd::found;
+}
+
+}  // namespace rightofway

@@ -1,0 +1,86 @@
+#include "execution/adg.hpp"
+
+#include <string>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+template <class T>
+std::vector<T> copy(std::span<const T> values) {
+    return {values.begin(), values.end()};
+}
+
+// A sum of this many ticks for each of 2^31 visits stays below `infinity`.
+constexpr Tick longest = Tick{1} << 31;
+
+void check_ticks(const std::string& name, const std::vector<Tick>& ticks, Tick most) {
+    for (std::size_t x = 0; x < ticks.size(); ++x) {
+        if (ticks[x] < 0 || ticks[x] >= most) {
+            reject_entry(name, x, ticks[x], "is not in 0.." + std::to_string(most - 1));
+        }
+    }
+}
+
+}  // namespace
+
+ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
+    : first_visit_(copy(arrays.first_visit)),
+      vertex_(copy(arrays.vertex)),
+      planned_(copy(arrays.planned)),
+      dwell_(copy(arrays.dwell)),
+      drive_(copy(arrays.drive)),
+      before_(copy(arrays.before)),
+      since_(copy(arrays.since)),
+      headway_(arrays.headway),
+      books_ahead_(arrays.books_ahead) {
+    require_length("planned", planned_.size(), vertex_.size());
+    require_length("dwell", dwell_.size(), vertex_.size());
+    require_length("drive", drive_.size(), vertex_.size());
+    require_length("before", before_.size(), vertex_.size());
+    if (!since_.empty()) {
+        require_length("since", since_.size(), vertex_.size());
+    }
+    number_robots();
+    check();
+}
+
+void ActionDependencyGraph::number_robots() {
+    if (first_visit_.empty() || first_visit_.front() != 0 ||
+        static_cast<std::size_t>(first_visit_.back()) != vertex_.size()) {
+        throw std::invalid_argument("first_visit: does not lead from 0 to the number of visits");
+    }
+    robot_.resize(vertex_.size());
+    for (RobotId r = 0; r < n_robots(); ++r) {
+        if (first_visit_[r + 1] <= first_visit_[r]) {
+            reject_entry("first_visit", static_cast<std::size_t>(r) + 1, first_visit_[r + 1],
+                         "leaves a robot without a visit");
+        }
+        for (VisitId x = first_of(r); x <= last_of(r); ++x) {
+            robot_[x] = r;
+        }
+    }
+}
+
+void ActionDependencyGraph::check() const {
+    check_ticks("planned", planned_, infinity);
+    check_ticks("dwell", dwell_, longest);
+    check_ticks("drive", drive_, longest);
+    check_ticks("since", since_, infinity);
+    if (headway_ < 0 || headway_ >= longest) {
+        reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
+    }
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        const VisitId other = before_[x];
+        if (other < no_visit || other >= n_visits()) {
+            reject_entry("before", static_cast<std::size_t>(x), other, "is not a visit");
+        }
+        if (other != no_visit && (vertex_[other] != vertex_[x] || is_first(x))) {
+            reject_entry("before", static_cast<std::size_t>(x), other,
+                         "is at another vertex, or before a first visit");
+        }
+    }
+}
+
+}  // namespace rightofway

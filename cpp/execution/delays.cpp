@@ -1,0 +1,156 @@
+#include "execution/delays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::uint64_t stream = 0xF1008;  // of all uses of a seed, this one
+constexpr double least_factor = 0.01;      // nobody is faster than a hundred times
+
+// Above 0, up to 1: logarithms like that.
+double unit(Random& random) { return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53; }
+
+double exponential(Random& random, double mean) { return -mean * std::log(unit(random)); }
+
+// Box and Muller, "A note on the generation of random normal deviates", 1958.
+double normal(Random& random, double mean, double deviation) {
+    const double radius = std::sqrt(-2 * std::log(unit(random)));
+    return mean + deviation * radius * std::cos(2 * std::numbers::pi * unit(random));
+}
+
+// Who stands still already cannot stand still a second time.
+void merge(std::vector<Stoppage>& standstills, std::size_t first) {
+    std::size_t end = first;
+    for (std::size_t k = first; k < standstills.size(); ++k) {
+        const Stoppage next = standstills[k];
+        if (end == first || standstills[end - 1].tick + standstills[end - 1].ticks < next.tick) {
+            standstills[end++] = next;
+            continue;
+        }
+        Stoppage& last = standstills[end - 1];
+        const Tick until = std::max(last.tick + last.ticks, next.tick + next.ticks);
+        last.ticks = std::min(until - last.tick, infinity);
+    }
+    standstills.resize(end, {});
+}
+
+// Makes whole ticks of durations, and carries what is left.
+class Rounding {
+  public:
+    explicit Rounding(double carry) : carry_(carry) {}
+
+    Tick lengthen(Tick ticks, double factor, Tick least) {
+        carry_ += static_cast<double>(ticks) * (factor - 1);
+        const Tick whole = std::max(static_cast<Tick>(std::floor(carry_)), least - ticks);
+        carry_ -= static_cast<double>(whole);
+        return ticks + whole;
+    }
+
+  private:
+    double carry_;
+};
+
+}  // namespace
+
+Delays::Delays(const ActionDependencyGraph& plan, std::span<const double> pace,
+               std::vector<Delay> delays, std::vector<std::int32_t> first_standstill,
+               std::vector<Stoppage> standstills)
+    : plan_(plan),
+      pace_(pace.begin(), pace.end()),
+      delays_(std::move(delays)),
+      first_standstill_(std::move(first_standstill)),
+      standstills_(std::move(standstills)) {
+    check(static_cast<std::size_t>(plan.n_robots()));
+    for (RobotId r = 0; r < plan.n_robots(); ++r) {
+        makespan_ = std::max(makespan_, plan.planned_completion(r));
+    }
+}
+
+void Delays::check(std::size_t n_robots) const {
+    require_length("pace", pace_.size(), n_robots);
+    require_length("first_standstill", first_standstill_.size(), n_robots + 1);
+    if (first_standstill_.front() != 0 ||
+        static_cast<std::size_t>(first_standstill_.back()) != standstills_.size() ||
+        !std::is_sorted(first_standstill_.begin(), first_standstill_.end())) {
+        throw std::invalid_argument("first_standstill: does not rise from 0 to their number");
+    }
+}
+
+void Delays::draw(std::uint64_t seed, std::uint64_t run, DelaySample& out) const {
+    const auto n_visits = static_cast<std::size_t>(plan_.n_visits());
+    out.dwell.resize(n_visits);
+    out.drive.resize(n_visits);
+    out.first_standstill.assign(1, 0);
+    out.standstills.clear();
+    for (RobotId r = 0; r < plan_.n_robots(); ++r) {
+        Random random(seed, stream + (static_cast<std::uint64_t>(r) << 32), run);
+        draw_standstills(r, random, out);
+        draw_durations(r, random, out);
+    }
+}
+
+void Delays::draw_standstills(RobotId robot, Random& random, DelaySample& out) const {
+    const auto first = static_cast<std::ptrdiff_t>(out.standstills.size());
+    out.standstills.insert(out.standstills.end(), standstills_.begin() + first_standstill_[robot],
+                           standstills_.begin() + first_standstill_[robot + 1]);
+    for (const Delay& delay : delays_) {
+        if (delay.kind == DelayKind::breaks && unit(random) <= delay.a) {
+            const double share = unit(random);
+            out.standstills.push_back(
+                {static_cast<Tick>(share * static_cast<double>(makespan_)), infinity});
+        }
+    }
+    std::stable_sort(
+        out.standstills.begin() + first, out.standstills.end(),
+        [](const Stoppage& left, const Stoppage& right) { return left.tick < right.tick; });
+    merge(out.standstills, static_cast<std::size_t>(first));
+    out.first_standstill.push_back(static_cast<std::int32_t>(out.standstills.size()));
+}
+
+void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) const {
+    Rounding rounding(unit(random));
+    for (VisitId x = plan_.first_of(robot); x <= plan_.last_of(robot); ++x) {
+        const auto [more, stop] = draw_visit(random);
+        const double factor = std::max(pace_[robot] * (1 + more), least_factor);
+        const bool is_done = plan_.is_last(x) && plan_.dwell(x) == 0;
+        out.dwell[x] = rounding.lengthen(plan_.dwell(x), factor, 0) + (is_done ? 0 : stop);
+        if (plan_.is_first(x)) {
+            out.drive[x] = 0;
+        }
+        if (!plan_.is_last(x)) {
+            out.drive[x + 1] = rounding.lengthen(plan_.drive(x + 1), factor, 1);
+        }
+    }
+}
+
+// By which part of its time a visit takes longer, and how many ticks the robot stops besides.
+std::pair<double, Tick> Delays::draw_visit(Random& random) const {
+    double more = 0;
+    Tick stop = 0;
+    for (const Delay& delay : delays_) {
+        switch (delay.kind) {
+            case DelayKind::exponential:
+                more += exponential(random, delay.a);
+                break;
+            case DelayKind::uniform:
+                more += delay.a + (delay.b - delay.a) * unit(random);
+                break;
+            case DelayKind::normal:
+                more += normal(random, delay.a, delay.b);
+                break;
+            case DelayKind::stops:
+                stop += unit(random) <= delay.a ? static_cast<Tick>(delay.b) : 0;
+                break;
+            case DelayKind::breaks:
+                break;
+        }
+    }
+    return {more, stop};
+}
+
+}  // namespace rightofway

@@ -1,0 +1,168 @@
+#include "lacam/fleet_state.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+// Two odd numbers whose product is 1 modulo 2^64: a power of the first counts ticks ahead, a power
+// of the second takes them back. So the sum over all busy robots need not be made anew as the
+// clock goes on.
+constexpr std::uint64_t base = 0x9e3779b97f4a7c15U;
+
+constexpr std::uint64_t inverse_of(std::uint64_t odd) {
+    std::uint64_t inverse = odd;  // right in the last three bits; each round doubles them
+    for (int round = 0; round < 5; ++round) {
+        inverse *= 2 - odd * inverse;
+    }
+    return inverse;
+}
+
+constexpr std::uint64_t back = inverse_of(base);
+static_assert(base * back == 1);
+
+constexpr std::uint64_t power(std::uint64_t factor, Tick exponent) {
+    std::uint64_t result = 1;
+    for (auto left = static_cast<std::uint64_t>(exponent); left != 0; left >>= 1) {
+        if ((left & 1) != 0) {
+            result *= factor;
+        }
+        factor *= factor;
+    }
+    return result;
+}
+
+// Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
+constexpr std::uint64_t mix(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+}
+
+}  // namespace
+
+FleetState::FleetState(const Trips& trips)
+    : trips_(&trips),
+      robots_(trips.home.size()),
+      vertices_(static_cast<std::size_t>(trips.graph.n_vertices()),
+                {nobody, nobody, -trips.headway}) {
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        robots_[r] = {trips.home[r], trips.home[r], trips.first_stage[r], busy, 0, 0};
+        vertices_[trips.home[r]].here = r;
+        begin_stage(r);
+    }
+}
+
+bool FleetState::is_later(const Event& left, const Event& right) {
+    return left.tick != right.tick ? left.tick > right.tick : left.robot > right.robot;
+}
+
+std::uint64_t FleetState::key(RobotId robot) const {
+    const Robot& r = robots_[robot];
+    const auto pack = [](std::int32_t high, std::int32_t low) {
+        return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(low);
+    };
+    return mix(pack(robot, r.stage) ^ mix(pack(r.at, r.to)));
+}
+
+void FleetState::set_busy(RobotId robot, Tick until) {
+    robots_[robot].place = busy;
+    robots_[robot].ready = until;
+    sum_busy_ += key(robot) * base_to_now_ * power(base, until - now_);
+    events_.push_back({until, robot});
+    std::push_heap(events_.begin(), events_.end(), is_later);
+}
+
+void FleetState::set_free(RobotId robot) {
+    Robot& r = robots_[robot];
+    if (trips_->is_last(robot, r.stage) && r.at == target(robot)) {
+        r.place = arrived;
+        ++n_arrived_;
+    } else {
+        r.place = static_cast<std::int32_t>(undecided_.size());
+        undecided_.push_back(robot);
+    }
+    sum_free_ += key(robot);
+}
+
+void FleetState::take_off_list(RobotId robot) {
+    const std::int32_t place = robots_[robot].place;
+    if (place == arrived) {
+        --n_arrived_;
+    } else {
+        robots_[undecided_.back()].place = place;
+        undecided_[place] = undecided_.back();
+        undecided_.pop_back();
+    }
+}
+
+// Works where there is work; the last stage needs none here, for nothing comes after it.
+void FleetState::begin_stage(RobotId robot) {
+    Robot& r = robots_[robot];
+    while (!trips_->is_last(robot, r.stage) && r.at == target(robot)) {
+        const Tick dwell = trips_->stage_dwell[r.stage];
+        if (dwell > 0) {
+            set_busy(robot, now_ + dwell);
+            return;
+        }
+        ++r.stage;
+        r.since = now_;
+    }
+    set_free(robot);
+}
+
+void FleetState::decide(const Decision& decision) {
+    const RobotId robot = decision.robot;
+    sum_free_ -= key(robot);
+    if (robots_[robot].place == arrived) {
+        robots_[robot].since = now_;
+    }
+    take_off_list(robot);
+    robots_[robot].to = decision.vertex;
+    vertices_[decision.vertex].comes = robot;
+    set_busy(robot, decision.arrival);
+}
+
+bool FleetState::advance() {
+    if (events_.empty()) {
+        return false;
+    }
+    const Tick ticks = events_.front().tick - now_;
+    now_ += ticks;
+    base_to_now_ *= power(base, ticks);
+    back_to_now_ *= power(back, ticks);
+    finished_.clear();
+    while (!events_.empty() && events_.front().tick == now_) {
+        std::pop_heap(events_.begin(), events_.end(), is_later);
+        finished_.push_back(events_.back().robot);
+        events_.pop_back();
+    }
+    for (const RobotId robot : finished_) {  // all leave before the first arrives
+        const Robot& r = robots_[robot];
+        sum_busy_ -= key(robot) * base_to_now_;
+        if (r.at != r.to) {
+            vertices_[r.at].here = nobody;
+            vertices_[r.at].left = now_;
+        }
+    }
+    for (const RobotId robot : finished_) {
+        Robot& r = robots_[robot];
+        if (r.at != r.to) {
+            r.at = r.to;
+            vertices_[r.at].here = robot;
+            vertices_[r.at].comes = nobody;
+        } else {  // its work is done
+            ++r.stage;
+            r.since = now_;
+        }
+        begin_stage(robot);
+    }
+    return true;
+}
+
+std::uint64_t FleetState::fingerprint() const {
+    return mix(mix(sum_busy_ * back_to_now_) ^ sum_free_);
+}
+
+}  // namespace rightofway

@@ -1,0 +1,258 @@
+#include "lacam/lacam.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr std::int64_t effort_between_questions = 4096;
+constexpr std::int32_t levels_between_snapshots = 32;
+constexpr std::size_t most_snapshots = 16;
+
+}  // namespace
+
+Lacam::Lacam(const Trips& trips, StepTables& tables, const SpaceUtilization& paths,
+             std::uint64_t seed)
+    : trips_(trips),
+      pibt_(trips, tables, paths, seed),
+      start_(trips),
+      state_(start_),
+      state_of_(none),
+      rank_(trips.home.size()),
+      goal_(none) {
+    std::vector<std::int32_t> way(trips.home.size());
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        way[r] = tables.steps(tables.table_of(start_.target(r)), trips.home[r]);
+    }
+    std::vector<RobotId> robots(trips.home.size());
+    std::iota(robots.begin(), robots.end(), 0);
+    std::sort(robots.begin(), robots.end(), [&way](RobotId left, RobotId right) {
+        return way[left] != way[right] ? way[left] > way[right] : left < right;
+    });
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+        rank_[robots[k]] = static_cast<std::int32_t>(k);
+    }
+}
+
+SearchEnd Lacam::run(const std::function<bool()>& is_over, std::int64_t most_effort) {
+    add(none, 0);
+    std::int64_t next_question = effort_between_questions;
+    for (; !open_.empty(); ++n_retaken_) {
+        const std::int64_t effort = pibt_.n_choices() + n_retaken_;
+        if (effort >= next_question) {
+            next_question = effort + effort_between_questions;
+            if (effort > most_effort || is_over()) {
+                return SearchEnd::stopped;
+            }
+        }
+        if (expand() == SearchEnd::found) {
+            return SearchEnd::found;
+        }
+    }
+    return SearchEnd::stopped;
+}
+
+SearchEnd Lacam::expand() {
+    const std::int32_t top = open_.back();
+    restore(top);
+    if (state_.is_goal()) {
+        goal_ = top;
+        return SearchEnd::found;
+    }
+    if (!next_constraint(nodes_[top])) {
+        open_.pop_back();  // every choice from here has been tried
+        return SearchEnd::stopped;
+    }
+    if (pibt_.choose(state_, by_urgency())) {
+        go_on(top);
+    }
+    return SearchEnd::stopped;
+}
+
+// Tells the robots of the node's next constraint where to go; false if there is none left. Each
+// constraint is followed by those that tell one robot more, but only when somebody asks.
+bool Lacam::next_constraint(Node& node) {
+    if (node.next_constraint > node.constraints.size()) {
+        return false;  // it was asked in vain before
+    }
+    const auto k = static_cast<std::int32_t>(node.next_constraint++);
+    if (k == 0) {
+        node.constraints.push_back({none, 0, none, none});
+    } else {
+        branch(node, k - 1);
+    }
+    if (node.next_constraint > node.constraints.size()) {
+        return false;
+    }
+    for (std::int32_t c = k; node.constraints[c].depth > 0; c = node.constraints[c].parent) {
+        pibt_.fix(node.constraints[c].robot, node.constraints[c].vertex);
+    }
+    return true;
+}
+
+// Tells one more robot where to go, in every way there is.
+void Lacam::branch(Node& node, std::int32_t constraint) {
+    if (constraint == 0) {
+        const auto undecided = by_urgency();
+        node.order.assign(undecided.begin(), undecided.end());
+        for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+            if (state_.has_arrived(r)) {
+                node.order.push_back(r);
+            }
+        }
+    }
+    const std::int32_t depth = node.constraints[constraint].depth;
+    if (depth == static_cast<std::int32_t>(node.order.size())) {
+        return;
+    }
+    const RobotId robot = node.order[depth];
+    const VertexId here = state_.at(robot);
+    for (const VertexId head : trips_.graph.heads(here)) {
+        node.constraints.push_back({constraint, depth + 1, robot, head});
+    }
+    node.constraints.push_back({constraint, depth + 1, robot, here});
+}
+
+// Who has been on its way for long is urgent; between equals, the longer way counts.
+std::span<const RobotId> Lacam::by_urgency() {
+    urgencies_.clear();
+    for (const RobotId robot : state_.undecided()) {
+        const Tick urgency = pibt_.pace(robot) * (state_.now() - state_.on_its_way_since(robot));
+        urgencies_.push_back({urgency, rank_[robot], robot});
+    }
+    std::sort(urgencies_.begin(), urgencies_.end(), [](const Urgency& left, const Urgency& right) {
+        return left.urgency != right.urgency ? left.urgency > right.urgency
+                                             : left.rank < right.rank;
+    });
+    order_.clear();
+    for (const Urgency& one : urgencies_) {
+        order_.push_back(one.robot);
+    }
+    return order_;
+}
+
+// Takes the decisions and lets the clock go on to the next state.
+void Lacam::go_on(std::int32_t from) {
+    const std::size_t first = decisions_.size();
+    for (const Decision& decision : pibt_.decisions()) {
+        decisions_.push_back(decision);
+        state_.decide(decision);
+    }
+    if (!state_.advance()) {
+        return;  // nobody moves, so nothing ever changes
+    }
+    state_of_ = none;
+    if (!add(from, first)) {
+        decisions_.resize(first);
+        open_.push_back(known_.at(state_.fingerprint()));
+    }
+}
+
+// False if the state is known.
+bool Lacam::add(std::int32_t parent, std::size_t first_decision) {
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    if (!known_.emplace(state_.fingerprint(), node).second) {
+        return false;
+    }
+    state_of_ = node;
+    const std::int32_t level = parent == none ? 0 : nodes_[parent].level + 1;
+    nodes_.push_back({parent, level, first_decision, decisions_.size(), 0, {}, {}});
+    open_.push_back(node);
+    return true;
+}
+
+void Lacam::restore(std::int32_t node) {
+    if (state_of_ == node) {
+        return;
+    }
+    std::vector<std::int32_t> path;
+    const Snapshot* snapshot = nullptr;
+    for (std::int32_t step = node; step != none && snapshot == nullptr;
+         step = nodes_[step].parent) {
+        snapshot = snapshot_of(step);
+        if (snapshot == nullptr) {
+            path.push_back(step);
+        }
+    }
+    state_ = snapshot == nullptr ? start_ : snapshot->state;
+    for (auto step = path.rbegin(); step != path.rend(); ++step) {
+        take_again(*step);
+        keep_snapshot(*step);
+    }
+    state_of_ = node;
+}
+
+void Lacam::take_again(std::int32_t node) {
+    const Node& taken = nodes_[node];
+    for (std::size_t k = taken.first_decision; k < taken.end_decision; ++k) {
+        state_.decide(decisions_[k]);
+    }
+    n_retaken_ += 1 + static_cast<std::int64_t>(taken.end_decision - taken.first_decision);
+    if (taken.parent != none) {
+        state_.advance();
+    }
+}
+
+const Lacam::Snapshot* Lacam::snapshot_of(std::int32_t node) const {
+    const auto found = std::find_if(snapshots_.begin(), snapshots_.end(),
+                                    [node](const Snapshot& one) { return one.node == node; });
+    return found == snapshots_.end() ? nullptr : &*found;
+}
+
+void Lacam::keep_snapshot(std::int32_t node) {
+    if (nodes_[node].level % levels_between_snapshots != 0) {
+        return;
+    }
+    if (snapshots_.size() < most_snapshots) {
+        snapshots_.push_back({node, state_});
+    } else {
+        snapshots_[oldest_snapshot_] = {node, state_};
+        oldest_snapshot_ = (oldest_snapshot_ + 1) % most_snapshots;
+    }
+}
+
+std::vector<std::int32_t> Lacam::path_to(std::int32_t node) const {
+    std::vector<std::int32_t> path;
+    for (; node != none; node = nodes_[node].parent) {
+        path.push_back(node);
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+Tracks Lacam::tracks() const {
+    Tracks tracks;
+    if (goal_ == none) {
+        return tracks;
+    }
+    const std::vector<std::int32_t> path = path_to(goal_);
+    const auto for_each_decision = [&](auto&& use) {
+        for (const std::int32_t step : path) {
+            for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {
+                use(decisions_[k]);
+            }
+        }
+    };
+    std::vector<VisitId> next(trips_.home.size() + 1, 1);
+    next[0] = 0;
+    for_each_decision([&next](const Decision& decision) { ++next[decision.robot + 1]; });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    tracks.first_visit = next;
+    tracks.vertex.resize(static_cast<std::size_t>(next.back()));
+    tracks.enter.resize(tracks.vertex.size());
+    const auto enter = [&](RobotId robot, VertexId vertex, Tick tick) {
+        tracks.vertex[next[robot]] = vertex;
+        tracks.enter[next[robot]++] = tick;
+    };
+    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        enter(r, trips_.home[r], 0);
+    }
+    for_each_decision([&enter](const Decision& decision) {
+        enter(decision.robot, decision.vertex, decision.arrival);
+    });
+    return tracks;
+}
+
+}  // namespace rightofway

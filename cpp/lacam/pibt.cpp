@@ -1,0 +1,337 @@
+#include "lacam/pibt.hpp"
+
+#include <algorithm>
+
+#include "lacam/swaps.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr VertexId nowhere = -1;
+constexpr Tick unsettled = -1;
+constexpr Tick in_queue = -2;
+constexpr std::uint64_t draw_step = 0x9e3779b97f4a7c15U;  // from one random number to the next
+
+}  // namespace
+
+// The fleet as it is while robots choose.
+struct Pibt::Choosing {
+    Pibt& pibt;
+    const FleetState& now;
+
+    const Graph& graph() const { return pibt.trips_.graph; }
+    VertexId at(RobotId robot) const { return now.at(robot); }
+    RobotId here(VertexId vertex) const { return now.here(vertex); }
+    VertexId target(RobotId robot) const { return now.target(robot); }
+    std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
+    bool is_free(RobotId robot) const { return !now.is_busy(robot); }
+    bool is_idle(RobotId robot) const { return pibt.is_idle(now, robot); }
+};
+
+Pibt::Pibt(const Trips& trips, StepTables& tables, const SpaceUtilization& paths,
+           std::uint64_t seed)
+    : trips_(trips),
+      tables_(tables),
+      paths_(paths),
+      outlook_(trips.home.size()),
+      draw_(seed),
+      claim_(static_cast<std::size_t>(trips.graph.n_vertices()), nobody),
+      next_(trips.home.size(), nowhere),
+      arrival_(trips.home.size(), unsettled) {
+    for (const VertexId target : trips.stage_vertex) {
+        stage_table_.push_back(tables.table_of(target));
+    }
+    for (RobotId r = 0; r < trips.n_robots(); ++r) {
+        pace_.push_back(trips.pace(r));
+    }
+    for (VertexId v = 0; v < trips.graph.n_vertices(); ++v) {
+        most_heads_ = std::max(most_heads_, trips.graph.heads(v).size());
+    }
+    steps_beside_.resize(trips.home.size() * most_heads_);
+}
+
+void Pibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
+
+bool Pibt::choose(const FleetState& now, std::span<const RobotId> order) {
+    decisions_.clear();
+    const bool found = take_fixed(now) && choose_all(now, order) && settle_arrivals(now);
+    forget(now);
+    return found;
+}
+
+bool Pibt::take_fixed(const FleetState& now) {
+    return std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
+        if (!is_open(now, fixed.robot, fixed.vertex)) {
+            return false;
+        }
+        take(fixed.robot, fixed.vertex);
+        return true;
+    });
+}
+
+bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
+    const auto choose_next = [&](RobotId r) { return next_[r] != nowhere || choose_one(now, r); };
+    return std::all_of(order.begin(), order.end(), choose_next) &&
+           std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
+               const RobotId other = now.here(fixed.vertex);  // it may have arrived already
+               return other == nobody || now.is_busy(other) || choose_next(other);
+           });
+}
+
+void Pibt::take(RobotId robot, VertexId vertex) {
+    if (next_[robot] == nowhere) {
+        chosen_.push_back(robot);
+    }
+    claim_[vertex] = robot;
+    next_[robot] = vertex;
+}
+
+// Nobody else comes there, and the robot that is there is not at work and does not come here.
+bool Pibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
+    if (now.comes(place) != nobody || claim_[place] != nobody) {
+        return false;
+    }
+    const RobotId other = now.here(place);
+    if (other == nobody || other == robot) {
+        return true;
+    }
+    const bool is_at_work = now.is_busy(other) && now.to(other) == place;
+    return !is_at_work && next_[other] != now.at(robot);
+}
+
+bool Pibt::closes_circle(const FleetState& now, RobotId robot, VertexId place) const {
+    RobotId other = now.here(place);
+    while (other != nobody && other != robot && next_[other] != nowhere &&
+           next_[other] != now.at(other)) {
+        other = now.here(next_[other]);
+    }
+    return other == robot;
+}
+
+bool Pibt::choose_one(const FleetState& now, RobotId robot) {
+    ++n_choices_;
+    const VertexId here = now.at(robot);
+    if (has_to_wait(now, robot)) {
+        draw_ += draw_step * (trips_.graph.heads(here).size() + 1);  // as if its places were ranked
+        const bool may_stay = is_open(now, robot, here);
+        take(robot, here);
+        return may_stay;
+    }
+    const std::size_t first = places_.size();
+    push_places(now, robot);
+    const Choosing fleet{*this, now};
+    const RobotId partner = Swaps(fleet).partner(robot, places_[first].vertex);
+    if (partner != nobody) {
+        std::reverse(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
+    }
+    const bool found = try_places(now, robot, first, partner);
+    places_.resize(first);
+    if (!found) {
+        take(robot, here);
+    }
+    return found;
+}
+
+// Whether it is plain that the robot stays, without a ranking of its places: so it is for most that
+// have been waiting. Either it may not stay, but nothing beside it is open; or it may, and no place
+// is open that may rank before where it is. It does not change places with anybody then if robots
+// on the move have booked them all: they come first.
+bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
+    const Outlook& ahead = outlook(now, robot);
+    const auto heads = trips_.graph.heads(ahead.here);
+    const std::int32_t* steps = steps_beside(robot);
+    bool are_booked = true;
+    for (std::size_t k = 0; k < heads.size(); ++k) {
+        if (steps[k] <= ahead.steps) {
+            if (is_open(now, robot, heads[k])) {
+                return false;
+            }
+            are_booked = are_booked && now.comes(heads[k]) != nobody;
+        }
+    }
+    if (is_open(now, robot, ahead.here)) {
+        return are_booked || !has_partner(now, robot);
+    }
+    return std::none_of(heads.begin(), heads.end(),
+                        [&](VertexId head) { return is_open(now, robot, head); });
+}
+
+bool Pibt::has_partner(const FleetState& now, RobotId robot) {
+    const Outlook& ahead = outlook_[robot];
+    const std::size_t n_heads = trips_.graph.heads(ahead.here).size();
+    const std::int32_t* steps = steps_beside(robot);
+    Place best = place(now, robot, n_heads);
+    for (std::size_t k = 0; k < n_heads; ++k) {
+        if (steps[k] <= ahead.steps) {  // others rank behind staying
+            best = std::min(best, place(now, robot, k), ranks_before);
+        }
+    }
+    return Swaps(Choosing{*this, now}).partner(robot, best.vertex) != nobody;
+}
+
+bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner) {
+    const VertexId here = now.at(robot);
+    const std::size_t end = places_.size();
+    for (std::size_t k = first; k < end; ++k) {
+        const VertexId place = places_[k].vertex;
+        const RobotId other = now.here(place);
+        if (!is_open(now, robot, place) ||
+            (!trips_.may_rotate && place != here && closes_circle(now, robot, place))) {
+            continue;
+        }
+        take(robot, place);
+        if (other != robot && other != nobody && is_idle(now, other) && !choose_one(now, other)) {
+            continue;  // `other` stays, so this place is taken
+        }
+        const bool pulls = partner != nobody && k == first && place != here;
+        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
+            trips_.graph.edge(now.at(partner), here) >= 0) {
+            take(partner, here);
+        }
+        return true;
+    }
+    return false;
+}
+
+bool Pibt::is_idle(const FleetState& now, RobotId robot) const {
+    return next_[robot] == nowhere && !now.is_busy(robot);
+}
+
+std::int32_t Pibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
+    return tables_.steps(stage_table_[now.stage(robot)], vertex);
+}
+
+// When the robot could be there, if whoever is free makes room at once.
+Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const {
+    const RobotId other = now.here(place);
+    const bool drives_away = other != nobody && other != robot && now.is_busy(other);
+    const Tick left = drives_away ? now.ready(other) : other == nobody ? now.left(place) : 0;
+    return std::max(now.now() + drive, left + trips_.gap(drive));
+}
+
+// How far it is from where a robot is and from the places beside it. Who waits asks many times.
+const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
+    Outlook& outlook = outlook_[robot];
+    const VertexId here = now.at(robot);
+    const std::int32_t stage = now.stage(robot);
+    if (outlook.here == here && outlook.stage == stage) {
+        return outlook;
+    }
+    outlook.here = here;
+    outlook.stage = stage;
+    outlook.steps = way(now, robot, here);
+    outlook.preferred = paths_.next(stage, here);
+    std::int32_t* beside = steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
+    for (const VertexId head : trips_.graph.heads(here)) {
+        *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
+    }
+    return outlook;
+}
+
+// The place over the k-th edge from where a robot is, or that one itself. A step along the
+// preferred path counts as one nearer, and goes first among equals; other ties are at random.
+Pibt::Place Pibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
+    const Outlook& ahead = outlook_[robot];
+    const EdgeId edge = trips_.graph.indptr[ahead.here] + static_cast<EdgeId>(k);
+    const bool stays = edge == trips_.graph.indptr[ahead.here + 1];
+    const VertexId vertex = stays ? ahead.here : trips_.graph.indices[edge];
+    const Tick there =
+        stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, trips_.drive(robot, edge));
+    const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[robot];
+    const bool is_first = !stays && vertex == ahead.preferred;
+    const std::uint64_t draw = draw_ + (k + 1) * draw_step;
+    std::uint64_t tie = (draw ^ (draw >> 30)) * 0xbf58476d1ce4e5b9U;
+    tie ^= tie >> 27;
+    return {2 * (there - now.now() + way_on) - (is_first ? 1 : 0),
+            static_cast<std::uint32_t>(tie * 0x94d049bb133111ebU >> 32), vertex};
+}
+
+bool Pibt::ranks_before(const Place& left, const Place& right) {
+    return left.cost != right.cost ? left.cost < right.cost
+           : left.tie != right.tie ? left.tie < right.tie
+                                   : left.vertex < right.vertex;
+}
+
+// All places to go to, that from where the target is reached soonest first.
+void Pibt::push_places(const FleetState& now, RobotId robot) {
+    const auto begin = static_cast<std::ptrdiff_t>(places_.size());
+    const std::size_t n_places = trips_.graph.heads(outlook(now, robot).here).size() + 1;
+    for (std::size_t k = 0; k < n_places; ++k) {
+        places_.push_back(place(now, robot, k));
+    }
+    draw_ += n_places * draw_step;
+    std::sort(places_.begin() + begin, places_.end(), ranks_before);
+}
+
+bool Pibt::settle_arrivals(const FleetState& now) {
+    for (const RobotId robot : chosen_) {
+        if (next_[robot] == now.at(robot)) {
+            continue;
+        }
+        if (arrival_[robot] == unsettled && !settle_queue(now, robot)) {
+            return false;
+        }
+        decisions_.push_back({robot, next_[robot], arrival_[robot]});
+    }
+    return true;
+}
+
+// Follows the queue to its front, then settles it from there. False if it is a circle that may not
+// rotate.
+bool Pibt::settle_queue(const FleetState& now, RobotId last) {
+    queue_.clear();
+    RobotId robot = last;
+    while (robot != nobody && next_[robot] != nowhere && arrival_[robot] == unsettled) {
+        arrival_[robot] = in_queue;
+        queue_.push_back(robot);
+        robot = now.here(next_[robot]);
+    }
+    if (robot != nobody && arrival_[robot] == in_queue && !settle_circle(now, robot)) {
+        return false;
+    }
+    for (; !queue_.empty(); queue_.pop_back()) {
+        const RobotId next = queue_.back();
+        if (arrival_[next] != in_queue) {
+            continue;  // part of a circle
+        }
+        const VertexId place = next_[next];
+        const RobotId ahead = now.here(place);
+        const Tick left = ahead == nobody      ? now.left(place)
+                          : now.is_busy(ahead) ? now.ready(ahead)
+                                               : arrival_[ahead];
+        const Tick drive = trips_.drive(next, trips_.graph.edge(now.at(next), place));
+        arrival_[next] = std::max(now.now() + drive, left + trips_.gap(drive));
+    }
+    return true;
+}
+
+bool Pibt::settle_circle(const FleetState& now, RobotId member) {
+    if (!trips_.may_rotate) {
+        return false;
+    }
+    Tick slowest = 0;
+    RobotId robot = member;
+    do {
+        slowest =
+            std::max(slowest, trips_.drive(robot, trips_.graph.edge(now.at(robot), next_[robot])));
+        robot = now.here(next_[robot]);
+    } while (robot != member);
+    do {
+        arrival_[robot] = now.now() + slowest;
+        robot = now.here(next_[robot]);
+    } while (robot != member);
+    return true;
+}
+
+void Pibt::forget(const FleetState& now) {
+    for (const RobotId robot : chosen_) {
+        claim_[next_[robot]] = nobody;
+        claim_[now.at(robot)] = nobody;
+        next_[robot] = nowhere;
+        arrival_[robot] = unsettled;
+    }
+    chosen_.clear();
+    fixed_.clear();
+}
+
+}  // namespace rightofway

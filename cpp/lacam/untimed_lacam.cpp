@@ -1,0 +1,152 @@
+#include "lacam/untimed_lacam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr std::int64_t steps_between_questions = 64;
+
+std::size_t hash_of(const Configuration& now) {
+    std::size_t hash = 0;
+    for (const auto* numbers : {&now.at, &now.stage}) {
+        for (const std::int32_t number : *numbers) {
+            hash ^=
+                static_cast<std::size_t>(number) + 0x9e3779b97f4a7c15U + (hash << 6) + (hash >> 2);
+        }
+    }
+    return hash;
+}
+
+}  // namespace
+
+UntimedLacam::UntimedLacam(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
+                           bool may_rotate, std::uint32_t seed)
+    : graph_(graph), goals_(goals), pibt_(graph, goals, tables, may_rotate, seed) {}
+
+SearchEnd UntimedLacam::run(const std::function<bool()>& is_over) {
+    Configuration start;
+    start.at.assign(goals_.home.begin(), goals_.home.end());
+    start.stage.assign(goals_.first_stage.begin(), goals_.first_stage.end() - 1);
+    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+        advance(goals_, start, r);
+    }
+    add(std::move(start), none);
+    for (std::int64_t n_steps = 1; !open_.empty(); ++n_steps) {
+        if (n_steps % steps_between_questions == 0 && is_over()) {
+            return SearchEnd::stopped;
+        }
+        const std::int32_t top = open_.back();
+        Node& node = nodes_[top];
+        if (is_goal(goals_, node.now)) {
+            goal_ = top;
+            return SearchEnd::found;
+        }
+        if (node.next_constraint == node.constraints.size()) {
+            open_.pop_back();  // every step from here has been tried
+            continue;
+        }
+        const auto constraint = static_cast<std::int32_t>(node.next_constraint++);
+        branch(node, constraint);
+        if (take_step(node, constraint)) {
+            Configuration next = after_step(node.now);
+            const std::int32_t known = find(next);
+            if (known == none) {
+                add(std::move(next), top);
+            } else {
+                open_.push_back(known);
+            }
+        }
+    }
+    return SearchEnd::proven_none;
+}
+
+void UntimedLacam::add(Configuration&& now, std::int32_t parent) {
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    std::vector<float> urgent = urgency(now, parent);
+    std::vector<RobotId> order(urgent.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&urgent](RobotId left, RobotId right) {
+        return urgent[left] != urgent[right] ? urgent[left] > urgent[right] : left < right;
+    });
+    known_.emplace(hash_of(now), node);
+    nodes_.push_back(
+        {std::move(now), parent, std::move(urgent), std::move(order), {{none, 0, none, none}}, 0});
+    open_.push_back(node);
+}
+
+// Who has been on its way for long is urgent; who has arrived or done a stage begins anew. At first
+// and between equals, the longer way counts.
+std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t parent) const {
+    std::vector<float> urgent(now.at.size());
+    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+        const std::int32_t stage = now.stage[r];
+        if (parent == none) {
+            const auto way = static_cast<float>(pibt_.way(now, r, now.at[r]));
+            urgent[r] = way / (way + 1.0F) * 0.99F;
+            continue;
+        }
+        const Node& before = nodes_[parent];
+        const bool begins_anew =
+            stage != before.now.stage[r] || goals_.stage_vertex[stage] == now.at[r];
+        urgent[r] = begins_anew ? before.urgency[r] - std::floor(before.urgency[r])
+                                : before.urgency[r] + 1.0F;
+    }
+    return urgent;
+}
+
+// Tells one more robot where to go, in every way there is.
+void UntimedLacam::branch(Node& node, std::int32_t constraint) {
+    const std::int32_t depth = node.constraints[constraint].depth;
+    if (depth == goals_.n_robots()) {
+        return;
+    }
+    const RobotId robot = node.order[depth];
+    const VertexId here = node.now.at[robot];
+    for (const VertexId head : graph_.heads(here)) {
+        node.constraints.push_back({constraint, depth + 1, robot, head});
+    }
+    node.constraints.push_back({constraint, depth + 1, robot, here});
+}
+
+bool UntimedLacam::take_step(Node& node, std::int32_t constraint) {
+    for (std::int32_t k = constraint; node.constraints[k].depth > 0;
+         k = node.constraints[k].parent) {
+        pibt_.fix(node.constraints[k].robot, node.constraints[k].vertex);
+    }
+    return pibt_.step(node.now, node.order);
+}
+
+Configuration UntimedLacam::after_step(const Configuration& now) const {
+    Configuration next = now;
+    next.at.assign(pibt_.next().begin(), pibt_.next().end());
+    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+        advance(goals_, next, r);
+    }
+    return next;
+}
+
+std::int32_t UntimedLacam::find(const Configuration& now) const {
+    const auto [first, last] = known_.equal_range(hash_of(now));
+    const auto same = std::find_if(
+        first, last, [&](const auto& entry) { return nodes_[entry.second].now == now; });
+    return same == last ? none : same->second;
+}
+
+std::vector<VertexId> UntimedLacam::steps() const {
+    std::vector<std::int32_t> path;
+    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
+        path.push_back(node);
+    }
+    std::vector<VertexId> steps;
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        steps.insert(steps.end(), nodes_[*node].now.at.begin(), nodes_[*node].now.at.end());
+    }
+    return steps;
+}
+
+}  // namespace rightofway

@@ -1,0 +1,156 @@
+#include "lacam/untimed_pibt.hpp"
+
+#include <algorithm>
+
+#include "lacam/swaps.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr VertexId nowhere = -1;
+
+bool has(std::span<const VertexId> vertices, VertexId wanted) {
+    return std::find(vertices.begin(), vertices.end(), wanted) != vertices.end();
+}
+
+}  // namespace
+
+// The fleet as it is while robots choose.
+struct UntimedPibt::Choosing {
+    const UntimedPibt& pibt;
+    const Configuration& now;
+
+    const Graph& graph() const { return pibt.graph_; }
+    VertexId at(RobotId robot) const { return now.at[robot]; }
+    RobotId here(VertexId vertex) const { return pibt.here_[vertex]; }
+    VertexId target(RobotId robot) const { return pibt.goals_.stage_vertex[now.stage[robot]]; }
+    std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
+    bool is_free(RobotId) const { return true; }
+    bool is_idle(RobotId robot) const { return pibt.next_[robot] == nowhere; }
+};
+
+UntimedPibt::UntimedPibt(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
+                         bool may_rotate, std::uint32_t seed)
+    : graph_(graph),
+      goals_(goals),
+      tables_(tables),
+      may_rotate_(may_rotate),
+      draw_(seed),
+      here_(graph.n_vertices(), nobody),
+      comes_(graph.n_vertices(), nobody),
+      next_(goals.n_robots(), nowhere),
+      tie_(graph.n_vertices(), 0) {
+    for (const VertexId target : goals.stage_vertex) {
+        stage_table_.push_back(tables.table_of(target));
+    }
+}
+
+std::int32_t UntimedPibt::way(const Configuration& now, RobotId robot, VertexId vertex) const {
+    return tables_.steps(stage_table_[now.stage[robot]], vertex);
+}
+
+void UntimedPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
+
+bool UntimedPibt::step(const Configuration& now, std::span<const RobotId> order) {
+    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+        here_[now.at[r]] = r;
+        next_[r] = nowhere;
+    }
+    const bool found = take_fixed(now) && std::all_of(order.begin(), order.end(), [&](RobotId r) {
+                           return next_[r] != nowhere || choose(now, r);
+                       });
+    const bool is_good = found && (may_rotate_ || !closes_rotation(now));
+    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+        here_[now.at[r]] = nobody;
+        if (next_[r] != nowhere) {
+            comes_[next_[r]] = nobody;
+        }
+    }
+    fixed_.clear();
+    return is_good;
+}
+
+bool UntimedPibt::take_fixed(const Configuration& now) {
+    return std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
+        if (comes_[fixed.vertex] != nobody || is_swap(now, fixed.robot, fixed.vertex)) {
+            return false;
+        }
+        take(fixed.robot, fixed.vertex);
+        return true;
+    });
+}
+
+// Whether the robot that is there now comes the other way.
+bool UntimedPibt::is_swap(const Configuration& now, RobotId robot, VertexId vertex) const {
+    const RobotId other = here_[vertex];
+    return other != nobody && other != robot && next_[other] == now.at[robot];
+}
+
+void UntimedPibt::take(RobotId robot, VertexId vertex) {
+    comes_[vertex] = robot;
+    next_[robot] = vertex;
+}
+
+bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
+    const VertexId here = now.at[robot];
+    std::vector<VertexId> places = places_by_distance(now, robot);
+    const Choosing fleet{*this, now};
+    const RobotId partner = Swaps(fleet).partner(robot, places.front());
+    if (partner != nobody) {
+        std::reverse(places.begin(), places.end());
+    }
+    for (const VertexId place : places) {
+        const RobotId other = here_[place];
+        if (comes_[place] != nobody || is_swap(now, robot, place)) {
+            continue;
+        }
+        take(robot, place);
+        if (other != nobody && other != robot && next_[other] == nowhere && !choose(now, other)) {
+            continue;  // `other` stays, so this place is taken
+        }
+        const bool pulls = partner != nobody && place == places.front() && place != here;
+        if (pulls && next_[partner] == nowhere && comes_[here] == nobody &&
+            has(graph_.heads(now.at[partner]), here)) {
+            take(partner, here);
+        }
+        return true;
+    }
+    take(robot, here);
+    return false;
+}
+
+// All places to go to, the nearest to the robot's stage first; ties at random.
+std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, RobotId robot) {
+    const auto heads = graph_.heads(now.at[robot]);
+    std::vector<VertexId> places(heads.begin(), heads.end());
+    places.push_back(now.at[robot]);
+    for (const VertexId place : places) {
+        tie_[place] = static_cast<std::uint32_t>(draw_());
+    }
+    std::sort(places.begin(), places.end(), [&](VertexId left, VertexId right) {
+        const auto way_left = way(now, robot, left);
+        const auto way_right = way(now, robot, right);
+        return way_left != way_right       ? way_left < way_right
+               : tie_[left] != tie_[right] ? tie_[left] < tie_[right]
+                                           : left < right;
+    });
+    return places;
+}
+
+// Follows every robot to the one it displaces; three or more that come back to the first rotate.
+bool UntimedPibt::closes_rotation(const Configuration& now) const {
+    std::vector<RobotId> seen(next_.size(), nobody);  // in whose walk
+    for (RobotId first = 0; first < goals_.n_robots(); ++first) {
+        RobotId robot = first;
+        while (robot != nobody && seen[robot] == nobody) {
+            seen[robot] = first;
+            robot = next_[robot] == now.at[robot] ? nobody : here_[next_[robot]];
+        }
+        if (robot != nobody && seen[robot] == first) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace rightofway

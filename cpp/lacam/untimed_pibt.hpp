@@ -1,0 +1,69 @@
+// Priority inheritance with backtracking: one step for the whole fleet, greedily.
+//
+// The robots choose in order of priority. Each wants the neighbour that brings it nearest; a robot
+// that stands there inherits the priority and chooses next, and if it finds no place the first one
+// tries its second choice. Two robots that face each other in a corridor exchange their places by
+// the swap operation: one pulls the other back to where there is room.
+//
+// Okumura, Machida, Defago & Tamura, "Priority inheritance with backtracking for iterative
+// multi-agent path finding", Artificial Intelligence 310, 2022; the swap operation: Okumura,
+// "Improving LaCAM for scalable eventually optimal multi-agent pathfinding", IJCAI 2023.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "distances/step_tables.hpp"
+#include "lacam/untimed_state.hpp"
+
+namespace rightofway {
+
+class UntimedPibt {
+  public:
+    // Borrows the graph, the goals and the tables.
+    UntimedPibt(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
+                bool may_rotate, std::uint32_t seed);
+
+    // How many edges it is from a vertex to the stage of a robot.
+    std::int32_t way(const Configuration& now, RobotId robot, VertexId vertex) const;
+
+    // Says where a robot goes in the coming step.
+    void fix(RobotId robot, VertexId vertex);
+
+    // Chooses for all robots that are not fixed, in this order; false if that gives no step. The
+    // fixed robots are free again afterwards.
+    bool step(const Configuration& now, std::span<const RobotId> order);
+
+    // Where each robot goes in the step that was chosen last.
+    std::span<const VertexId> next() const { return next_; }
+
+  private:
+    struct Choosing;
+    struct Fixed {
+        RobotId robot;
+        VertexId vertex;
+    };
+
+    bool take_fixed(const Configuration& now);
+    bool is_swap(const Configuration& now, RobotId robot, VertexId vertex) const;
+    void take(RobotId robot, VertexId vertex);
+    bool choose(const Configuration& now, RobotId robot);
+    std::vector<VertexId> places_by_distance(const Configuration& now, RobotId robot);
+    bool closes_rotation(const Configuration& now) const;
+
+    Graph graph_;
+    const UntimedProblem& goals_;
+    StepTables& tables_;
+    std::vector<StepTables::TableId> stage_table_;
+    bool may_rotate_;
+    std::mt19937 draw_;
+    std::vector<RobotId> here_;       // who is at each vertex
+    std::vector<RobotId> comes_;      // who will be at each vertex
+    std::vector<VertexId> next_;      // where each robot will be
+    std::vector<std::uint32_t> tie_;  // of each vertex; drawn anew for each choice
+    std::vector<Fixed> fixed_;
+};
+
+}  // namespace rightofway

@@ -1,0 +1,188 @@
+#include "lns/lns.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+// Tasks of a round: many, so that threads seldom wait for each other; few where they would get in
+// each other's way.
+constexpr std::size_t robots_per_task = 4;
+constexpr std::size_t least_in_round = 4;
+constexpr std::size_t most_in_round = 32;
+
+}  // namespace
+
+struct Lns::Worker {
+    Worker(const Problem& fleet, FleetPlan& own, std::span<const Tick> alone)
+        : plan(own),
+          search(fleet.roads(), fleet.rules()),
+          reader(fleet),
+          neighbourhoods(fleet, own, alone) {}
+
+    FleetPlan& plan;
+    SafeIntervalSearch search;
+    TripReader reader;
+    Neighbourhoods neighbourhoods;
+    TimedTrack found;
+};
+
+Lns::Lns(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone, std::uint64_t seed,
+         std::size_t n_threads)
+    : fleet_(fleet),
+      plan_(plan),
+      alone_(alone),
+      seed_(seed),
+      is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0),
+      neighbourhood_(n_neighbourhood_kinds * sizes.size()),
+      crew_(n_threads) {
+    workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
+    replicas_.reserve(n_threads);
+    while (workers_.size() < n_threads) {
+        replicas_.push_back(plan);
+        workers_.push_back(std::make_unique<Worker>(fleet, replicas_.back(), alone));
+    }
+    tasks_.resize(std::clamp(is_touched_.size() / robots_per_task, least_in_round, most_in_round));
+}
+
+Lns::~Lns() = default;
+
+std::int64_t Lns::n_expanded() const {
+    std::int64_t sum = 0;
+    for (const auto& worker : workers_) {
+        sum += worker->search.n_expanded();
+    }
+    return sum;
+}
+
+void Lns::run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
+              const std::function<bool()>& is_due) {
+    while (n_tasks > 0 && n_idle_ < patience) {
+        const auto n = std::min<std::int64_t>(n_tasks, static_cast<std::int64_t>(tasks_.size()));
+        round(static_cast<std::size_t>(n), is_over);
+        settle(static_cast<std::size_t>(n));
+        n_tasks -= n;
+        if (crew_.is_stopped() || is_due()) {
+            break;
+        }
+    }
+    crew_.pass_on();
+}
+
+void Lns::round(std::size_t n, const std::function<bool()>& is_over) {
+    for (Task& task : tasks_) {
+        task.gain = -1;
+        task.effort = 0;
+    }
+    const auto work = [this](std::size_t worker, std::size_t task, const TaskCrew::IsOver& stop) {
+        Random random(seed_, n_rounds_, task);
+        attempt(*workers_[worker], tasks_[task], random, stop);
+    };
+    crew_.run(n, work, is_over);
+    ++n_rounds_;
+}
+
+void Lns::attempt(Worker& worker, Task& task, Random& random,
+                  const SafeIntervalSearch::IsOver& is_over) {
+    task.neighbourhood = neighbourhood_.draw(random);
+    const auto kind = static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
+    const std::size_t size = sizes[task.neighbourhood % sizes.size()];
+    task.robots = worker.neighbourhoods.choose(kind, size, random);
+    const RobotId seed = task.robots.front();
+    random.shuffle(task.robots);
+    if (random.below(2) == 0) {  // the robot that it began with goes first
+        std::swap(task.robots.front(), *std::find(task.robots.begin(), task.robots.end(), seed));
+    }
+    const std::int64_t before = worker.search.n_expanded();
+    replan(worker, task, is_over);
+    task.effort = worker.search.n_expanded() - before + 1;
+}
+
+// Plans the robots of a task anew, notes the tracks in the task, and leaves the plan as it was.
+bool Lns::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over) {
+    const std::size_t n = task.robots.size();
+    if (task.tracks.size() < n) {
+        task.tracks.resize(n);
+    }
+    Tick slack = 0;  // what all may take together, beyond what each would take alone
+    for (std::size_t k = 0; k < n; ++k) {
+        task.tracks[k].visits.clear();
+        task.tracks[k].completion = 0;
+        worker.plan.exchange(task.robots[k], task.tracks[k]);
+        slack += task.tracks[k].completion - alone_[static_cast<std::size_t>(task.robots[k])];
+    }
+    bool is_found = slack > 0;
+    for (std::size_t k = 0; k < n && is_found; ++k) {
+        const RobotId robot = task.robots[k];
+        const Tick alone = alone_[static_cast<std::size_t>(robot)];
+        const SearchRequest errand{
+            worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack};
+        is_found = worker.search.run(errand, is_over) == SearchEnd::found;
+        if (is_found) {
+            worker.search.track(worker.found.visits);
+            worker.found.completion = worker.search.completion();
+            slack -= worker.found.completion - alone;
+            worker.plan.exchange(robot, worker.found);
+            worker.found.completion = 0;
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        worker.plan.exchange(task.robots[k], task.tracks[k]);
+    }
+    task.gain = is_found ? slack : -1;
+    return is_found;
+}
+
+// Takes over, in their order, the results that still fit.
+void Lns::settle(std::size_t n) {
+    std::fill(is_touched_.begin(), is_touched_.end(), 0);
+    bool is_changed = false;
+    for (std::size_t k = 0; k < n; ++k) {
+        Task& task = tasks_[k];
+        const bool is_adopted = task.gain >= 0 && adopt(task, is_changed);
+        is_changed |= is_adopted;
+        n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + 1;
+        learn(task, is_adopted);
+        ++n_tasks_;
+    }
+    neighbourhood_.settle();
+}
+
+// Takes over a result into all replicas, if robots taken over before leave it possible.
+bool Lns::adopt(Task& task, bool may_clash) {
+    const std::size_t n = task.robots.size();
+    for (const RobotId robot : task.robots) {
+        if (is_touched_[static_cast<std::size_t>(robot)] != 0) {
+            return false;
+        }
+    }
+    std::vector<TimedTrack> old(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        plan_.exchange(task.robots[k], old[k]);
+    }
+    for (std::size_t k = 0; k < n && may_clash; ++k) {
+        if (!plan_.fits(task.robots[k], task.tracks[k])) {
+            for (std::size_t j = 0; j < n; ++j) {
+                plan_.exchange(task.robots[j], old[j]);
+            }
+            return false;
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        for (FleetPlan& replica : replicas_) {
+            old[k] = task.tracks[k];
+            replica.exchange(task.robots[k], old[k]);
+        }
+        plan_.exchange(task.robots[k], task.tracks[k]);
+        is_touched_[static_cast<std::size_t>(task.robots[k])] = 1;
+    }
+    return true;
+}
+
+void Lns::learn(const Task& task, bool is_adopted) {
+    const double gain = is_adopted ? static_cast<double>(task.gain) : 0.0;
+    const auto effort = static_cast<double>(task.effort);
+    neighbourhood_.learn(task.neighbourhood, gain, effort);
+}
+
+}  // namespace rightofway

@@ -1,0 +1,245 @@
+#include "lns/neighbourhoods.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t walks = 10;
+constexpr std::size_t places_around = 40;
+constexpr std::size_t visits_around = 12;
+
+}  // namespace
+
+Neighbourhoods::Neighbourhoods(const Problem& fleet, const FleetPlan& plan,
+                               std::span<const Tick> alone)
+    : fleet_(fleet),
+      plan_(plan),
+      alone_(alone),
+      reader_(fleet),
+      is_chosen_(static_cast<std::size_t>(fleet.n_robots()), 0) {}
+
+const std::vector<RobotId>& Neighbourhoods::choose(NeighbourhoodKind kind, std::size_t size,
+                                                   Random& random) {
+    for (const RobotId robot : chosen_) {
+        is_chosen_[static_cast<std::size_t>(robot)] = 0;
+    }
+    chosen_.clear();
+    size = std::min(size, is_chosen_.size());
+    switch (kind) {
+        case NeighbourhoodKind::blockers:
+            blockers(size, random);
+            break;
+        case NeighbourhoodKind::delay:
+            delay(size, random);
+            break;
+        case NeighbourhoodKind::congestion:
+            congestion(size, random);
+            break;
+        case NeighbourhoodKind::segment:
+            segment(size, random);
+            break;
+        case NeighbourhoodKind::random:
+            break;
+    }
+    if (kind == NeighbourhoodKind::random || chosen_.size() < 2) {
+        fill_up(size, random);
+    }
+    return chosen_;
+}
+
+void Neighbourhoods::add(RobotId robot) {
+    auto& is_chosen = is_chosen_[static_cast<std::size_t>(robot)];
+    if (is_chosen == 0) {
+        is_chosen = 1;
+        chosen_.push_back(robot);
+    }
+}
+
+// Adds those who book any of that time.
+void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t size) {
+    const auto here = plan_.bookings().at(vertex);
+    for (std::int32_t k = BookingTable::started(here, end - 1);
+         k > 0 && here[k - 1].reach > start && chosen_.size() < size; --k) {
+        if (here[k - 1].time.end > start) {
+            add(here[k - 1].robot);
+        }
+    }
+}
+
+void Neighbourhoods::fill_up(std::size_t size, Random& random) {
+    while (chosen_.size() < size) {
+        add(static_cast<RobotId>(random.below(is_chosen_.size())));
+    }
+}
+
+// A robot drawn by its delay; any robot if none is late.
+RobotId Neighbourhoods::late_robot(Random& random) {
+    const Tick all = plan_.flowtime();
+    Tick bound = 0;
+    for (const Tick one : alone_) {
+        bound += one;
+    }
+    if (all <= bound) {
+        return static_cast<RobotId>(random.below(alone_.size()));
+    }
+    Tick left = static_cast<Tick>(random.below(static_cast<std::size_t>(all - bound)));
+    RobotId robot = 0;
+    while ((left -= plan_.track(robot).completion - alone_[static_cast<std::size_t>(robot)]) >= 0) {
+        ++robot;
+    }
+    return robot;
+}
+
+// From a random visit on, goes on as if alone, and takes whom it meets.
+void Neighbourhoods::blockers(std::size_t size, Random& random) {
+    const RobotId robot = late_robot(random);
+    add(robot);
+    const auto& visits = plan_.track(robot).visits;
+    reader_.completion(robot, visits, &stage_of_);
+    const Trip& trip = reader_.read(robot);
+    const auto roads = fleet_.roads();
+    for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
+        const std::size_t first = random.below(visits.size());
+        VertexId place = visits[first].vertex;
+        auto stage = static_cast<std::size_t>(stage_of_[first]);
+        if (stage == trip.n_stages() || first + 1 == visits.size()) {
+            continue;
+        }
+        const Tick served = first == 0 || stage_of_[first] == stage_of_[first - 1]
+                                ? 0
+                                : trip.stage_work[stage - 1] + trip.stage_turn[stage - 1];
+        Tick now = visits[first].enter + served;
+        while (stage < trip.n_stages() && chosen_.size() < size) {
+            const Tick way = trip.to_stage[stage].from(place);
+            if (way == 0) {
+                const Tick until = now + trip.stage_work[stage] + trip.stage_turn[stage];
+                const bool is_last = stage + 1 == trip.n_stages();
+                add_all(place, now, is_last ? infinity : until + 1, size);
+                now = until;
+                ++stage;
+                continue;
+            }
+            VertexId next = -1;
+            std::int32_t drive = 0;
+            std::size_t n_ways = 0;
+            for (EdgeId e = roads.graph.indptr[place]; e < roads.graph.indptr[place + 1]; ++e) {
+                const std::int32_t ticks = trip.pace[roads.length_class[e]];
+                const VertexId head = roads.graph.indices[e];
+                const Tick rest = trip.to_stage[stage].from(head);
+                if (rest >= 0 && rest + ticks == way && random.below(++n_ways) == 0) {
+                    next = head;
+                    drive = ticks;
+                }
+            }
+            add_all(next, now + (fleet_.rules().books_ahead ? 0 : drive), now + drive + 1, size);
+            now += drive;
+            place = next;
+        }
+    }
+}
+
+// Walks at random from a random visit on, as long as the robot could still come earlier than it
+// does, and takes whom it meets.
+void Neighbourhoods::delay(std::size_t size, Random& random) {
+    const RobotId robot = late_robot(random);
+    add(robot);
+    const auto& track = plan_.track(robot);
+    reader_.completion(robot, track.visits, &stage_of_);
+    const Trip& trip = reader_.read(robot);
+    const auto roads = fleet_.roads();
+    for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
+        const std::size_t first = random.below(track.visits.size());
+        VertexId place = track.visits[first].vertex;
+        const auto stage = static_cast<std::size_t>(stage_of_[first]);
+        if (stage == trip.n_stages()) {
+            continue;
+        }
+        const std::size_t last =
+            std::min(first + 1 + random.below(visits_around), track.visits.size() - 1);
+        const Tick until =
+            track.visits[last].enter + trip.to_stage[stage].from(track.visits[last].vertex);
+        Tick now = track.visits[first].enter;
+        for (;;) {
+            VertexId next = -1;
+            std::int32_t drive = 0;
+            std::size_t n_ways = 0;
+            for (EdgeId e = roads.graph.indptr[place]; e < roads.graph.indptr[place + 1]; ++e) {
+                const std::int32_t ticks = trip.pace[roads.length_class[e]];
+                const VertexId head = roads.graph.indices[e];
+                const Tick rest = trip.to_stage[stage].from(head);
+                if (rest >= 0 && now + ticks + rest < until && random.below(++n_ways) == 0) {
+                    next = head;
+                    drive = ticks;
+                }
+            }
+            if (next < 0 || chosen_.size() >= size) {
+                break;
+            }
+            add_all(next, now, now + drive + 1, size);
+            now += drive;
+            place = next;
+        }
+    }
+}
+
+// Takes who passes around a random visit, nearest places first.
+void Neighbourhoods::congestion(std::size_t size, Random& random) {
+    const RobotId robot = static_cast<RobotId>(random.below(alone_.size()));
+    add(robot);
+    const auto& visits = plan_.track(robot).visits;
+    const Visit& middle = visits[random.below(visits.size())];
+    const auto pace = fleet_.pace(robot);
+    const Tick around = pace.empty() ? 1 : 3 * *std::max_element(pace.begin(), pace.end());
+    const auto graph = fleet_.roads().graph;
+    ring_.assign(1, middle.vertex);
+    for (std::size_t k = 0; k < ring_.size() && k < places_around && chosen_.size() < size; ++k) {
+        add_all(ring_[k], middle.enter - around, middle.enter + around, size);
+        for (const VertexId head : graph.heads(ring_[k])) {
+            if (ring_.size() < places_around &&
+                std::find(ring_.begin(), ring_.end(), head) == ring_.end()) {
+                ring_.push_back(head);
+            }
+        }
+    }
+}
+
+// Takes those who drive some of the edges around a random visit the other way, soonest first.
+void Neighbourhoods::segment(std::size_t size, Random& random) {
+    const RobotId robot = late_robot(random);
+    add(robot);
+    const auto& visits = plan_.track(robot).visits;
+    const std::size_t middle = random.below(visits.size());
+    const std::size_t begin = middle > visits_around ? middle - visits_around : 0;
+    const std::size_t end = std::min(middle + visits_around, visits.size() - 1);
+    std::vector<std::pair<Tick, RobotId>> opposite;
+    for (std::size_t k = begin; k < end; ++k) {
+        const auto here = plan_.bookings().at(visits[k].vertex);
+        const auto there = plan_.bookings().at(visits[k + 1].vertex);
+        const std::int32_t now = BookingTable::started(here, visits[k].enter);
+        const std::int32_t from = std::max(now - 8, 0);
+        const std::int32_t to = std::min(now + 8, static_cast<std::int32_t>(here.size()));
+        for (std::int32_t j = from; j < to; ++j) {
+            const BookedBy& one = here[j];
+            if (one.robot == robot) {
+                continue;
+            }
+            // Somebody who was at the next vertex just before.
+            std::int32_t i = BookingTable::started(there, one.time.start);
+            for (; i > 0 && there[i - 1].reach >= one.time.start; --i) {
+                if (there[i - 1].robot == one.robot && there[i - 1].time.end >= one.time.start) {
+                    opposite.emplace_back(std::abs(one.time.start - visits[k].enter), one.robot);
+                    break;
+                }
+            }
+        }
+    }
+    std::sort(opposite.begin(), opposite.end());
+    for (const auto& [away, other] : opposite) {
+        if (chosen_.size() < size) {
+            add(other);
+        }
+    }
+}
+
+}  // namespace rightofway

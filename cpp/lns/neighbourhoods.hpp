@@ -1,0 +1,54 @@
+// Which robots to plan anew together: a few whose tracks have to do with each other.
+//
+// Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/random.hpp"
+#include "lns/fleet_plan.hpp"
+
+namespace rightofway {
+
+enum class NeighbourhoodKind : std::int32_t {
+    blockers,    // a late robot, and those on the way it would take if it were alone
+    delay,       // a late robot, and those met on random walks from its track
+    congestion,  // robots that pass one place at about one time
+    segment,     // a late robot, and those that come towards it
+    random,
+};
+inline constexpr std::size_t n_neighbourhood_kinds = 5;
+
+class Neighbourhoods {
+  public:
+    // Borrows all. `alone` is the least completion of each robot.
+    Neighbourhoods(const Problem& fleet, const FleetPlan& plan, std::span<const Tick> alone);
+
+    // Chooses at most `size` robots, each once.
+    const std::vector<RobotId>& choose(NeighbourhoodKind kind, std::size_t size, Random& random);
+
+  private:
+    RobotId late_robot(Random& random);
+    void blockers(std::size_t size, Random& random);
+    void delay(std::size_t size, Random& random);
+    void congestion(std::size_t size, Random& random);
+    void segment(std::size_t size, Random& random);
+    void fill_up(std::size_t size, Random& random);
+    void add(RobotId robot);
+    void add_all(VertexId vertex, Tick start, Tick end, std::size_t size);
+
+    const Problem& fleet_;
+    const FleetPlan& plan_;
+    std::span<const Tick> alone_;
+    TripReader reader_;
+    std::vector<RobotId> chosen_;
+    std::vector<std::uint8_t> is_chosen_;
+    std::vector<std::int32_t> stage_of_;
+    std::vector<VertexId> ring_;
+    std::vector<VertexId> seen_;
+};
+
+}  // namespace rightofway

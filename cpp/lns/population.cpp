@@ -1,0 +1,229 @@
+#include "lns/population.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "lns/lns.hpp"
+#include "lns/prioritized.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::size_t n_members = 4;
+constexpr std::int64_t tasks_per_robot = 30;  // for each new plan
+
+// How many robots change sides, in percent of those whose tracks differ; and how many are planned
+// anew where there is nobody to take tracks from.
+constexpr std::size_t least_share = 20;
+constexpr std::size_t most_share = 60;
+
+constexpr std::int64_t searches_per_robot = 20;
+
+constexpr std::int64_t any_number = std::numeric_limits<std::int64_t>::max();
+
+bool is_same(const TimedTrack& left, const TimedTrack& right) {
+    return std::equal(left.visits.begin(), left.visits.end(), right.visits.begin(),
+                      right.visits.end(), [](const Visit& one, const Visit& other) {
+                          return one.enter == other.enter && one.vertex == other.vertex;
+                      });
+}
+
+std::vector<RobotId> all_that_differ(const Problem& fleet, const FleetPlan& left,
+                                     const FleetPlan& right) {
+    std::vector<RobotId> robots;
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        if (!is_same(left.track(robot), right.track(robot))) {
+            robots.push_back(robot);
+        }
+    }
+    return robots;
+}
+
+// Grows a group around a robot, by those who are in the way of somebody in it if one of the two
+// changes sides and the other does not. It may end before it has that many.
+std::vector<RobotId> grow(const Problem& fleet, const FleetPlan& plan, const FleetPlan& mate,
+                          RobotId first, std::size_t size, Random& random) {
+    std::vector<RobotId> group{first};
+    std::vector<RobotId> open{first};
+    std::vector<std::uint8_t> is_known(static_cast<std::size_t>(fleet.n_robots()), 0);
+    is_known[static_cast<std::size_t>(first)] = 1;
+    std::vector<RobotId> met;
+    const auto add_all = [&] {
+        for (const RobotId robot : met) {
+            if (is_known[static_cast<std::size_t>(robot)] == 0 && group.size() < size) {
+                is_known[static_cast<std::size_t>(robot)] = 1;
+                group.push_back(robot);
+                open.push_back(robot);
+            }
+        }
+    };
+    while (!open.empty() && group.size() < size) {
+        std::swap(open[random.below(open.size())], open.back());
+        const RobotId robot = open.back();
+        open.pop_back();
+        plan.in_the_way(robot, mate.track(robot), met);
+        add_all();
+        mate.in_the_way(robot, plan.track(robot), met);
+        add_all();
+    }
+    return group;
+}
+
+// That many percent of all robots, drawn evenly, at least one.
+std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random) {
+    std::vector<RobotId> robots(static_cast<std::size_t>(n_robots));
+    std::iota(robots.begin(), robots.end(), 0);
+    random.shuffle(robots);
+    robots.resize(std::max<std::size_t>(1, robots.size() * percent / 100));
+    return robots;
+}
+
+void take_away_all(FleetPlan& plan, std::span<const RobotId> robots) {
+    for (const RobotId robot : robots) {
+        TimedTrack none;
+        plan.exchange(robot, none);
+    }
+}
+
+}  // namespace
+
+Population::Population(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone,
+                       std::uint64_t seed, std::size_t n_threads, std::int64_t n_idle)
+    : fleet_(fleet),
+      plan_(plan),
+      alone_(alone),
+      seed_(seed),
+      members_{plan},
+      children_(n_members, Child{FleetPlan(fleet)}),
+      crew_(std::min(n_threads, n_members)),
+      n_idle_(n_idle) {}
+
+void Population::run(std::int64_t n_tasks, std::int64_t patience,
+                     const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
+    while (n_tasks > 0 && n_idle_ < patience) {
+        const std::int64_t before = n_tasks_;
+        const std::size_t n = begin_generation(std::min(n_tasks, patience - n_idle_));
+        const auto work = [this](std::size_t, std::size_t k, const TaskCrew::IsOver& stop) {
+            bring_up(k, stop);
+        };
+        crew_.run(n, work, is_over);
+        take_up(n);
+        n_tasks -= n_tasks_ - before;
+        if (crew_.is_stopped() || is_due()) {
+            break;
+        }
+    }
+    crew_.pass_on();
+}
+
+// Shares out tasks to the next children; returns how many of those there are.
+std::size_t Population::begin_generation(std::int64_t n_tasks) {
+    const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
+    const std::int64_t each = tasks_per_robot * fleet_.n_robots();
+    std::size_t n = 0;
+    for (; n < most && n_tasks > 0; ++n) {
+        children_[n].most_tasks = std::min(each, n_tasks);
+        children_[n].n_tasks = 0;
+        children_[n].n_expanded = 0;
+        children_[n].is_whole = false;
+        n_tasks -= children_[n].most_tasks;
+    }
+    return n;
+}
+
+bool Population::has_all_members() const { return members_.size() == n_members; }
+
+void Population::bring_up(std::size_t k, const TaskCrew::IsOver& is_over) {
+    Child& child = children_[k];
+    Random random(seed_, n_generations_, k);
+    if (!vary(child, has_all_members() ? k : 0, random, is_over)) {
+        child.n_tasks = is_over() ? 0 : child.most_tasks;  // in vain
+        return;
+    }
+    Lns improver(fleet_, child.plan, alone_, random.next(), 1);
+    improver.run(child.most_tasks, any_number, is_over, [] { return false; });
+    child.n_tasks = improver.n_tasks();
+    child.n_expanded += improver.n_expanded();
+    child.is_whole = true;
+}
+
+// Makes a plan unlike the one it comes from; false if some robots got no track.
+bool Population::vary(Child& child, std::size_t parent, Random& random,
+                      const TaskCrew::IsOver& is_over) {
+    child.plan = members_[parent];
+    const FleetPlan& mate = members_[(parent + 1 + random.below(n_members - 1)) % members_.size()];
+    const std::vector<RobotId> differing = all_that_differ(fleet_, child.plan, mate);
+    std::vector<RobotId> out;
+    if (differing.empty()) {
+        out = some(fleet_.n_robots(), most_share, random);
+        take_away_all(child.plan, out);
+    } else {
+        out = take_over(child.plan, mate, differing, random);
+    }
+    random.shuffle(out);
+    Prioritized planner(fleet_, child.plan);
+    planner.start(out);
+    const bool is_found =
+        planner.run(searches_per_robot * fleet_.n_robots(), is_over) == SearchEnd::found;
+    child.n_expanded = planner.n_expanded();
+    return is_found;
+}
+
+// Some robots take over the mate's tracks. Returns those that were in the way, and have none now.
+std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mate,
+                                           std::span<const RobotId> differing,
+                                           Random& random) const {
+    const std::size_t share = least_share + random.below(most_share - least_share + 1);
+    const RobotId first = differing[random.below(differing.size())];
+    const std::size_t size = std::max<std::size_t>(1, differing.size() * share / 100);
+    const std::vector<RobotId> group = grow(fleet_, plan, mate, first, size, random);
+    take_away_all(plan, group);
+    std::vector<RobotId> out;
+    std::vector<RobotId> met;
+    for (const RobotId robot : group) {
+        TimedTrack track = mate.track(robot);
+        plan.in_the_way(robot, track, met);
+        take_away_all(plan, met);
+        out.insert(out.end(), met.begin(), met.end());
+        plan.exchange(robot, track);
+    }
+    return out;
+}
+
+// Takes up the children in their order: each instead of its parent if it is no worse than that, or
+// else instead of the worst member if it is no worse than that one.
+void Population::take_up(std::size_t n_children) {
+    const bool are_parents = has_all_members();
+    const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {
+        return left.flowtime() < right.flowtime();
+    };
+    for (std::size_t k = 0; k < n_children; ++k) {
+        Child& child = children_[k];
+        n_tasks_ += child.n_tasks;
+        n_idle_ += child.n_tasks;
+        n_expanded_ += child.n_expanded;
+        if (!child.is_whole) {
+            continue;
+        }
+        if (child.plan.flowtime() < plan_.flowtime()) {
+            plan_ = child.plan;
+            n_idle_ = 0;
+        }
+        if (!are_parents) {
+            members_.push_back(std::move(child.plan));
+            continue;
+        }
+        auto place = members_.begin() + static_cast<std::ptrdiff_t>(k);
+        if (is_better(*place, child.plan)) {
+            place = std::max_element(members_.begin(), members_.end(), is_better);
+        }
+        if (!is_better(*place, child.plan)) {
+            std::swap(*place, child.plan);
+        }
+    }
+    ++n_generations_;
+}
+
+}  // namespace rightofway

@@ -1,0 +1,137 @@
+#include "lns/prioritized.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+// For how many of its slowest edges a robot's home is kept free: at first, and as much longer each
+// time it has lost its track.
+constexpr Tick hold_edges = 16;
+
+constexpr double raise = 1.25;
+constexpr double highest_level = 1000;
+
+// See Errand.
+constexpr Tick greed = 1;
+
+}  // namespace
+
+Prioritized::Prioritized(const Problem& fleet, FleetPlan& plan, const TrackPrices& prices)
+    : fleet_(fleet),
+      plan_(plan),
+      track_prices_(prices),
+      search_(fleet.roads(), fleet.rules()),
+      reader_(fleet),
+      prices_(static_cast<std::size_t>(fleet.n_robots())),
+      n_lost_(prices_.size(), 0),
+      expected_(prices_.size()),
+      next_raise_(prices.states_between_raises) {
+    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+        prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
+    }
+}
+
+Tick Prioritized::first_hold(RobotId robot) const {
+    const auto pace = fleet_.pace(robot);
+    return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
+}
+
+void Prioritized::keep_home(RobotId robot) {
+    const Tick holds = 1 + n_lost_[static_cast<std::size_t>(robot)];
+    plan_.hold_home(robot, holds * first_hold(robot));
+}
+
+void Prioritized::start(std::span<const RobotId> order) {
+    waiting_.assign(order.begin(), order.end());
+    for (const RobotId robot : order) {
+        keep_home(robot);
+        Tick& expected = expected_[static_cast<std::size_t>(robot)];
+        expected = fleet_.alone(robot);
+        outlook_ += expected;
+    }
+    highest_outlook_ = outlook_;
+}
+
+SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
+    for (; !waiting_.empty(); waiting_.pop_front()) {
+        if (n_searches_ >= n_searches || !place(waiting_.front(), is_over)) {
+            return SearchEnd::stopped;
+        }
+        ++n_searches_;
+        highest_outlook_ = std::max(highest_outlook_, outlook_);
+        raise_prices();
+    }
+    return SearchEnd::found;
+}
+
+bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
+    plan_.hold_home(robot, 0);
+    if (!find(robot, is_over)) {
+        return false;
+    }
+    if (evict_those_met() && has_lost(robot) && crosses_their_homes(robot) &&
+        random_.below(2) == 0) {
+        if (!find(robot, is_over)) {
+            return false;
+        }
+        evict_those_met();
+    }
+    Tick& expected = expected_[static_cast<std::size_t>(robot)];
+    outlook_ += track_.completion - expected;
+    expected = track_.completion;
+    plan_.exchange(robot, track_);
+    return true;
+}
+
+bool Prioritized::find(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
+    const SearchRequest errand{reader_.read(robot), plan_.bookings(), prices_, infinity, greed};
+    if (search_.run(errand, is_over) != SearchEnd::found) {
+        return false;
+    }
+    search_.track(track_.visits);
+    track_.completion = search_.completion();
+    plan_.in_the_way(robot, track_, met_);
+    return true;
+}
+
+// Leaves those whose tracks it has taken away in met_.
+bool Prioritized::evict_those_met() {
+    std::erase_if(met_, [this](RobotId other) { return !plan_.has_track(other); });
+    for (const RobotId other : met_) {
+        evict(other);
+    }
+    return !met_.empty();
+}
+
+// Whether the track leads through the homes of those in met_ while these are kept free.
+bool Prioritized::crosses_their_homes(RobotId robot) {
+    evicted_.swap(met_);
+    plan_.in_the_way(robot, track_, met_);
+    return std::any_of(evicted_.begin(), evicted_.end(), [this](RobotId other) {
+        return std::binary_search(met_.begin(), met_.end(), other);
+    });
+}
+
+void Prioritized::raise_prices() {
+    for (; search_.n_expanded() >= next_raise_ && level_ < highest_level;
+         next_raise_ += track_prices_.states_between_raises) {
+        level_ *= raise;
+        for (Tick& price : prices_) {
+            price = static_cast<Tick>(raise * static_cast<double>(price));
+        }
+    }
+}
+
+void Prioritized::evict(RobotId robot) {
+    TimedTrack none;
+    plan_.exchange(robot, none);
+    const Tick dearer = track_prices_.dearer * first_hold(robot);
+    prices_[static_cast<std::size_t>(robot)] +=
+        static_cast<Tick>(level_ * static_cast<double>(dearer));
+    keep_home(robot);
+    ++n_lost_[static_cast<std::size_t>(robot)];
+    waiting_.push_back(robot);
+}
+
+}  // namespace rightofway

@@ -1,0 +1,49 @@
+// Bookings and the two ways in which they can fail.
+//
+// A visit books its vertex for the half-open interval [start, end). A vertex conflict is an overlap
+// of two bookings of one vertex by different robots. A swap conflict is two robots exchanging two
+// vertices at one instant without any such overlap.
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+struct Booking {
+    Tick start = infinity;
+    Tick end = infinity;
+
+    bool is_empty() const { return start >= end; }
+};
+
+// A booking that overlaps nothing, not even one without end.
+inline constexpr Booking no_booking{};
+
+// What an overlap counts: its ticks, at most `forever`; 0 or less if there is none.
+inline Tick overlap(const Booking& left, const Booking& right) {
+    return std::min(std::min(left.end, right.end) - std::max(left.start, right.start), forever);
+}
+
+// What a swap counts.
+inline constexpr Tick swap_weight = 1;
+
+enum class ConflictKind : std::int32_t { vertex = 0, swap = 1 };
+
+// The member order is the order of conflicts: by time, then by robots, then by visits. For a swap,
+// the visits are the two that are entered at that instant.
+struct Conflict {
+    Tick tick;
+    RobotId robot_a;  // < robot_b
+    RobotId robot_b;
+    VisitId visit_a;
+    VisitId visit_b;
+    ConflictKind kind;
+
+    auto operator<=>(const Conflict&) const = default;
+};
+
+}  // namespace rightofway

@@ -1,0 +1,65 @@
+// Who goes before whom: the rights of way given so far, found from either of their two visits.
+//
+// A right of way keeps its number for as long as it lives, also while it is taken back for a trial:
+// numbers are in the order of giving, and what was given last can be forgotten first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+struct RightOfWay {
+    VisitId first;   // this visit leaves the vertex ...
+    VisitId second;  // ... before this one enters it
+};
+
+class RightsOfWay {
+  public:
+    static constexpr std::int32_t none = -1;
+
+    explicit RightsOfWay(VisitId n_visits)
+        : latest_of_first_(n_visits, none), latest_of_second_(n_visits, none) {}
+
+    // The number of the right of way of one visit over another, or none.
+    std::int32_t find(VisitId first, VisitId second) const;
+
+    std::int32_t give(VisitId first, VisitId second);  // returns its number
+    void forget_latest();                              // the one given last, if it holds
+    void take_back(std::int32_t right) { unlink(right); }
+    void restore(std::int32_t right) { link(right); }
+
+    // Those that hold, in the order they were given.
+    std::vector<RightOfWay> list() const;
+
+    // Calls use(visit) for each visit that goes after this one at its vertex, or before it.
+    template <class Use>
+    void for_each_second(VisitId first, Use&& use) const {
+        for (std::int32_t k = latest_of_first_[first]; k != none; k = next_of_first_[k]) {
+            use(rights_[k].second);
+        }
+    }
+    template <class Use>
+    void for_each_first(VisitId second, Use&& use) const {
+        for (std::int32_t k = latest_of_second_[second]; k != none; k = next_of_second_[k]) {
+            use(rights_[k].first);
+        }
+    }
+
+  private:
+    void link(std::int32_t right);
+    void unlink(std::int32_t right);
+
+    // By number; those of one visit are a list.
+    std::vector<RightOfWay> rights_;
+    std::vector<std::uint8_t> holds_;
+    std::vector<std::int32_t> next_of_first_;
+    std::vector<std::int32_t> next_of_second_;
+    std::vector<std::int32_t> latest_of_first_;   // per visit
+    std::vector<std::int32_t> latest_of_second_;  // per visit
+};
+
+}  // namespace rightofway

@@ -1,0 +1,76 @@
+// Where each robot goes: one fixed list of visits per robot, one after the other in flat arrays.
+//
+// Routes never change once they are made. What does change, the right of way and the times, is
+// kept elsewhere and refers to visits by their position here. All input is checked here, so that
+// whatever is built on routes can rely on them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+// What routes are made of; n visits of r robots. Borrowed, read once.
+struct RouteArrays {
+    std::span<const VisitId> first_visit;  // r + 1: robot k owns first_visit[k] .. [k + 1] - 1
+    std::span<const VertexId> vertex;      // n: differs between consecutive visits of a robot
+    std::span<const Tick> least;     // n: from this enter to the next at least; last visits: unused
+    std::span<const Tick> approach;  // n: a visit books its vertex so long before its enter
+    Tick headway = 0;                // a visit books its vertex so long after its leave
+    bool swaps_conflict = true;
+    std::span<const std::uint8_t> active;  // r: a robot that is not active meets nobody
+};
+
+class Routes {
+  public:
+    // Throws std::invalid_argument, naming the array, the index and the value.
+    explicit Routes(const RouteArrays& arrays);
+
+    RobotId n_robots() const { return static_cast<RobotId>(active_.size()); }
+    VisitId n_visits() const { return static_cast<VisitId>(vertex_.size()); }
+
+    VisitId first_of(RobotId robot) const { return first_visit_[robot]; }
+    VisitId last_of(RobotId robot) const { return first_visit_[robot + 1] - 1; }
+    bool is_active(RobotId robot) const { return active_[robot] != 0; }
+    void deactivate(RobotId robot) { active_[robot] = 0; }
+    Tick longest_approach(RobotId robot) const { return longest_approach_[robot]; }
+
+    RobotId robot(VisitId visit) const { return robot_[visit]; }
+    VertexId vertex(VisitId visit) const { return vertex_[visit]; }
+    Tick least(VisitId visit) const { return least_[visit]; }
+    Tick approach(VisitId visit) const { return approach_[visit]; }
+    Tick headway() const { return headway_; }
+    bool swaps_conflict() const { return swaps_conflict_; }
+
+    bool is_first(VisitId visit) const { return visit == first_of(robot(visit)); }
+    bool is_last(VisitId visit) const { return visit == last_of(robot(visit)); }
+
+    // The least ticks from one robot's leave to the enter of a later visit to the same vertex.
+    Tick gap_before(VisitId visit) const { return headway_ + approach_[visit]; }
+
+    // Can the move into this visit be half of a swap? Not where bookings keep robots so far apart
+    // that an exchange at one instant is a vertex conflict already.
+    bool may_swap(VisitId visit) const {
+        return swaps_conflict_ && !is_first(visit) && gap_before(visit) == 0;
+    }
+
+  private:
+    void number_robots();
+    void check_robot(RobotId robot) const;
+    void check_horizon() const;
+
+    std::vector<VisitId> first_visit_;
+    std::vector<VertexId> vertex_;
+    std::vector<Tick> least_;
+    std::vector<Tick> approach_;
+    Tick headway_;
+    bool swaps_conflict_;
+    std::vector<std::uint8_t> active_;
+    std::vector<RobotId> robot_;          // of each visit
+    std::vector<Tick> longest_approach_;  // of each robot
+};
+
+}  // namespace rightofway

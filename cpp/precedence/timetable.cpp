@@ -1,0 +1,406 @@
+#include "precedence/timetable.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rightofway {
+
+Timetable::Timetable(const Routes& routes)
+    : routes_(routes),
+      enter_(routes.n_visits(), 0),
+      rights_(routes.n_visits()),
+      raise_(routes.n_visits(), 0),
+      cause_(routes.n_visits(), none),
+      is_in_instant_(routes.n_visits(), 0) {
+    run_freely();
+}
+
+void Timetable::run_freely() {
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
+    }
+}
+
+bool Timetable::precede(VisitId a, VisitId b) {
+    changed_.clear();
+    if (rights_.find(a, b) != RightsOfWay::none) {
+        return true;
+    }
+    if (routes_.is_last(a) || routes_.is_first(b)) {
+        cycle_.clear();
+        return false;
+    }
+    const VisitId source = a + 1;
+    if (closes_swap(a, b)) {
+        cycle_ = {b, source};
+        return false;
+    }
+    const Tick delta = enter_[source] + routes_.gap_before(b) - enter_[b];
+    if (delta > 0 && !spread(b, delta, source)) {
+        explain(source);
+        forget_raises();
+        return false;
+    }
+    journal_.push_back({rights_.give(a, b), true, trail_.size()});
+    accept();
+    return true;
+}
+
+bool Timetable::keep_order(std::span<const Tick> when) {
+    changed_.clear();
+    cycle_.clear();
+    const std::vector<Tick> before = enter_;
+    const bool is_possible = give_in_order(when) && sweep(when);
+    if (!is_possible) {
+        enter_ = before;
+        rollback(0);
+        return false;
+    }
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        if (enter_[x] != before[x]) {
+            trail_.push_back({x, before[x]});
+            changed_.push_back(x);
+        }
+    }
+    return true;
+}
+
+bool Timetable::give_in_order(std::span<const Tick> when) {
+    std::vector<VisitId> visits;
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        if (routes_.is_active(routes_.robot(x))) {
+            visits.push_back(x);
+        }
+    }
+    const auto key = [&](VisitId x) { return std::tuple(routes_.vertex(x), when[x], x); };
+    std::sort(visits.begin(), visits.end(), [&](VisitId x, VisitId y) { return key(x) < key(y); });
+    for (std::size_t k = 1; k < visits.size(); ++k) {
+        const VisitId a = visits[k - 1];
+        const VisitId b = visits[k];
+        if (routes_.vertex(a) != routes_.vertex(b) || routes_.robot(a) == routes_.robot(b)) {
+            continue;
+        }
+        if (routes_.is_last(a) || routes_.is_first(b) || when[a + 1] > when[b] ||
+            closes_swap(a, b)) {
+            return false;
+        }
+        journal_.push_back({rights_.give(a, b), true, trail_.size()});
+    }
+    return true;
+}
+
+// Visits of one number may hold each other (a rotation), so they are gone through until nothing
+// changes. Where that takes more rounds than there are visits, they raise each other for ever.
+bool Timetable::sweep(std::span<const Tick> when) {
+    std::vector<VisitId> in_order(enter_.size());
+    std::iota(in_order.begin(), in_order.end(), 0);
+    std::sort(in_order.begin(), in_order.end(), [&](VisitId x, VisitId y) {
+        return std::tuple(when[x], x) < std::tuple(when[y], y);
+    });
+    for (std::size_t first = 0, end = 0; first < in_order.size(); first = end) {
+        while (end < in_order.size() && when[in_order[end]] == when[in_order[first]]) {
+            ++end;
+        }
+        std::size_t rounds_left = end - first + 1;
+        for (bool has_changed = true; has_changed;) {
+            if (rounds_left-- == 0) {
+                return false;
+            }
+            has_changed = false;
+            for (std::size_t k = first; k < end; ++k) {
+                has_changed = raise_to_held(in_order[k]) || has_changed;
+            }
+        }
+    }
+    return true;
+}
+
+bool Timetable::raise_to_held(VisitId visit) {
+    if (routes_.is_first(visit)) {
+        return false;
+    }
+    const Tick held = held_to(visit);
+    const bool is_raised = held > enter_[visit];
+    enter_[visit] = std::max(enter_[visit], held);
+    return is_raised;
+}
+
+bool Timetable::take_back(VisitId a, VisitId b) {
+    changed_.clear();
+    const std::int32_t right = rights_.find(a, b);
+    if (right == RightsOfWay::none) {
+        return false;
+    }
+    const bool was_tight = enter_[b] == enter_[a + 1] + routes_.gap_before(b);
+    rights_.take_back(right);
+    if (was_tight) {
+        lower(b);
+    }
+    journal_.push_back({right, false, trail_.size()});
+    accept();
+    return true;
+}
+
+// A swap is a cycle of two robots and zero length: b enters the vertex that a leaves, and the
+// robot of a enters the vertex that b's robot leaves, each no earlier than the other. (With a gap
+// such a cycle has a positive length, and is refused as that anyway.) Longer cycles of zero length
+// are rotations, which are allowed.
+bool Timetable::closes_swap(VisitId a, VisitId b) const {
+    return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != RightsOfWay::none;
+}
+
+// Raises b and all that follows from it; false as soon as the raise reaches the source. No arc
+// leads back in time, so only visits entered no later than the source can lead to it. They come
+// first, and all others wait until it is known that there is no cycle: a refusal stays cheap.
+bool Timetable::spread(VisitId b, Tick delta, VisitId source) {
+    latest_ = enter_[source];
+    raise_by(b, delta, none);
+    if (!settle(source)) {
+        return false;
+    }
+    latest_ = infinity;
+    open_.swap(deferred_);
+    std::make_heap(open_.begin(), open_.end(), is_later);
+    return settle(source);
+}
+
+bool Timetable::settle(VisitId source) {
+    while (!open_.empty()) {
+        std::pop_heap(open_.begin(), open_.end(), is_later);
+        const Raise top = open_.back();
+        open_.pop_back();
+        if (top.delta < raise_[top.visit]) {
+            continue;  // raised further since
+        }
+        raise_successors(top.visit);
+        if (raise_[source] > 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void Timetable::raise_successors(VisitId visit) {
+    if (!routes_.is_last(visit)) {
+        raise_along(visit, visit + 1, routes_.least(visit));
+    }
+    if (routes_.is_first(visit)) {
+        return;
+    }
+    rights_.for_each_second(visit - 1, [this, visit](VisitId second) {
+        raise_along(visit, second, routes_.gap_before(second));
+    });
+}
+
+void Timetable::raise_along(VisitId from, VisitId to, Tick length) {
+    const Tick slack = enter_[to] - enter_[from] - length;
+    const Tick delta = raise_[from] - slack;
+    if (delta > raise_[to]) {
+        raise_by(to, delta, from);
+    }
+}
+
+void Timetable::raise_by(VisitId visit, Tick delta, VisitId cause) {
+    if (raise_[visit] == 0) {
+        changed_.push_back(visit);
+    }
+    raise_[visit] = delta;
+    cause_[visit] = cause;
+    if (enter_[visit] > latest_) {
+        deferred_.push_back({delta, visit});
+        return;
+    }
+    open_.push_back({delta, visit});
+    std::push_heap(open_.begin(), open_.end(), is_later);
+}
+
+// Largest raise first; equal raises by visit, so that the order is total.
+bool Timetable::is_later(const Raise& left, const Raise& right) {
+    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
+}
+
+// The causes lead from the source back to b.
+void Timetable::explain(VisitId source) {
+    cycle_.clear();
+    for (VisitId x = source; x != none; x = cause_[x]) {
+        cycle_.push_back(x);
+    }
+    std::reverse(cycle_.begin(), cycle_.end());
+}
+
+void Timetable::forget_raises() {
+    for (const VisitId x : changed_) {
+        raise_[x] = 0;
+    }
+    changed_.clear();
+    open_.clear();
+    deferred_.clear();
+}
+
+// Lets b, and all that it held, fall. Visits of one instant may hold each other (a rotation), so
+// they fall together.
+void Timetable::lower(VisitId b) {
+    let_fall(b);
+    while (!falling_.empty()) {
+        gather_instant();
+        lower_instant();
+        for (const VisitId x : instant_) {
+            is_in_instant_[x] = 0;
+            if (raise_[x] < 0) {
+                changed_.push_back(x);
+                let_followers_fall(x);
+            }
+        }
+    }
+}
+
+// Earliest first; what is entered at one instant comes out together, so its order does not matter.
+void Timetable::let_fall(VisitId visit) {
+    falling_.push_back(visit);
+    std::push_heap(falling_.begin(), falling_.end(),
+                   [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+}
+
+// All that fall from the earliest instant, and whatever enters with them as one of them leaves.
+void Timetable::gather_instant() {
+    const auto add = [this](VisitId x) {
+        if (is_in_instant_[x] == 0) {
+            is_in_instant_[x] = 1;
+            instant_.push_back(x);
+        }
+    };
+    const Tick now = enter_[falling_.front()];
+    instant_.clear();
+    while (!falling_.empty() && enter_[falling_.front()] == now) {
+        std::pop_heap(falling_.begin(), falling_.end(),
+                      [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
+        add(falling_.back());
+        falling_.pop_back();
+    }
+    for (std::size_t k = 0; k < instant_.size(); ++k) {
+        rights_.for_each_second(instant_[k] - 1, [&](VisitId second) {
+            if (enter_[second] == now && routes_.gap_before(second) == 0) {
+                add(second);
+            }
+        });
+    }
+}
+
+// Each falls to what holds it from outside, and then as far up again as they hold each other.
+void Timetable::lower_instant() {
+    for (const VisitId x : instant_) {
+        raise_[x] = held_to(x) - enter_[x];
+    }
+    for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (const VisitId x : instant_) {
+            rights_.for_each_second(x - 1, [&](VisitId second) {
+                if (is_in_instant_[second] != 0 && raise_[second] < raise_[x]) {
+                    raise_[second] = raise_[x];
+                    has_changed = true;
+                }
+            });
+        }
+    }
+}
+
+// What holds a visit but those that fall with it: its route, and the rights of way over it.
+Tick Timetable::held_to(VisitId visit) const {
+    Tick held = enter_[visit - 1] + raise_[visit - 1] + routes_.least(visit - 1);
+    rights_.for_each_first(visit, [&](VisitId first) {
+        const VisitId after = first + 1;
+        if (is_in_instant_[after] == 0) {
+            held = std::max(held, enter_[after] + raise_[after] + routes_.gap_before(visit));
+        }
+    });
+    return held;
+}
+
+// Those that a visit held at its old time, and that come later.
+void Timetable::let_followers_fall(VisitId visit) {
+    const auto let_fall_if_held = [this, visit](VisitId next, Tick length) {
+        if (length > 0 && enter_[next] == enter_[visit] + length) {
+            let_fall(next);
+        }
+    };
+    if (!routes_.is_last(visit)) {
+        let_fall_if_held(visit + 1, routes_.least(visit));
+    }
+    rights_.for_each_second(
+        visit - 1, [&](VisitId second) { let_fall_if_held(second, routes_.gap_before(second)); });
+}
+
+void Timetable::accept() {
+    for (const VisitId x : changed_) {
+        trail_.push_back({x, enter_[x]});
+        enter_[x] += raise_[x];
+        raise_[x] = 0;
+    }
+}
+
+void Timetable::rollback(std::size_t n_changes) {
+    changed_.clear();
+    if (n_changes >= journal_.size()) {
+        return;
+    }
+    restore_enters(journal_[n_changes].trail_mark);
+    while (journal_.size() > n_changes) {
+        if (journal_.back().is_given) {
+            rights_.forget_latest();
+        } else {
+            rights_.restore(journal_.back().right);
+        }
+        journal_.pop_back();
+    }
+}
+
+std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
+    std::vector<RightOfWay> rights;
+    std::vector<VisitId> passed;  // at this instant: a rotation leads round in a circle
+    for (VisitId x = visit; !routes_.is_first(x);) {
+        const VisitId first = held_by(x, passed);
+        const VisitId cause = first == none ? x - 1 : first + 1;
+        if (first != none) {
+            rights.push_back({first, x});
+        }
+        if (enter_[cause] < enter_[x]) {
+            passed.clear();
+        }
+        passed.push_back(cause);
+        x = cause;
+    }
+    return rights;
+}
+
+// The visit whose right of way a visit waited for; none if it came as soon as its robot could.
+VisitId Timetable::held_by(VisitId visit, std::span<const VisitId> passed) const {
+    VisitId found = none;
+    if (enter_[visit] > enter_[visit - 1] + routes_.least(visit - 1)) {
+        rights_.for_each_first(visit, [&](VisitId first) {
+            const bool holds = enter_[visit] == enter_[first + 1] + routes_.gap_before(visit);
+            const bool is_new = std::find(passed.begin(), passed.end(), first + 1) == passed.end();
+            if (holds && is_new) {
+                found = std::max(found, first);
+            }
+        });
+    }
+    return found;
+}
+
+void Timetable::restore_enters(std::size_t trail_length) {
+    while (trail_.size() > trail_length) {
+        const OldEnter old = trail_.back();
+        trail_.pop_back();
+        enter_[old.visit] = old.enter;
+        if (raise_[old.visit] == 0) {  // the first time we meet it
+            raise_[old.visit] = 1;
+            changed_.push_back(old.visit);
+        }
+    }
+    for (const VisitId x : changed_) {
+        raise_[x] = 0;
+    }
+}
+
+}  // namespace rightofway

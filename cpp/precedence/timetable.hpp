@@ -1,0 +1,142 @@
+// The earliest times that keep the routes and the rights of way: longest paths, kept up to date.
+//
+// Every visit is a node whose value is its enter. A robot's own progress is an arc from each visit
+// to its next; "a goes before b" is an arc from the visit after a (its enter is a's leave) to b.
+// Enter is the least solution of enter[q] >= enter[p] + length(p, q).
+//
+// A new arc into b raises b by some delta. Because the old times satisfy every old arc, a raise
+// only shrinks along a path, by the slack of each arc. So visits are settled by the largest raise
+// first, each of them once: Dijkstra's algorithm on raises instead of distances. And the new arc
+// u -> b closes a cycle of positive length, a deadlock, exactly if the raise of b reaches u. All
+// this happens on the side; times change only when the arc is accepted.
+//
+// When an arc is taken back, the visits that it held fall to what else holds them, in the order of
+// their old times: no arc leads back in time, so whatever holds a visit has fallen before.
+//
+// Reference: S. Cotton and O. Maler, Fast and flexible difference constraint propagation for
+// DPLL(T), SAT 2006.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+#include "precedence/rights_of_way.hpp"
+#include "precedence/routes.hpp"
+
+namespace rightofway {
+
+class Timetable {
+  public:
+    // The routes are borrowed and must outlive this. At first every robot runs freely from tick 0.
+    explicit Timetable(const Routes& routes);
+
+    Tick enter(VisitId visit) const { return enter_[visit]; }
+    Tick leave(VisitId visit) const {
+        return routes_.is_last(visit) ? infinity : enter_[visit + 1];
+    }
+    std::span<const Tick> enters() const { return enter_; }
+    std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
+
+    // Lets visit a go before visit b of another robot at the same vertex (the caller checks that).
+    // False, with nothing changed, if a never leaves, b was there from the start, or the fleet
+    // would be deadlocked or swap; cycle() then explains. Giving a right of way again does nothing.
+    bool precede(VisitId a, VisitId b);
+
+    // Lets all visits to a vertex take place in the order of these numbers, one for each visit,
+    // equal ones by visit: each has the right of way over the next one, if that is of another
+    // robot. All at once, in one sweep over the visits: along a route numbers rise, and nobody has
+    // to enter before another one leaves whose number is greater. False, with nothing changed, if
+    // numbers are not like that or the order is impossible. Nobody has any right of way yet.
+    bool keep_order(std::span<const Tick> when);
+
+    // The cycle that the last refused right of way would have closed: visits in order, b first.
+    // Empty if it was refused for another reason.
+    std::span<const VisitId> cycle() const { return cycle_; }
+
+    // Takes back the right of way of a over b, whenever it was given; false if there is none.
+    bool take_back(VisitId a, VisitId b);
+
+    // Calls use(a, b) for each right of way that a robot has, or that others have over it.
+    template <class Use>
+    void for_each_right_of(RobotId robot, Use&& use) const {
+        for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
+            rights_.for_each_second(x, [&use, x](VisitId second) { use(x, second); });
+            rights_.for_each_first(x, [&use, x](VisitId first) { use(first, x); });
+        }
+    }
+
+    // The rights of way that a visit's time is due to: from it back along what each visit follows
+    // from without slack, until a robot ran freely. The latest comes first.
+    std::vector<RightOfWay> critical_rights(VisitId visit) const;
+
+    // How many changes there were: rights of way given or taken back, and not undone since.
+    std::size_t n_changes() const { return journal_.size(); }
+    // Undoes changes, the latest first, until so many are left.
+    void rollback(std::size_t n_changes);
+
+    // The visits whose enter the last change or rollback changed, each once.
+    std::span<const VisitId> changed() const { return changed_; }
+
+  private:
+    struct Raise {
+        Tick delta;
+        VisitId visit;
+    };
+    struct OldEnter {
+        VisitId visit;
+        Tick enter;
+    };
+    struct Change {
+        std::int32_t right;
+        bool is_given;           // or taken back
+        std::size_t trail_mark;  // length of the trail before
+    };
+
+    bool closes_swap(VisitId a, VisitId b) const;
+    bool give_in_order(std::span<const Tick> when);
+    bool sweep(std::span<const Tick> when);
+    bool raise_to_held(VisitId visit);
+    bool spread(VisitId b, Tick delta, VisitId source);
+    bool settle(VisitId source);
+    void raise_successors(VisitId visit);
+    void raise_along(VisitId from, VisitId to, Tick length);
+    void raise_by(VisitId visit, Tick delta, VisitId cause);
+    void explain(VisitId source);
+    VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
+    void lower(VisitId b);
+    void gather_instant();
+    void lower_instant();
+    void let_fall(VisitId visit);
+    void let_followers_fall(VisitId visit);
+    Tick held_to(VisitId visit) const;
+    void accept();
+    void run_freely();
+    void forget_raises();
+    void restore_enters(std::size_t trail_length);
+    static bool is_later(const Raise& left, const Raise& right);
+
+    static constexpr VisitId none = -1;
+
+    const Routes& routes_;
+    std::vector<Tick> enter_;
+    RightsOfWay rights_;
+    std::vector<Change> journal_;
+    std::vector<OldEnter> trail_;  // every enter that was ever overwritten
+
+    // What a change works on; reused, so that no step allocates.
+    std::vector<Tick> raise_;      // per visit, 0 if untouched; below 0 where a visit falls
+    std::vector<VisitId> cause_;   // per raised visit: whose raise raised it
+    std::vector<Raise> open_;      // a heap
+    std::vector<Raise> deferred_;  // visits entered after latest_
+    Tick latest_ = infinity;
+    std::vector<VisitId> falling_;  // a heap
+    std::vector<VisitId> instant_;  // those that fall from one instant
+    std::vector<std::uint8_t> is_in_instant_;
+    std::vector<VisitId> changed_;
+    std::vector<VisitId> cycle_;
+};
+
+}  // namespace rightofway

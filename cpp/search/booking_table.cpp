@@ -1,0 +1,107 @@
+#include "search/booking_table.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+std::size_t checked_count(VertexId n_vertices) {
+    if (n_vertices < 0) {
+        reject("n_vertices", n_vertices, "is negative");
+    }
+    return static_cast<std::size_t>(n_vertices);
+}
+
+constexpr std::int32_t smallest_class = 2;
+
+// The first of another robot's bookings that overlaps, or nullptr.
+const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
+    auto k = BookingTable::started(here, time.end - 1);
+    const BookedBy* found = nullptr;
+    while (k > 0 && here[static_cast<std::size_t>(k - 1)].reach > time.start) {
+        const BookedBy& one = here[static_cast<std::size_t>(--k)];
+        if (one.robot != robot && one.time.end > time.start) {
+            found = &one;
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+BookingTable::BookingTable(VertexId n_vertices) : rows_(checked_count(n_vertices)) {}
+
+void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
+    require_id("vertex", vertex, n_vertices());
+    if (robot < 0) {
+        reject("robot", robot, "is negative");
+    }
+    if (time.is_empty()) {
+        reject("end", time.end, "is not after start, " + std::to_string(time.start));
+    }
+    if (const BookedBy* other = overlapping(at(vertex), time, robot)) {
+        reject("start", time.start,
+               "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
+                   std::to_string(other->robot));
+    }
+    insert(vertex, time, robot);
+}
+
+bool BookingTable::is_free(VertexId vertex, const Booking& time, RobotId robot) const {
+    return overlapping(at(vertex), time, robot) == nullptr;
+}
+
+void BookingTable::insert(VertexId vertex, const Booking& time, RobotId robot) {
+    Row& row = rows_[static_cast<std::size_t>(vertex)];
+    if (row.size_class < 0 || row.size == (std::int32_t{1} << row.size_class)) {
+        grow(row);
+    }
+    BookedBy* here = pool_.data() + row.first;
+    std::int32_t k = row.size++;
+    for (; k > 0 && here[k - 1].time.start > time.start; --k) {
+        here[k] = here[k - 1];
+        here[k].reach = std::max(here[k].reach, time.end);
+    }
+    here[k] = {time, k > 0 ? std::max(here[k - 1].reach, time.end) : time.end, robot};
+}
+
+void BookingTable::erase(VertexId vertex, Tick start, RobotId robot) {
+    Row& row = rows_[static_cast<std::size_t>(vertex)];
+    BookedBy* here = pool_.data() + row.first;
+    std::int32_t k = started(at(vertex), start) - 1;
+    while (k >= 0 && here[k].time.start == start && here[k].robot != robot) {
+        --k;
+    }
+    if (k < 0 || here[k].time.start != start) {
+        return;
+    }
+    Tick reach = k > 0 ? here[k - 1].reach : -infinity;
+    --row.size;
+    for (; k < row.size; ++k) {
+        here[k] = here[k + 1];
+        reach = here[k].reach = std::max(reach, here[k].time.end);
+    }
+}
+
+void BookingTable::grow(Row& row) {
+    const std::int32_t wanted = row.size_class < 0 ? smallest_class : row.size_class + 1;
+    auto& unused = unused_[static_cast<std::size_t>(wanted)];
+    std::uint32_t place = static_cast<std::uint32_t>(pool_.size());
+    if (unused.empty()) {
+        pool_.resize(pool_.size() + (std::size_t{1} << wanted));
+    } else {
+        place = unused.back();
+        unused.pop_back();
+    }
+    std::copy_n(pool_.begin() + row.first, row.size, pool_.begin() + place);
+    if (row.size_class >= 0) {
+        unused_[static_cast<std::size_t>(row.size_class)].push_back(row.first);
+    }
+    row.first = place;
+    row.size_class = wanted;
+}
+
+}  // namespace rightofway

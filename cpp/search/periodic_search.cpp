@@ -1,0 +1,217 @@
+#include "search/periodic_search.hpp"
+
+#include <algorithm>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr std::int64_t expansions_between_looks = 512;
+
+}  // namespace
+
+bool PeriodicSearch::Open::operator<(const Open& other) const {
+    if (f != other.f) {
+        return f > other.f;
+    }
+    return enter != other.enter ? enter < other.enter : node > other.node;
+}
+
+PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circle)
+    : roads_(roads), circle_(circle), at_(static_cast<std::size_t>(circle.n_vertices()), none) {
+    require_length("indptr", roads.graph.indptr.size(), at_.size() + 1);
+}
+
+// What the visit that serves a stage lasts longer by that.
+Tick PeriodicSearch::dwell_of(std::int32_t stage) const {
+    const auto k = static_cast<std::size_t>(stage);
+    return trip_->stage_work[k] + trip_->stage_turn[k];
+}
+
+// The least ticks from a vertex to being home again; -1 if no way leads there.
+Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
+    const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
+    return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
+}
+
+bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
+                         const IsOver& is_over) {
+    require_trip(roads_, trip);
+    trip_ = &trip;
+    is_over_ = &is_over;
+    is_stopped_ = false;
+    to_go_.assign(trip.n_stages(), 0);
+    for (std::int32_t stage = last_stage(); stage-- > 0;) {
+        to_go_[static_cast<std::size_t>(stage)] =
+            dwell_of(stage) + rest(trip.stage_vertex[static_cast<std::size_t>(stage)], stage + 1);
+    }
+    const Tick first = circle_.fold(phase);
+    bool is_found = false;
+    circle_.for_each_gap(
+        trip.home, first, first + circle_.period(), [&](const PeriodicBookings::Gap& home) {
+            is_found = close_from(home, home.start == -infinity ? first : home.start, found);
+            return !is_found && !is_stopped_;
+        });
+    return is_found;
+}
+
+// Starts as early in a gap of its home as it can be back there a period later.
+bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
+                                PeriodicRoundTrip& found) {
+    const Tick leaves =
+        home.end == infinity ? start : home.end - circle_.headway() - dwell_of(last_stage());
+    while (start <= leaves && !is_stopped_) {
+        // Home again at the latest when the last possible start comes again.
+        const Tick again = earliest_return(home, start, leaves + circle_.period());
+        if (again >= infinity) {
+            return false;
+        }
+        if (again <= start + circle_.period()) {
+            trace(found);
+            return true;
+        }
+        start = again - circle_.period();
+    }
+    return false;
+}
+
+// When a robot that enters its home at `start` is there again, in the same gap a period later;
+// infinity if it cannot be.
+Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest) {
+    for (const VertexId vertex : touched_) {
+        at_[static_cast<std::size_t>(vertex)] = none;
+    }
+    touched_.clear();
+    nodes_.clear();
+    open_.clear();
+    goal_ = none;
+    reach({start, home, trip_->home, 0, none, 0, none}, rest(trip_->home, 0));
+    while (!open_.empty()) {
+        std::pop_heap(open_.begin(), open_.end());
+        const Open top = open_.back();
+        open_.pop_back();
+        const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+        if (top.enter != node.enter) {
+            continue;
+        }
+        const bool is_same_gap =
+            home.end == infinity || node.gap.start == home.start + circle_.period();
+        if (node.from != none && node.stage == last_stage() && node.vertex == trip_->home &&
+            is_same_gap) {
+            goal_ = top.node;
+            return node.enter;
+        }
+        if (n_expanded_++ % expansions_between_looks == 0 && (*is_over_)()) {
+            is_stopped_ = true;
+            return infinity;
+        }
+        expand(top.node, latest);
+    }
+    return infinity;
+}
+
+// Drives on along every edge, with as many stages served here as there may be, or fewer.
+void PeriodicSearch::expand(std::int32_t from, Tick latest) {
+    const VertexId here = nodes_[static_cast<std::size_t>(from)].vertex;
+    std::int32_t stage = nodes_[static_cast<std::size_t>(from)].stage;
+    Tick dwell = nodes_[static_cast<std::size_t>(from)].from == none ? dwell_of(last_stage()) : 0;
+    for (;; dwell += dwell_of(stage++)) {
+        const auto v = static_cast<std::size_t>(here);
+        for (EdgeId edge = roads_.graph.indptr[v]; edge < roads_.graph.indptr[v + 1]; ++edge) {
+            drive(from, edge, stage, dwell, latest);
+        }
+        if (stage == last_stage() || trip_->stage_vertex[static_cast<std::size_t>(stage)] != here) {
+            return;
+        }
+    }
+}
+
+// Drives into every gap of the next vertex that can be entered.
+void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell,
+                           Tick latest) {
+    const Node here = nodes_[static_cast<std::size_t>(from)];
+    const auto e = static_cast<std::size_t>(edge);
+    const VertexId next = roads_.graph.indices[e];
+    const Tick left = rest(next, stage);
+    if (left < 0) {
+        return;
+    }
+    const std::int32_t ticks = trip_->pace[static_cast<std::size_t>(roads_.length_class[e])];
+    const Tick soonest = here.enter + dwell + ticks;
+    const Tick last = std::min(
+        here.gap.end == infinity ? infinity : here.gap.end - circle_.headway(), latest - left);
+    if (soonest > last) {
+        return;
+    }
+    const Tick approach = circle_.books_ahead() ? ticks : 0;
+    circle_.for_each_gap(next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
+        const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach);
+        if (enter < infinity) {
+            reach({enter, gap, next, stage, from, ticks, none}, left);
+        }
+        return true;
+    });
+}
+
+void PeriodicSearch::reach(const Node& node, Tick rest) {
+    std::int32_t& head = at_[static_cast<std::size_t>(node.vertex)];
+    for (std::int32_t k = head; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
+        Node& known = nodes_[static_cast<std::size_t>(k)];
+        // The start is no return: a trip that comes home in no time at all has done nothing.
+        if (known.stage == node.stage && known.gap == node.gap && known.from != none) {
+            if (node.enter < known.enter) {
+                const std::int32_t next = known.next;
+                known = node;
+                known.next = next;
+                push(k, rest);
+            }
+            return;
+        }
+    }
+    if (head == none) {
+        touched_.push_back(node.vertex);
+    }
+    nodes_.push_back(node);
+    nodes_.back().next = head;
+    head = static_cast<std::int32_t>(nodes_.size()) - 1;
+    push(head, rest);
+}
+
+void PeriodicSearch::push(std::int32_t node, Tick rest) {
+    const Tick enter = nodes_[static_cast<std::size_t>(node)].enter;
+    open_.push_back({enter + rest, enter, node});
+    std::push_heap(open_.begin(), open_.end());
+}
+
+void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
+    found = {};
+    std::vector<std::int32_t> stages;
+    for (std::int32_t k = goal_; k != none; k = nodes_[static_cast<std::size_t>(k)].from) {
+        const Node& node = nodes_[static_cast<std::size_t>(k)];
+        found.vertex.push_back(node.vertex);
+        found.drive.push_back(node.drive);
+        found.enter.push_back(node.enter);
+        stages.push_back(node.stage);
+    }
+    std::reverse(found.vertex.begin(), found.vertex.end());
+    std::reverse(found.drive.begin(), found.drive.end());
+    std::reverse(found.enter.begin(), found.enter.end());
+    std::reverse(stages.begin(), stages.end());
+    // Home again is home, a period later.
+    found.drive.front() = found.drive.back();
+    found.enter.front() = found.enter.back() - circle_.period();
+    found.vertex.pop_back();
+    found.drive.pop_back();
+    found.enter.pop_back();
+    found.dwell.assign(found.vertex.size(), 0);
+    found.dwell.front() = dwell_of(last_stage());
+    for (std::size_t k = 0; k < found.dwell.size(); ++k) {
+        for (std::int32_t stage = stages[k]; stage < stages[k + 1]; ++stage) {
+            found.dwell[k] += dwell_of(stage);
+        }
+    }
+}
+
+}  // namespace rightofway

@@ -1,0 +1,92 @@
+// A robot's round trip on a circle where it may take any way.
+//
+// A state is (vertex, gap, stage): in one gap between the bookings of a vertex, being there earlier
+// is never worse than later, for whoever is early can wait. Time is unrolled; the bookings of the
+// circle come again every period. What has to be done on the way is a list of stages, of which any
+// visit to the vertex of the next one may serve it.
+//
+// The trip closes as in circle.hpp: home again, in the gap it started from, no later than a period
+// after it entered it; else it starts as much later. The search from one start is A*, and the
+// earliest return from a later start is never earlier, so that too is complete: among all ways.
+//
+// Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/types.hpp"
+#include "problem/trip.hpp"
+#include "search/periodic_bookings.hpp"
+
+namespace rightofway {
+
+// The visits of a trip that was found: as a `Round`, and when each is entered.
+struct PeriodicRoundTrip {
+    std::vector<VertexId> vertex;
+    std::vector<Tick> dwell;
+    std::vector<Tick> drive;
+    std::vector<Tick> enter;
+};
+
+class PeriodicSearch {
+  public:
+    using IsOver = std::function<bool()>;
+
+    // Borrows both. The last stage of a trip is at its home; vertices from which a stage's table
+    // leads nowhere are not entered on the way to it.
+    PeriodicSearch(const Roads& roads, const PeriodicBookings& circle);
+
+    // Finds a way and when to take it; false as `PeriodicBookings::search`. Among gaps of its home
+    // those that begin after the phase come first; in the first that is possible it is home again
+    // as early as it can be. Throws std::invalid_argument if roads and circle do not fit together.
+    bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const IsOver& is_over);
+
+    // How many states all searches have expanded.
+    std::int64_t n_expanded() const { return n_expanded_; }
+
+  private:
+    struct Node {
+        Tick enter;
+        PeriodicBookings::Gap gap;
+        VertexId vertex;
+        std::int32_t stage;  // how many are served before it
+        std::int32_t from;
+        std::int32_t drive;
+        std::int32_t next;  // another node of the same vertex
+    };
+    struct Open {
+        Tick f;
+        Tick enter;
+        std::int32_t node;
+        // For a heap with the least f first; of these, the nearest to the end.
+        bool operator<(const Open& other) const;
+    };
+
+    bool close_from(const PeriodicBookings::Gap& home, Tick start, PeriodicRoundTrip& found);
+    Tick earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest);
+    void expand(std::int32_t from, Tick latest);
+    void drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell, Tick latest);
+    void reach(const Node& node, Tick rest);
+    void push(std::int32_t node, Tick rest);
+    Tick rest(VertexId vertex, std::int32_t stage) const;
+    Tick dwell_of(std::int32_t stage) const;
+    std::int32_t last_stage() const { return static_cast<std::int32_t>(trip_->n_stages()) - 1; }
+    void trace(PeriodicRoundTrip& found) const;
+
+    Roads roads_;
+    const PeriodicBookings& circle_;
+    const Trip* trip_ = nullptr;
+    const IsOver* is_over_ = nullptr;
+    std::vector<Tick> to_go_;  // from the enter of each stage's vertex to being home again
+    std::vector<Node> nodes_;
+    std::vector<Open> open_;
+    std::vector<std::int32_t> at_;   // the latest node of each vertex
+    std::vector<VertexId> touched_;  // which of these there are
+    std::int32_t goal_ = -1;
+    bool is_stopped_ = false;
+    std::int64_t n_expanded_ = 0;
+};
+
+}  // namespace rightofway

@@ -1,0 +1,434 @@
+#include "search/sipp.hpp"
+
+#include <algorithm>
+
+namespace rightofway {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr std::int64_t states_between_questions = 256;
+constexpr std::size_t first_slots = 256;
+constexpr std::int64_t states_per_drive = 8;  // as many as there is time for, for aiming
+
+std::uint64_t scatter(std::uint64_t key) {
+    key *= 0x9E3779B97F4A7C15U;
+    return key ^ (key >> 32);
+}
+
+}  // namespace
+
+SafeIntervalSearch::SafeIntervalSearch(const Roads& roads, const BookingRules& rules)
+    : roads_(roads), rules_(rules), slots_(first_slots, unused) {}
+
+void SafeIntervalSearch::begin(const SearchRequest& errand) {
+    trip_ = &errand.trip;
+    bookings_ = &errand.bookings;
+    prices_ = errand.prices;
+    limit_ = errand.limit;
+    nodes_.clear();
+    open_.clear();
+    goal_ = none;
+    mask_ = first_slots - 1;
+    greed_ = errand.greed;
+    has_one_label_ = prices_.empty() || greed_ > 0;
+    next_generation();
+    measure_stages(errand.trip);
+    const auto& pace = trip_->pace;
+    least_drive_ = pace.empty() ? 1 : *std::min_element(pace.begin(), pace.end());
+    least_f_ = least_end();
+    is_aiming_ = false;
+}
+
+// Of the stages at the last vertex, all that are left can be served in the last visit, which needs
+// no turning; before, each stage takes its work and turning and then the way to the next one.
+void SafeIntervalSearch::measure_stages(const Trip& trip) {
+    const std::size_t n = trip.n_stages();
+    std::size_t first = n - 1;
+    while (first > 0 && trip.stage_vertex[first - 1] == trip.stage_vertex[n - 1]) {
+        --first;
+    }
+    first_last_ = static_cast<std::int32_t>(first);
+    to_go_.assign(n + 1, 0);
+    for (std::size_t k = n; k-- > 0;) {
+        to_go_[k] = trip.stage_work[k];
+        to_go_[k] += k >= first ? to_go_[k + 1]
+                                : trip.stage_turn[k] +
+                                      rest(trip.stage_vertex[k], static_cast<std::int32_t>(k) + 1);
+    }
+}
+
+// What completion and prices come to at least, because of the bookings of the last vertex: either
+// the robot enters after a booking has ended, or pays for it.
+Tick SafeIntervalSearch::least_end() const {
+    const auto last = bookings_->at(trip_->stage_vertex.back());
+    Tick paid = 0;
+    Tick least = infinity;
+    for (std::size_t k = last.size(); k > 0 && paid < least; --k) {
+        least = std::min(least, paid + free_end(last.first(k)));
+        paid += price(last[k - 1].robot);
+    }
+    return std::min(least, paid + trip_->stage_work.back());
+}
+
+// The least completion after all these bookings of the last vertex.
+Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
+    if (before.empty()) {
+        return trip_->stage_work.back();
+    }
+    const Tick approach = rules_.books_ahead ? least_drive_ : 0;
+    return before.back().time.end + approach + trip_->stage_work.back();
+}
+
+// The least ticks from here to completion, or -1 where no way leads on.
+Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
+    if (stage == n_stages()) {
+        return 0;
+    }
+    const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
+    return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
+}
+
+SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const IsOver& is_over) {
+    begin(errand);
+    if (least_f_ >= infinity || least_f_ > limit_) {
+        return SearchEnd::proven_none;
+    }
+    if (is_worth_aiming()) {
+        const SearchEnd end = aim(is_over);
+        if (end == SearchEnd::found) {
+            return end;
+        }
+        begin(errand);
+    }
+    return search(infinity, is_over);
+}
+
+// Whether others keep the last vertex longer than the way takes, and waiting for them is the best
+// that can be hoped for.
+bool SafeIntervalSearch::is_worth_aiming() const {
+    const auto last = bookings_->at(trip_->stage_vertex.back());
+    return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
+}
+
+SearchEnd SafeIntervalSearch::aim(const IsOver& is_over) {
+    is_aiming_ = true;
+    has_one_label_ = true;
+    prices_ = {};
+    limit_ = least_f_;
+    return search(states_per_drive * (least_f_ / least_drive_ + 1), is_over);
+}
+
+SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const IsOver& is_over) {
+    const auto here = bookings_->at(trip_->home);
+    Node first{0,    0, trip_->home, BookingTable::started(here, rules_.headway), 0, none,
+               none, 0, false};
+    first.cost = price_of_entry(first, 0);
+    if (first.cost >= infinity) {
+        return SearchEnd::proven_none;  // somebody else holds home at tick 0
+    }
+    first_f_ = rest(first.vertex, 0);
+    reach(first, first_f_);
+    while (!open_.empty()) {
+        const OpenList::Entry top = open_.pop();
+        const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+        if (node.is_beaten) {
+            continue;
+        }
+        if (node.stage == n_stages()) {
+            goal_ = top.node;
+            return SearchEnd::found;
+        }
+        if (most_states-- == 0) {
+            return SearchEnd::stopped;
+        }
+        if (++n_expanded_ % states_between_questions == 0 && is_over()) {
+            return SearchEnd::stopped;
+        }
+        expand(top.node);
+    }
+    return SearchEnd::proven_none;
+}
+
+void SafeIntervalSearch::expand(std::int32_t node) {
+    finish(node);
+    serve(node);
+    if (!prices_.empty()) {
+        stay_on(node);
+    }
+    const VertexId vertex = nodes_[static_cast<std::size_t>(node)].vertex;
+    for (EdgeId edge = roads_.graph.indptr[vertex]; edge < roads_.graph.indptr[vertex + 1];
+         ++edge) {
+        drive(node, edge);
+    }
+}
+
+// Stays for ever: needs a gap that never ends.
+void SafeIntervalSearch::finish(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
+        return;
+    }
+    const auto here = bookings_->at(after.vertex);
+    for (auto k = static_cast<std::size_t>(after.gap); k < here.size(); ++k) {
+        after.cost += price(here[k].robot);
+        if (after.cost >= infinity) {
+            return;
+        }
+    }
+    after.ready += to_go_[static_cast<std::size_t>(after.stage)];
+    after.gap = static_cast<std::int32_t>(here.size());
+    after.stage = n_stages();
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
+}
+
+// Serves the next stage, if this is its vertex and the gap is long enough.
+void SafeIntervalSearch::serve(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    if (after.stage + 1 >= n_stages() || trip_->stage_vertex[after.stage] != after.vertex) {
+        return;
+    }
+    after.ready += trip_->stage_work[after.stage] + trip_->stage_turn[after.stage];
+    const auto here = bookings_->at(after.vertex);
+    const std::int32_t n = static_cast<std::int32_t>(here.size());
+    for (; after.gap < n && here[after.gap].time.start <= after.ready + rules_.headway;
+         ++after.gap) {
+        after.cost += price(here[after.gap].robot);
+        if (after.cost >= infinity) {
+            return;
+        }
+    }
+    ++after.stage;
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
+}
+
+// Stays when the next booking begins, at its price.
+void SafeIntervalSearch::stay_on(std::int32_t node) {
+    Node after = nodes_[static_cast<std::size_t>(node)];
+    const auto here = bookings_->at(after.vertex);
+    if (static_cast<std::size_t>(after.gap) == here.size()) {
+        return;
+    }
+    const BookedBy& next = here[after.gap];
+    after.cost += price(next.robot);
+    if (after.cost >= infinity) {
+        return;
+    }
+    after.ready = std::max(after.ready, next.time.start - rules_.headway);
+    ++after.gap;
+    after.parent = node;
+    after.drive = 0;
+    reach(after, rest(after.vertex, after.stage));
+}
+
+// Drives an edge into each gap of its end that can be entered before this gap is over.
+void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
+    const Node& here = nodes_[static_cast<std::size_t>(node)];
+    const auto from = bookings_->at(here.vertex);
+    const std::int32_t ticks = trip_->pace[roads_.length_class[edge]];
+    Node candidate = here;
+    candidate.vertex = roads_.graph.indices[edge];
+    candidate.ready += ticks;
+    candidate.parent = node;
+    candidate.drive = ticks;
+    const bool never_ends = static_cast<std::size_t>(here.gap) == from.size();
+    const Tick latest = never_ends ? infinity : from[here.gap].time.start - rules_.headway;
+    const Tick way = rest(candidate.vertex, candidate.stage);
+    if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
+        return;
+    }
+    const Tick in_time = limit_ == infinity ? latest : std::min(latest, limit_ - way - here.cost);
+    const Tick approach = rules_.books_ahead ? ticks : 0;
+    if (prices_.empty()) {
+        drive_between(candidate, way, in_time, approach);
+    } else {
+        drive_across(candidate, way, in_time, approach);
+    }
+}
+
+// Enters each gap between bookings as soon as it can.
+void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach) {
+    const auto to = bookings_->at(candidate.vertex);
+    const std::int32_t n = static_cast<std::int32_t>(to.size());
+    for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n;
+         ++k) {
+        if (k > 0) {
+            candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
+        }
+        if (candidate.ready > latest || candidate.ready >= infinity) {
+            return;
+        }
+        candidate.gap = k;
+        if ((k == n || candidate.ready + rules_.headway < to[k].time.start) &&
+            price_of_swaps(candidate) == 0) {
+            reach(candidate, way);
+        }
+    }
+}
+
+// Enters as soon as it can, and whenever a booking has just ended, at the price of those that have
+// not.
+void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach) {
+    const auto to = bookings_->at(soonest.vertex);
+    const auto enter = [&](Tick tick) {
+        Node candidate = soonest;
+        candidate.ready = tick;
+        candidate.gap = BookingTable::started(to, tick + rules_.headway);
+        candidate.cost += price_of_entry(candidate, approach);
+        if (candidate.cost < infinity) {
+            candidate.cost += price_of_swaps(candidate);
+        }
+        if (candidate.cost < infinity) {
+            reach(candidate, way);
+        }
+    };
+    enter(soonest.ready);
+    const auto first = std::partition_point(to.begin(), to.end(), [&](const BookedBy& one) {
+        return one.reach + approach <= soonest.ready;
+    });
+    for (auto one = first; one != to.end() && one->time.start + approach < latest; ++one) {
+        const Tick tick = one->time.end + approach;
+        if (one->time.end < infinity && tick > soonest.ready && tick <= latest) {
+            enter(tick);
+        }
+    }
+}
+
+// What it costs that bookings have not ended when the robot comes.
+Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) const {
+    const auto to = bookings_->at(candidate.vertex);
+    const Tick start = candidate.ready - approach;
+    Tick sum = 0;
+    for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach > start; --k) {
+        if (to[k - 1].time.end > start) {
+            sum += price(to[k - 1].robot);
+        }
+        if (sum >= infinity) {
+            return infinity;
+        }
+    }
+    return sum;
+}
+
+// A robot that leaves the end of the edge at this instant may be one that comes to its beginning
+// then. Where robots keep a headway or book ahead, their bookings would overlap as well.
+Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
+    if (rules_.headway > 0 || rules_.books_ahead) {
+        return 0;
+    }
+    const Node& before = nodes_[static_cast<std::size_t>(candidate.parent)];
+    const auto from = bookings_->at(before.vertex);
+    const auto to = bookings_->at(candidate.vertex);
+    Tick sum = 0;
+    for (auto j = static_cast<std::size_t>(before.gap);
+         j < from.size() && from[j].time.start == candidate.ready; ++j) {
+        for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach >= candidate.ready; --k) {
+            if (to[k - 1].time.end == candidate.ready && to[k - 1].robot == from[j].robot) {
+                sum += price(from[j].robot);
+            }
+        }
+    }
+    return std::min(sum, infinity);
+}
+
+Tick SafeIntervalSearch::price(RobotId robot) const {
+    return prices_.empty() ? infinity : prices_[static_cast<std::size_t>(robot)];
+}
+
+// Notes that a state can be reached, unless it is known to be reached as early and as cheaply.
+void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
+    const Tick f = candidate.ready + way + candidate.cost;
+    if (way < 0 || f > limit_) {
+        return;
+    }
+    Slot& slot = slot_of(candidate);
+    const Tick sum = candidate.ready + candidate.cost;
+    if (!has_one_label_) {
+        if (is_known(candidate, slot.node)) {
+            return;
+        }
+    } else if (slot.node != none) {
+        if (slot.least <= sum) {
+            return;
+        }
+        nodes_[static_cast<std::size_t>(slot.node)].is_beaten = true;
+    }
+    slot.least = sum;
+    const auto node = static_cast<std::int32_t>(nodes_.size());
+    nodes_.push_back(candidate);
+    nodes_.back().next = slot.node;
+    slot.node = node;
+    open_.push(is_aiming_ ? OpenList::key(way, candidate.ready)
+                          : OpenList::key(f - first_f_ + way * greed_ / 8, way),
+               node);
+}
+
+// Tells whether a node of the same state is no later and no dearer; marks those of which this one
+// is that.
+bool SafeIntervalSearch::is_known(const Node& candidate, std::int32_t first) {
+    for (std::int32_t k = first; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
+        Node& known = nodes_[static_cast<std::size_t>(k)];
+        if (known.ready <= candidate.ready && known.cost <= candidate.cost) {
+            return true;
+        }
+        known.is_beaten |= candidate.ready <= known.ready && candidate.cost <= known.cost;
+    }
+    return false;
+}
+
+SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
+    if (2 * nodes_.size() > mask_) {
+        enlarge_slots();
+    }
+    const auto place = static_cast<std::uint64_t>(node.stage) *
+                           static_cast<std::uint64_t>(bookings_->n_vertices()) +
+                       static_cast<std::uint64_t>(node.vertex);
+    const auto gap = static_cast<std::uint64_t>(node.gap);
+    const std::uint64_t state = (place << 24) ^ gap;
+    // The gaps of a vertex lie side by side.
+    std::size_t k = (scatter(place) * 4 + gap) & mask_;
+    while (slots_[k].generation == generation_ && slots_[k].state != state) {
+        k = (k + 1) & mask_;
+    }
+    if (slots_[k].generation != generation_) {
+        slots_[k] = {state, 0, generation_, none};
+    }
+    return slots_[k];
+}
+
+void SafeIntervalSearch::enlarge_slots() {
+    mask_ = 4 * mask_ + 3;
+    if (slots_.size() <= mask_) {
+        slots_.resize(mask_ + 1, unused);
+    }
+    next_generation();
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        Slot& slot = slot_of(nodes_[k]);
+        nodes_[k].next = slot.node;
+        slot.node = static_cast<std::int32_t>(k);
+        slot.least = nodes_[k].ready + nodes_[k].cost;
+    }
+}
+
+void SafeIntervalSearch::next_generation() {
+    if (++generation_ == 0) {
+        std::fill(slots_.begin(), slots_.end(), unused);
+        generation_ = 1;
+    }
+}
+
+void SafeIntervalSearch::track(std::vector<Visit>& visits) const {
+    visits.clear();
+    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
+        const Node& one = nodes_[node];
+        if (one.drive > 0 || one.parent == none) {
+            visits.push_back({one.ready, one.vertex, one.drive});
+        }
+    }
+    std::reverse(visits.begin(), visits.end());
+}
+
+}  // namespace rightofway

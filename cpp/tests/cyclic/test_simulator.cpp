@@ -1,0 +1,180 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "cyclic/simulator.hpp"
+
+namespace rightofway {
+namespace {
+
+using Ticks = std::vector<Tick>;
+
+const auto never = [] { return false; };
+
+// Robots that go somewhere and back, again and again: a tick for each vertex, turning one more.
+struct Laps {
+    std::vector<std::int32_t> first_place{0};
+    std::vector<VertexId> vertex;
+    Ticks least;
+    Ticks first_least;
+
+    explicit Laps(const std::vector<std::vector<VertexId>>& ways, const Ticks& speeds) {
+        for (std::size_t r = 0; r < ways.size(); ++r) {
+            std::vector<VertexId> way = ways[r];
+            for (std::size_t k = way.size() - 1; k-- > 1;) {
+                way.push_back(way[k]);
+            }
+            for (std::size_t k = 0; k < way.size(); ++k) {
+                const bool turns = k == 0 || k == ways[r].size() - 1;
+                least.push_back(turns ? 2 * speeds[r] : speeds[r]);
+            }
+            first_least.push_back(speeds[r]);
+            vertex.insert(vertex.end(), way.begin(), way.end());
+            first_place.push_back(static_cast<std::int32_t>(vertex.size()));
+        }
+    }
+
+    LapArrays arrays(const Ticks& approach) const {
+        return {first_place, vertex, least, approach, first_least, 0};
+    }
+};
+
+Ticks times(const CyclicSimulator& run, RobotId robot, std::int32_t n_visits) {
+    Ticks enters;
+    for (std::int32_t k = 0; k < n_visits; ++k) {
+        enters.push_back(run.waits().enter({robot, k}));
+    }
+    return enters;
+}
+
+// The paper's first two doors: homes 0 and 2, stops 6 and 8, and one vertex between, 4.
+const std::vector<std::vector<VertexId>> door{{0, 1, 4, 7, 6}, {2, 1, 4, 7, 8}};
+
+TEST_CASE("at a door one robot waits once and both repeat their laps from then on") {
+    const Laps laps{door, {1, 1}};
+    const Ticks approach(laps.vertex.size(), 0);
+    CyclicSimulator run(laps.arrays(approach), {0, 10, 40, 80, 1, 32}, CyclicRule::first_come);
+    REQUIRE(run.go_on(never) == CyclicSimulator::End::repeats);
+    CHECK((run.cut() - run.came_before()) % 10 == 0);
+    CHECK(times(run, 0, 9) == Ticks{0, 1, 2, 3, 4, 6, 7, 8, 9});
+    CHECK(times(run, 1, 9) == Ticks{0, 2, 3, 4, 5, 7, 8, 9, 10});
+}
+
+TEST_CASE("in a fixed order a slower robot may wait at the door for ever") {
+    const Laps laps{door, {2, 3}};
+    const Ticks approach(laps.vertex.size(), 0);
+    CyclicSimulator run(laps.arrays(approach), {0, 20, 120, 240, 1, 32}, CyclicRule::fixed_order);
+    REQUIRE(run.go_on(never) == CyclicSimulator::End::repeats);
+    CHECK(run.waits().n_begun(1) < 8);
+    CHECK(run.waits().n_begun(0) > 8);
+}
+
+TEST_CASE("robots that live in each other's corridor are deadlocked, whoever waits") {
+    const Laps laps{{{0, 1, 2, 3}, {3, 2, 1, 0}}, {1, 1}};
+    const Ticks approach(laps.vertex.size(), 0);
+    CyclicSimulator run(laps.arrays(approach), {0, 8, 32, 64, 1, 32}, CyclicRule::first_come);
+    REQUIRE(run.go_on(never) == CyclicSimulator::End::deadlock);
+    CHECK(run.deadlock().robot_a == 0);
+    CHECK(run.deadlock().robot_b == 1);
+}
+
+TEST_CASE("a run that was stopped goes on as if it had not been") {
+    const Laps laps{door, {2, 3}};
+    const Ticks approach(laps.vertex.size(), 0);
+    const Horizon pace{0, 20, 120, 240, 1, 32};
+    CyclicSimulator whole(laps.arrays(approach), pace, CyclicRule::first_come);
+    CyclicSimulator parts(laps.arrays(approach), pace, CyclicRule::first_come);
+    REQUIRE(whole.go_on(never) == CyclicSimulator::End::repeats);
+    int asked = 0;
+    const auto now_and_then = [&asked] { return ++asked % 2 == 0; };
+    int stopped = 0;
+    while (parts.go_on(now_and_then) == CyclicSimulator::End::open) {
+        ++stopped;
+    }
+    CHECK(stopped > 0);
+    CHECK(parts.cut() == whole.cut());
+    CHECK(parts.came_before() == whole.came_before());
+}
+
+// From one cell of a square floor to another, along the row and then along the column.
+std::vector<VertexId> way_of(int from, int to, int size) {
+    std::vector<VertexId> way{from};
+    while (way.back() != to) {
+        const int here = way.back();
+        const int right = to % size - here % size;
+        const int step = right != 0 ? (right > 0 ? 1 : -1) : (to > here ? size : -size);
+        way.push_back(here + step);
+    }
+    return way;
+}
+
+TEST_CASE("on crowded floors no two robots are ever at one place, however a run ends") {
+    constexpr int size = 9;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        std::mt19937 draw(seed);
+        std::vector<int> cells(size * size);
+        std::iota(cells.begin(), cells.end(), 0);
+        std::shuffle(cells.begin(), cells.end(), draw);
+        std::vector<std::vector<VertexId>> ways;
+        Ticks speeds;
+        for (int r = 0; r < 10; ++r) {
+            ways.push_back(way_of(cells[2 * r], cells[2 * r + 1], size));
+            speeds.push_back(1 + static_cast<Tick>(draw() % 3));
+        }
+        const Laps laps{ways, speeds};
+        const Ticks approach(laps.vertex.size(), 0);
+        CyclicSimulator run(laps.arrays(approach), {0, 40, 400, 800, 1, 32},
+                            CyclicRule::first_come);
+        int asked = 0;
+        run.go_on([&asked] { return ++asked > 200; });
+        std::map<VertexId, std::vector<std::pair<Tick, Tick>>> at;
+        for (RobotId r = 0; r < run.n_robots(); ++r) {
+            for (std::int32_t k = 0; k + 1 < run.waits().n_begun(r); ++k) {
+                const auto length = laps.first_place[r + 1] - laps.first_place[r];
+                at[laps.vertex[laps.first_place[r] + k % length]].emplace_back(
+                    run.waits().enter({r, k}), run.waits().enter({r, k + 1}));
+            }
+        }
+        for (auto& [vertex, visits] : at) {
+            std::sort(visits.begin(), visits.end());
+            for (std::size_t k = 1; k < visits.size(); ++k) {
+                REQUIRE(visits[k - 1].second <= visits[k].first);
+            }
+        }
+    }
+}
+
+TEST_CASE("laps that lead nowhere are refused") {
+    const std::vector<std::int32_t> first_place{0, 1};
+    const std::vector<VertexId> vertex{0};
+    const Ticks ticks{1};
+    const LapArrays arrays{first_place, vertex, ticks, ticks, ticks, 0};
+    CHECK_THROWS_WITH(CyclicRoutes{arrays},
+                      "first_place[1]: 1 is not 2 above the entry before it (a lap leads away "
+                      "and back)");
+}
+
+TEST_CASE("times of the past are told by the visits that were late") {
+    const Laps laps{{{0, 1, 2}}, {1}};
+    const Ticks approach(laps.vertex.size(), 0);
+    const CyclicRoutes routes{laps.arrays(approach)};
+    VisitTimes waits{routes};
+    for (const Tick tick : {1, 5, 7, 8, 10, 14}) {
+        waits.add(0, tick);
+    }
+    CHECK(waits.enter({0, 5}) == 10);
+    CHECK(waits.enter({0, 6}) == 14);
+    CHECK(waits.late(0).size() == 2);
+    waits.cut(0, 6);
+    waits.add(0, 11);
+    CHECK(waits.enter({0, 6}) == 11);
+    CHECK(waits.late(0).size() == 1);
+}
+
+}  // namespace
+}  // namespace rightofway

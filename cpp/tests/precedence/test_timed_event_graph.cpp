@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "precedence/timed_event_graph.hpp"
+
+namespace rightofway {
+namespace {
+
+struct Events {
+    std::int32_t n_nodes;
+    std::vector<std::int32_t> tail;
+    std::vector<std::int32_t> head;
+    std::vector<Tick> length;
+    std::vector<std::int32_t> height;
+
+    TimedEventGraph arcs() const { return {n_nodes, tail, head, length, height}; }
+};
+
+bool never() { return false; }
+
+// Two robots of two visits each, laps of 5 and 7, and one door: 0 1 | 2 3, visits 1 and 3 there.
+Events door() {
+    return {4, {0, 1, 2, 3, 0, 2}, {1, 0, 3, 2, 3, 1}, {2, 3, 1, 6, 1, 1}, {0, 1, 0, 1, 1, 0}};
+}
+
+TEST_CASE("the largest ratio of length to height is the cycle time") {
+    const Events events = door();
+    const auto found = critical_circuit(events.arcs(), never);
+    REQUIRE(found);
+    // The second robot alone: 1 + 6 in one period; through the other: 1 + 6 + 1 + 3 in three.
+    CHECK(found->length == 7);
+    CHECK(found->height == 1);
+    CHECK(found->arcs.size() == 2);
+}
+
+TEST_CASE("a ratio is in lowest terms, and no rounding spoils it") {
+    const Events events{2, {0, 0, 1}, {0, 1, 0}, {3, 2, 5}, {1, 1, 1}};  // 3 / 1, 7 / 2
+    const auto found = critical_circuit(events.arcs(), never);
+    REQUIRE(found);
+    CHECK(found->length == 7);
+    CHECK(found->height == 2);
+    CHECK(found->arcs == std::vector<std::int32_t>{1, 2});
+}
+
+TEST_CASE("a rotation, of length and height zero, is walked round no more than once") {
+    const Events events{3, {0, 1, 2, 0}, {1, 2, 0, 0}, {0, 0, 0, 4}, {0, 0, 0, 1}};
+    const auto found = critical_circuit(events.arcs(), never);
+    REQUIRE(found);
+    CHECK(found->length == 4);
+    CHECK(found->arcs == std::vector<std::int32_t>{3});
+}
+
+TEST_CASE("parts that do not reach each other have the larger of their cycle times") {
+    const Events events{3, {0, 1, 2, 1}, {0, 1, 2, 2}, {3, 5, 4, 1}, {1, 1, 1, 0}};
+    const auto found = critical_circuit(events.arcs(), never);
+    REQUIRE(found);
+    CHECK(found->length == 5);
+    CHECK(found->arcs == std::vector<std::int32_t>{1});
+}
+
+TEST_CASE("nothing that takes time: the cycle time is zero") {
+    const Events events{1, {0}, {0}, {0}, {1}};
+    const auto found = critical_circuit(events.arcs(), never);
+    REQUIRE(found);
+    CHECK(found->length == 0);
+    CHECK(found->arcs.empty());
+}
+
+TEST_CASE("what can never take place is refused, with its circuit") {
+    const Events events{2, {0, 1}, {1, 0}, {2, 0}, {0, 0}};
+    CHECK_THROWS_WITH_AS(critical_circuit(events.arcs(), never),
+                         "height: a circuit of length 2 has height 0, but must have one above 0",
+                         std::invalid_argument);
+}
+
+TEST_CASE("a search that is told to stop has found nothing") {
+    const Events events = door();
+    CHECK_FALSE(critical_circuit(events.arcs(), [] { return true; }));
+    CHECK_FALSE(earliest_times(events.arcs(), 7, 1, [] { return true; }));
+}
+
+TEST_CASE("times are the least that keep all arcs, at the cycle time and above") {
+    const Events events = door();
+    const auto times = earliest_times(events.arcs(), 7, 1, never);
+    REQUIRE(times);
+    CHECK(*times == std::vector<Tick>{0, 2, 0, 1});
+    CHECK_FALSE(earliest_times(events.arcs(), 6, 1, never));
+}
+
+TEST_CASE("times at a fraction are whole numbers of its parts") {
+    const Events events{2, {0, 0, 1}, {0, 1, 0}, {3, 2, 5}, {1, 1, 1}};  // cycle time 7 / 2
+    const auto times = earliest_times(events.arcs(), 7, 2, never);
+    REQUIRE(times);
+    CHECK(*times == std::vector<Tick>{3, 0});  // 5 - 7/2 = 3/2 after the other
+}
+
+TEST_CASE("arcs that do not fit are refused, with the index and the value") {
+    Events events = door();
+    events.head[2] = 4;
+    CHECK_THROWS_WITH_AS(require_event_arcs(events.arcs()), "head[2]: 4 is not in 0..3",
+                         std::invalid_argument);
+    events = door();
+    events.length[1] = -3;
+    CHECK_THROWS_WITH_AS(require_event_arcs(events.arcs()), "length[1]: -3 is negative",
+                         std::invalid_argument);
+    events.length[1] = Tick{1} << 60;
+    CHECK_THROWS_AS(require_event_arcs(events.arcs()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace rightofway

@@ -1,0 +1,128 @@
+"""What one robot has to do, in ticks: the stages of its trip and how fast it crosses edges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain
+
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.robot import Robot
+from rightofway.model.rules import Rules
+from rightofway.model.units import Clock, Tick, VertexId, choose_clock
+
+__all__ = ["Itinerary", "Problem", "Stage", "least_dwell", "problem_of"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """One thing to do on a trip: be at a vertex, work there, turn.
+
+    Attributes
+    ----------
+    vertex
+        Where.
+    work
+        How long the robot works there [ticks].
+    turn
+        How long it then turns, if an edge is to be driven afterwards [ticks].
+    """
+
+    vertex: VertexId
+    work: Tick
+    turn: Tick
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Itinerary:
+    """The trip of one robot, laps unrolled.
+
+    Attributes
+    ----------
+    home
+        The vertex it is at from tick 0.
+    stages
+        What it has to do, in order. The vertex of the last one is where it stays for ever.
+    edge_ticks
+        Ticks it needs for an edge, by length class of the roadmap.
+    """
+
+    home: VertexId
+    stages: tuple[Stage, ...]
+    edge_ticks: tuple[Tick, ...]
+
+    @property
+    def last(self) -> VertexId:
+        """The vertex where the robot stays for ever."""
+        return self.stages[-1].vertex
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Problem:
+    """A scenario in ticks.
+
+    Attributes
+    ----------
+    clock
+        How long a tick is.
+    headway
+        Least ticks between one robot leaving a vertex and the next entering it.
+    itineraries
+        One for each robot.
+    """
+
+    clock: Clock
+    headway: Tick
+    itineraries: tuple[Itinerary, ...]
+
+
+def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
+    """Return how long a visit lasts at least that serves these stages, without the edge after it.
+
+    The last visit of a robot (``leaves`` is false) needs no turning.
+    """
+    return Tick(sum(stage.work + (stage.turn if leaves else 0) for stage in stages))
+
+
+def problem_of(
+    roadmap: Roadmap, robots: Sequence[Robot], rules: Rules, clock: Clock | None = None
+) -> Problem:
+    """Express a valid scenario in ticks, of a clock that is given or else chosen."""
+    if clock is None:
+        each = (_durations(roadmap, robot, rules) for robot in robots)
+        clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
+    return Problem(
+        clock=clock,
+        headway=clock.ticks(rules.headway),
+        itineraries=tuple(_itinerary(roadmap, robot, rules, clock) for robot in robots),
+    )
+
+
+def turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
+    """Return how long a robot turns at a stop [time unit]."""
+    turn = robot.turn if robot.turn is not None else rules.turn
+    if turn is None:
+        turn = "cell" if roadmap.grid is not None else Fraction(0)
+    if turn == "cell":
+        assert roadmap.grid is not None, "the scenario has refused this"
+        return roadmap.grid.cell_size / robot.speed
+    return turn
+
+
+def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
+    yield from (length / robot.speed for length in roadmap.lengths)
+    yield turning_time(roadmap, robot, rules)
+    yield from (stop.work for stop in robot.stops)
+
+
+def _itinerary(roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock) -> Itinerary:
+    turn = clock.ticks(turning_time(roadmap, robot, rules))
+    lap = [Stage(vertex=stop.at, work=clock.ticks(stop.work), turn=turn) for stop in robot.stops]
+    if (robot.ends or rules.ends) == "home":
+        lap.append(Stage(vertex=robot.home, work=Tick(0), turn=turn))
+    return Itinerary(
+        home=robot.home,
+        stages=tuple(lap * (robot.laps or rules.laps)),
+        edge_ticks=tuple(clock.ticks(length / robot.speed) for length in roadmap.lengths),
+    )

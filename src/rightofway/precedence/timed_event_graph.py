@@ -1,0 +1,330 @@
+"""The precedence graph of work that repeats, wrapped round in time: the event graph.
+
+A node is a visit of one period, its time the enter. An arc leads from a visit to the next one of
+its robot, and at each vertex from the visit after the one that goes first to the one that goes
+second. Its *height* says how many periods later the second is to be counted: where a robot starts
+its laps anew, or where the order at a vertex goes round. Robots that wait for nothing but that
+come again every *cycle time*, the largest mean of any circuit (length by height), and a circuit
+that has it is the bottleneck: whatever else becomes faster, the period stays.
+
+References
+----------
+Baccelli, Cohen, Olsder & Quadrat, *Synchronization and Linearity*, Wiley 1992.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway import _core
+from rightofway.errors import GaveUp
+from rightofway.model import Lap, Tick
+from rightofway.precedence.schedule import CyclicSchedule
+
+__all__ = ["Arcs", "Circuit", "TimedEventGraph", "critical_circuit", "timed_event_graph"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Arcs:
+    """What waits for what, in arrays of shape (M,).
+
+    Attributes
+    ----------
+    tail, head
+        Visits; int32.
+    length
+        How long after its tail the head comes at least [ticks]; int64.
+    height
+        How many periods later; int32.
+    first
+        The visit that goes first where the arc is a right of way, -1 where it is a robot's own
+        progress; int32.
+    """
+
+    tail: NDArray[np.int32]
+    head: NDArray[np.int32]
+    length: NDArray[np.int64]
+    height: NDArray[np.int32]
+    first: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.tail)
+
+    def stretched(self, length: NDArray[np.int64]) -> Self:
+        """Return the same arcs, as long as given."""
+        return replace(self, length=length)
+
+    def chosen(self, which: NDArray[np.int32] | NDArray[np.bool_]) -> Self:
+        """Return some of the arcs, by their numbers or by a mask."""
+        return replace(self, **{name: getattr(self, name)[which] for name in self.__slots__})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Circuit:
+    """A circuit of the event graph.
+
+    Attributes
+    ----------
+    cycle_time
+        Its length by its height [ticks]; exact.
+    arcs
+        The numbers of its arcs, in order; int32. None where nothing takes any time.
+    """
+
+    cycle_time: Fraction
+    arcs: NDArray[np.int32]
+
+
+class TimedEventGraph:
+    """The visits of one period and what each has to wait for.
+
+    Parameters
+    ----------
+    timetable
+        Whose laps and orders to keep; its times say nothing else.
+    headway
+        Ticks that a vertex stays booked after it was left.
+    books_ahead
+        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+
+    Attributes
+    ----------
+    first
+        Where each robot's visits begin, and where all end; int64, shape (robots + 1,).
+    vertex
+        Where each visit is; int32.
+    robot
+        Whose it is, as a position in ``timetable.robots``; int32.
+    index
+        Which visit of the robot's lap it is; int32.
+    drive, dwell
+        Ticks of the drive into it, and how long it lasts at least; int64.
+    """
+
+    def __init__(self, timetable: CyclicSchedule, *, headway: Tick, books_ahead: bool) -> None:
+        self.timetable = timetable
+        self.headway = headway
+        self.books_ahead = books_ahead
+        laps, counts = timetable.laps, timetable.counts
+        sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
+        self.first = np.concatenate(([0], np.cumsum(sizes)))
+        self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
+        rows = zip(*map(_visits, laps, counts), strict=True)
+        self.vertex, self.index, self.drive, self.dwell = map(np.concatenate, rows)
+
+    def __len__(self) -> int:
+        return len(self.vertex)
+
+    @cached_property
+    def after(self) -> NDArray[np.int32]:
+        """The visit that follows each one; int32."""
+        after = np.arange(1, len(self) + 1, dtype=np.int32)
+        after[self.first[1:] - 1] = self.first[:-1]
+        return after
+
+    @cached_property
+    def wraps(self) -> NDArray[np.int32]:
+        """How many periods later the visit that follows each one is counted: 0 or 1; int32."""
+        wraps = np.zeros(len(self), np.int32)
+        wraps[self.first[1:] - 1] = 1
+        return wraps
+
+    @cached_property
+    def arcs(self) -> Arcs:
+        """First each visit's own progress, in the order of visits; then the rights of way."""
+        progress = Arcs(
+            tail=np.arange(len(self), dtype=np.int32),
+            head=self.after,
+            length=self.dwell + self.drive[self.after],
+            height=self.wraps,
+            first=np.full(len(self), -1, np.int32),
+        )
+        rights = self._rights_of_way()
+        return Arcs(
+            **{
+                name: np.concatenate((getattr(progress, name), getattr(rights, name)))
+                for name in Arcs.__slots__
+            }
+        )
+
+    def _rights_of_way(self) -> Arcs:
+        """Return an arc for each two visits of different robots next to each other at a vertex."""
+        period = int(self.timetable.period)
+        turn, tick = np.divmod(np.concatenate(self.timetable.enter), period)
+        order = np.lexsort((tick, self.vertex))
+        starts = np.flatnonzero(np.diff(self.vertex[order], prepend=-1))
+        ends = np.append(starts[1:], len(order)) - 1
+        then = np.roll(order, -1)
+        then[ends] = order[starts]
+        rounds = np.zeros(len(order), np.int64)
+        rounds[ends] = 1
+        meets = self.robot[order] != self.robot[then]
+        first, second, rounds = order[meets], then[meets], rounds[meets]
+        approach = self.drive[second] if self.books_ahead else 0
+        return Arcs(
+            tail=self.after[first],
+            head=second.astype(np.int32),
+            length=np.full(len(first), int(self.headway), np.int64) + approach,
+            height=(turn[first] + rounds - turn[second] - self.wraps[first]).astype(np.int32),
+            first=first.astype(np.int32),
+        )
+
+    def has_swaps(self) -> bool:
+        """Tell whether two robots would exchange two vertices: each waits for the other to go.
+
+        No timetable that keeps the rules has these orders; but no circuit of them takes any time.
+        """
+        rights = self.arcs.chosen((self.arcs.first >= 0) & (self.arcs.length == 0))
+        if not len(rights):
+            return False
+        there = rights.tail.astype(np.int64) * len(self) + rights.head
+        back = rights.head.astype(np.int64) * len(self) + rights.tail
+        order = np.argsort(there)
+        found = order[np.searchsorted(there[order], back).clip(max=len(there) - 1)]
+        swaps = (there[found] == back) & (rights.height + rights.height[found] == 0)
+        return bool(swaps.any())
+
+    def slack(self) -> NDArray[np.int64]:
+        """Return how much later than it had to each arc's head comes in the timetable [ticks].
+
+        Below 0 for a timetable that does not keep its own orders: robots drive too fast in it, or
+        bookings overlap.
+        """
+        enter, arcs = np.concatenate(self.timetable.enter), self.arcs
+        due = enter[arcs.tail] + arcs.length
+        return enter[arcs.head] + arcs.height * int(self.timetable.period) - due
+
+    def critical_circuit(self, *, time_limit: float | None = None) -> Circuit:
+        """Return a circuit of the largest mean, and with it the cycle time.
+
+        Raises
+        ------
+        GaveUp
+            If time ran out.
+        """
+        return circuit_of(len(self), self.arcs, time_limit=time_limit)
+
+    def earliest(
+        self,
+        period: Tick,
+        *,
+        cycle_time: Fraction | None = None,
+        time_limit: float | None = None,
+    ) -> CyclicSchedule:
+        """Return the timetable of the same orders in which everything comes as early as it can.
+
+        Parameters
+        ----------
+        period
+            At least the cycle time [ticks].
+        cycle_time
+            That, where it is known already.
+        time_limit
+            When to stop [s].
+
+        Raises
+        ------
+        ValueError
+            If the period is less than the cycle time.
+        GaveUp
+            If time ran out.
+        """
+        if cycle_time is None:
+            cycle_time = self.critical_circuit(time_limit=time_limit).cycle_time
+        if period < cycle_time:
+            raise ValueError(f"period: {period} is less than the cycle time {cycle_time}")
+        arcs = self.arcs
+        times = _core.earliest_times(
+            len(self), arcs.tail, arcs.head, arcs.length, arcs.height, int(period), 1, time_limit
+        )
+        if times is None:
+            raise GaveUp("time ran out in the search for the earliest timetable")
+        return replace(self.timetable, period=period, enter=self._within(times, period))
+
+    def _within(self, times: NDArray[np.int64], period: Tick) -> tuple[NDArray[np.int64], ...]:
+        """Return each robot's times, by whole periods to where its first is in the first."""
+        parts = np.split(times, self.first[1:-1])
+        return tuple(part - part[0] // int(period) * int(period) for part in parts)
+
+
+def timed_event_graph(
+    timetable: CyclicSchedule, *, headway: Tick, books_ahead: bool
+) -> TimedEventGraph:
+    """Return the event graph of a timetable; see `TimedEventGraph`."""
+    return TimedEventGraph(timetable, headway=headway, books_ahead=books_ahead)
+
+
+def critical_circuit(
+    timetable: CyclicSchedule,
+    *,
+    headway: Tick,
+    books_ahead: bool,
+    time_limit: float | None = None,
+) -> Circuit:
+    """Return the exact cycle time of the laps and orders of a timetable, and a circuit that has it.
+
+    Parameters
+    ----------
+    timetable
+        Its times serve for nothing but the orders at each vertex.
+    headway
+        Ticks that a vertex stays booked after it was left.
+    books_ahead
+        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    time_limit
+        When to stop [s].
+
+    Returns
+    -------
+    Circuit
+        Its ``cycle_time`` is for one period of the timetable, so for all its ``counts`` of laps.
+
+    Raises
+    ------
+    GaveUp
+        If time ran out.
+
+    Notes
+    -----
+    Exact and deterministic. A fleet that keeps the orders and waits for nothing else settles in
+    exactly that cycle time, wherever it starts.
+    """
+    graph = timed_event_graph(timetable, headway=headway, books_ahead=books_ahead)
+    return graph.critical_circuit(time_limit=time_limit)
+
+
+def circuit_of(n_visits: int, arcs: Arcs, *, time_limit: float | None = None) -> Circuit:
+    """Return a circuit of the largest mean among arcs between so many visits.
+
+    Raises
+    ------
+    GaveUp
+        If time ran out.
+    """
+    found = _core.critical_circuit(
+        n_visits, arcs.tail, arcs.head, arcs.length, arcs.height, time_limit
+    )
+    if found is None:
+        raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
+    length, height, numbers = found
+    return Circuit(cycle_time=Fraction(length, height), arcs=numbers)
+
+
+_Visits = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
+
+
+@lru_cache(maxsize=1 << 14)
+def _visits(lap: Lap, count: int) -> _Visits:
+    """Return vertex, index, drive and dwell of all visits of some laps."""
+    return (
+        np.array(lap.vertices * count, np.int32),
+        np.array((*range(len(lap)),) * count, np.int32),
+        np.array(lap.drive * count, np.int64),
+        np.array(lap.dwell * count, np.int64),
+    )

@@ -1,0 +1,138 @@
+"""Routes that keep clear of the others, chosen one robot at a time.
+
+Waiting cannot pass a robot that stands or works on one's route, and of two robots that come head-on
+one waits for the whole segment. So it costs more to enter a place where another robot has its home
+or a stop, and to drive against robots whose route is chosen already.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import mean
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway import _core
+from rightofway.model import Itinerary, Tick, VertexId
+from rightofway.search.distances import Distances, Path
+
+__all__ = ["Congestion", "CongestionCosts"]
+
+SHARES = 16
+"""In how many shares a tick is counted, if all robots cost the same."""
+
+STATION = 1 / 8
+"""To pass another robot's home or stop costs as much as an eighth of a middling trip more.
+
+Who has to wait for a robot to come or go waits the longer, the longer their trips are.
+"""
+
+ONCOMING = 1 / 4
+"""To meet a robot head-on on an edge costs as much as a quarter of it more."""
+
+FINE_SHARES = 1 << 12
+"""The same, if robots cost by how often they come."""
+
+OFTEN_AT_STATION = 150
+"""A robot that is at a place all the time costs who passes it so many ticks."""
+
+OFTEN_ONCOMING = 34
+"""A robot that comes the other way every tick costs so many times the edge."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CongestionCosts:
+    """What it costs to have to do with other robots.
+
+    Attributes
+    ----------
+    shares
+        In how many shares a tick is counted.
+    station
+        What it costs more to enter each vertex; int64, shape (V,) [shares per tick].
+    oncoming
+        For each robot what it costs more to go against it [shares per tick].
+    """
+
+    shares: int
+    station: NDArray[np.int64]
+    oncoming: tuple[int, ...]
+
+    @classmethod
+    def single_trip(cls, distances: Distances, itineraries: Sequence[Itinerary]) -> Self:
+        """Return those for one trip of each robot: who is in the way once is in the way."""
+        station = np.zeros(distances.roadmap.n_vertices, np.int64)
+        cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in itineraries))
+        for itinerary in itineraries:
+            station[[itinerary.home, *(stage.vertex for stage in itinerary.stages)]] = cost
+        oncoming = (int(ONCOMING * SHARES),) * len(itineraries)
+        return cls(shares=SHARES, station=station, oncoming=oncoming)
+
+    @classmethod
+    def per_lap(cls, distances: Distances, itineraries: Sequence[Itinerary]) -> Self:
+        """Return those for laps: by how often each robot comes, and which part of it it stays."""
+        station, oncoming = np.zeros(distances.roadmap.n_vertices, np.int64), []
+        for one in itineraries:
+            lap = max(_ticks_of_lap(distances, one), 1)
+            for stage in one.stages:
+                stays = stage.work + stage.turn + 1
+                station[stage.vertex] += OFTEN_AT_STATION * FINE_SHARES * stays // lap
+            oncoming.append(OFTEN_ONCOMING * FINE_SHARES // lap)
+        return cls(shares=FINE_SHARES, station=station, oncoming=tuple(oncoming))
+
+
+class Congestion:
+    """The routes chosen so far, and what they make others cost.
+
+    Parameters
+    ----------
+    distances
+        Tables of the roadmap; they guide the search.
+    surcharges
+        What it costs to have to do with others.
+    """
+
+    def __init__(self, distances: Distances, surcharges: CongestionCosts) -> None:
+        self.distances = distances
+        self._oncoming = surcharges.oncoming
+        self._kernel = _core.Congestion(
+            distances.roadmap.indptr,
+            distances.roadmap.heads,
+            surcharges.shares,
+            surcharges.station,
+        )
+
+    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
+        """Return a cheapest path; the target can be reached.
+
+        Of several, it takes the one that leaves each vertex by the first edge; where nobody is in
+        the way that is the path of `Distances`.
+        """
+        to_go = self.distances.to(target, edge_ticks)
+        ticks = self.distances.ticks_of_edges(edge_ticks)
+        found = self._kernel.path(start, target, ticks, to_go)
+        return tuple(VertexId(vertex) for vertex in found.tolist())
+
+    def add(self, robot: int, path: Path) -> None:
+        """Have a robot on a path."""
+        self._kernel.add(np.array(path, np.int32), self._oncoming[robot])
+
+
+def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
+    """Return about how many edges it is from home to the first stop."""
+    ticks = itinerary.edge_ticks
+    way = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
+    return way / float(distances.ticks_of_edges(ticks).mean()) if way else 0.0
+
+
+def _ticks_of_lap(distances: Distances, itinerary: Itinerary) -> int:
+    """Return how long a lap takes at least [ticks]."""
+    place, ticks = itinerary.home, 0
+    for stage in itinerary.stages:
+        ticks += int(distances.to(stage.vertex, itinerary.edge_ticks)[place])
+        ticks += stage.work + stage.turn
+        place = stage.vertex
+    return ticks

@@ -1,0 +1,140 @@
+"""The bottleneck of two robots at one door, in words, and what would help.
+
+R1 lives in the west (N3) and works in the north (N1), R2 lives in the east (N5) and works in the
+south (N7); the door (N4) is in the middle. R1 goes in and comes out, then R2.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from rightofway.cyclic.bottleneck import bottleneck_of, in_words
+from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
+from rightofway.model import Lap, Rules, Scenario, Tick, VertexId
+from rightofway.precedence import TimedEventGraph
+from tests.fleets import grid_fleet
+from tests.periodic import timetable_of
+
+
+def crossing(*, work: tuple[int, int] = (4, 2), rules: Rules | None = None) -> Scenario:
+    return grid_fleet(
+        ["@.@", "...", "@.@"],
+        [("N3", "N1"), ("N5", "N7")],
+        rules=rules or Rules(turn=Fraction(0)),
+        work=work,
+    )
+
+
+def laps_of(scenario: Scenario) -> list[Lap]:
+    """Home, door, work, door; the turn at home and at work is as the rules say."""
+    door = scenario.roadmap.vertex("N4")
+    laps = []
+    for itinerary in scenario.problem.itineraries:
+        stop, home = itinerary.stages
+        laps.append(
+            Lap(
+                vertices=(itinerary.home, door, stop.vertex, door),
+                dwell=(Tick(home.turn), Tick(0), Tick(stop.work + stop.turn), Tick(0)),
+                drive=(itinerary.edge_ticks[0],) * 4,
+            )
+        )
+    return laps
+
+
+def graph_of(scenario: Scenario) -> TimedEventGraph:
+    timetable = timetable_of(
+        laps_of(scenario), [[40, 110, 120, 130], [75, 145, 155, 165]], period=100
+    )
+    rules = scenario.rules
+    return TimedEventGraph(
+        timetable, headway=scenario.problem.headway, books_ahead=rules.books_ahead
+    )
+
+
+def test_a_bottleneck_reads_as_work_ways_and_places() -> None:
+    scenario = crossing()
+    found = bottleneck_of(graph_of(scenario))
+    assert in_words(found, scenario) == (
+        "R1's way to N1, then R1's work at N1, then R1's way home, then N4, then "
+        "R2's way to N7, then R2's work at N7, then R2's way home, then N4"
+    )
+    assert found.cycle_time == 12
+    assert found.periods == 1
+    assert found.robots == (0, 1)
+    assert sum(piece.ticks for piece in found.pieces) == 12
+
+
+def test_a_long_bottleneck_is_cut_short_and_says_so() -> None:
+    scenario = crossing()
+    found = bottleneck_of(graph_of(scenario))
+    assert in_words(found, scenario, most=2) == "R1's way to N1, then R1's work at N1, then 6 more"
+
+
+def test_a_robot_that_waits_for_nobody_is_its_own_bottleneck() -> None:
+    scenario = crossing(work=(40, 0), rules=Rules(turn=Fraction(0)))
+    timetable = timetable_of(
+        laps_of(scenario), [[44, 101, 102, 143], [40, 110, 120, 130]], period=100
+    )
+    # R2 is in and out again while R1 works; R1's lap is 4 edges and its work.
+    found = bottleneck_of(TimedEventGraph(timetable, headway=Tick(0), books_ahead=False))
+    assert in_words(found, scenario) == "R1's own lap: it waits for nobody"
+    assert found.cycle_time == 44
+
+
+def told(lever: ParameterEffect) -> tuple[str, int | None, int | None, float, float, float]:
+    effect = lever.effect
+    return (
+        lever.kind,
+        lever.robot,
+        lever.stop,
+        float(effect.gain),
+        float(effect.until),
+        float(effect.at_best),
+    )
+
+
+def test_what_helps_is_what_is_on_the_bottleneck_the_best_first() -> None:
+    scenario = crossing()
+    sensitivity = parameter_effects(scenario, graph_of(scenario))
+    # R1 drives 3 of its 4 edges between entering the door and leaving it for home, and works for 4.
+    assert [told(lever) for lever in sensitivity] == [
+        ("work", 0, 0, 4.0, 1.0, 8.0),
+        ("speed", 0, None, 3.0, 1.0, 9.0),
+        ("speed", 1, None, 3.0, 1.0, 9.0),
+        ("work", 1, 0, 2.0, 1.0, 10.0),
+    ]
+    # A tenth less work; or a tenth faster: 3 ticks of driving become 3 / 1.1.
+    assert [lever.ten_per_cent for lever in sensitivity[:2]] == [
+        Fraction(12) - Fraction(4, 10),
+        Fraction(12) - (3 - Fraction(3) / Fraction(11, 10)),
+    ]
+
+
+def test_turning_and_headway_are_levers_of_their_own() -> None:
+    scenario = crossing(rules=Rules(turn=Fraction(5), headway=Fraction(2)))
+    sensitivity = {
+        (lever.kind, lever.robot): lever
+        for lever in parameter_effects(scenario, graph_of(scenario), most=9)
+    }
+    # Each turns once beyond the door; the door changes hands twice.
+    assert float(sensitivity["turn", 0].effect.gain) == 5
+    assert float(sensitivity["headway", None].effect.gain) == 4
+    assert sensitivity["work", 0].effect.cycle_time == 12 + 2 * 5 + 2 * 2
+
+
+def test_driving_into_a_place_booked_ahead_counts_as_driving() -> None:
+    scenario = crossing(rules=Rules(turn=Fraction(0), occupancy="both"))
+    sensitivity = {
+        (lever.kind, lever.robot): lever
+        for lever in parameter_effects(scenario, graph_of(scenario), most=9)
+    }
+    assert float(sensitivity["speed", 0].effect.gain) == 4
+    assert sensitivity["speed", 0].effect.cycle_time == 14
+
+
+def test_stages_are_found_in_the_visits_that_serve_them() -> None:
+    scenario = crossing(rules=Rules(turn=Fraction(5)))
+    lap, itinerary = laps_of(scenario)[0], scenario.problem.itineraries[0]
+    stop, home = itinerary.stages
+    assert stages_at(lap, itinerary) == [[(1, home)], [], [(0, stop)], []]
+    assert lap.vertices[2] == VertexId(scenario.roadmap.vertex("N1"))

@@ -1,0 +1,154 @@
+"""Plans on a late floor: what users are told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rightofway
+from rightofway.model import Plan, PlannerRun, Rules, Track
+from rightofway.model.units import Clock
+from tests.fleets import grid_fleet, random_fleet
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    """Two robots cross in the middle: R1 from west to east, R2 after it from north to south."""
+    scenario = grid_fleet(
+        ["@.@", "...", "@.@"], [("N3", "N5"), ("N1", "N7")], rules=Rules(ends="none")
+    )
+    return rightofway.solve(scenario, "two-level")
+
+
+def test_without_delays_everything_is_as_planned(plan: Plan) -> None:
+    outcome = rightofway.simulate(plan, "uniform:0..0", runs=3)
+    assert outcome.actual(2) == plan.tracks
+    assert outcome.collisions == outcome.deadlocks == outcome.by_clock.total == 0
+    assert outcome.lateness.all.max == 0
+
+
+def test_a_robot_that_stops_is_run_into_by_the_clock_and_waited_for_by_right_of_way(
+    plan: Plan,
+) -> None:
+    """The first in the middle stands there from its enter on for 10; the other is to follow."""
+    first = min(range(2), key=lambda robot: int(plan.tracks[robot].enter[1]))
+    name = plan.scenario.robots[first].name
+    outcome = rightofway.simulate(plan, f"stop:{name}@1+10", runs=1)
+    assert outcome.by_clock.vertex == 1
+    assert outcome.by_clock.first.median == 2
+    assert outcome.collisions == 0
+    other = 1 - first
+    assert outcome.lateness.robots[other].spread.mean == 10
+    assert outcome.lateness.robots[other].waiting == {first: 10.0}
+    assert outcome.lateness.sources[0].robot == first
+    assert outcome.lateness.sources[0].own == outcome.lateness.sources[0].of_others == 10
+
+
+def test_who_waits_for_a_broken_robot_is_stranded_not_deadlocked(plan: Plan) -> None:
+    first = min(range(2), key=lambda robot: int(plan.tracks[robot].enter[1]))
+    name = plan.scenario.robots[first].name
+    outcome = rightofway.simulate(plan, f"stop:{name}@1", runs=2)
+    assert (outcome.broken, outcome.stranded, outcome.deadlocks) == (2, 2, 0)
+    assert (outcome.completion == -1).all()
+
+
+def test_the_same_seed_gives_the_same_outcome_and_another_one_does_not() -> None:
+    plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
+    one, same, other = (rightofway.simulate(plan, runs=20, seed=seed) for seed in (4, 4, 5))
+    assert one.as_dict() == same.as_dict()
+    assert not np.array_equal(one.completion, other.completion)
+
+
+def test_a_run_shown_is_the_run_counted() -> None:
+    plan = rightofway.solve(random_fleet(2, robots=6), "two-level")
+    for switch in (False, True):
+        outcome = rightofway.simulate(plan, "chance:0.1x9", runs=5, switch=switch)
+        for run in range(5):
+            ends = [int(track.enter[-1]) for track in outcome.actual(run)]
+            assert ends == outcome.completion[run].tolist()
+    with pytest.raises(IndexError, match="run 5 is not among the 5 runs"):
+        outcome.actual(5)
+
+
+def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:
+    """Each of eight robots stands still for 30 ticks once; one run each, all added up."""
+    plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
+    late = dict.fromkeys(("kept", "switched", "planned anew"), 0)
+    for robot in plan.scenario.robots:
+        for how, (switch, replan) in zip(late, [(0, 0), (1, 0), (0, 1)], strict=True):
+            stop = f"stop:{robot.name}@5+30"
+            outcome = rightofway.simulate(
+                plan, stop, runs=1, switch=bool(switch), replan=bool(replan)
+            )
+            assert outcome.collisions == outcome.deadlocks == 0
+            late[how] += int(outcome.completion.sum())
+    assert late["planned anew"] < late["switched"] < late["kept"]
+
+
+def test_what_was_won_is_told_of_the_same_runs() -> None:
+    plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
+    kept, anew = (
+        rightofway.simulate(plan, "chance:0.05x20", runs=10, replan=replan)
+        for replan in (False, True)
+    )
+    won = kept.completion.sum(axis=1) - anew.completion.sum(axis=1)
+    assert kept.won is None
+    assert anew.won is not None
+    assert (anew.won.runs, anew.won.flowtime.max) == (10, won.max())
+    assert (anew.won.earlier, anew.won.later) == ((won > 0).sum(), (won < 0).sum())
+
+
+def test_replanning_brings_home_whom_a_broken_robot_would_strand() -> None:
+    """R1 breaks down in the upper lane; R2 was to follow it and takes the lower one."""
+    scenario = grid_fleet(
+        ["....", ".@@.", "...."], [("N1", "N7"), ("N0", "N3")], rules=Rules(ends="none")
+    )
+    plan = rightofway.solve(scenario, "two-level")
+    stranded = rightofway.simulate(plan, "stop:R1@1/2", runs=1)
+    saved = rightofway.simulate(plan, "stop:R1@1/2", runs=1, replan=True)
+    assert stranded.stranded == 1
+    assert (saved.stranded, saved.replans, saved.broken, saved.cut_off) == (0, 1, 1, 0)
+    assert saved.completion[0, 1] > 0
+
+
+def test_who_is_cut_off_is_told() -> None:
+    """R1 breaks down in the only way to the target of R2."""
+    scenario = grid_fleet(["...."], [("N1", "N3"), ("N0", "N2")], rules=Rules(ends="none"))
+    plan = rightofway.solve(scenario, "two-level")
+    outcome = rightofway.simulate(plan, "stop:R1@0", runs=1, replan=True)
+    assert (outcome.broken, outcome.cut_off, outcome.stranded) == (1, 1, 0)
+
+
+def test_plans_with_faults_are_refused(plan: Plan) -> None:
+    wrong = replace(plan, tracks=(plan.tracks[0], plan.tracks[0]))
+    with pytest.raises(rightofway.InputError, match=r"faults.*\(only one without can be run\)"):
+        rightofway.simulate(wrong)
+
+
+def test_no_run_at_all_is_refused(plan: Plan) -> None:
+    with pytest.raises(rightofway.InputError, match="runs: 0 is less than one run"):
+        rightofway.simulate(plan, runs=0)
+
+
+def test_what_is_left_of_a_scenario_keeps_its_clock(plan: Plan) -> None:
+    kept = replace(plan.scenario, clock=Clock(tick=plan.scenario.problem.clock.tick / 4))
+    assert kept.problem.itineraries[0].edge_ticks == (4,)
+
+
+def test_the_robots_of_a_rotation_wait_for_each_other_and_go_together() -> None:
+    """Four robots move round a square at tick 1; the one that is late by 5 takes the others along.
+
+    By the clock the other three drive on, and the first of them drives into the late one.
+    """
+    ring = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
+    scenario = grid_fleet(["..", ".."], ring, rules=Rules(ends="none"))
+    vertex = scenario.roadmap.vertex
+    tracks = tuple(Track.of([vertex(home), vertex(target)], [0, 1]) for home, target in ring)
+    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
+    outcome = rightofway.simulate(plan, "stop:R2@0+5", runs=1)
+    assert outcome.completion.tolist() == [[6, 6, 6, 6]]
+    assert outcome.collisions == outcome.deadlocks == 0
+    assert outcome.by_clock.vertex == 1
+    assert outcome.lateness.robots[3].waiting == {1: 5.0}

@@ -1,0 +1,28 @@
+"""What all rules of giving way share."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from rightofway.model import Rules
+from rightofway.planners import Task
+from rightofway.planners.conflict_resolution import Fleet
+from rightofway.planners.routing import shortest_routes
+from rightofway.planners.two_level import by_two_levels
+from rightofway.search import Distances
+from tests.fleets import grid_fleet
+
+
+def test_a_deadlock_is_explained_by_its_circle() -> None:
+    """Four robots fill a ring, each wants the next place and books it before it moves."""
+    trips = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
+    rules = Rules(occupancy="both", ends="none", turn=Fraction(0))
+    scenario = grid_fleet(["..", ".."], trips, rules=rules)
+    fleet = Fleet(Task(scenario=scenario), shortest_routes(scenario, Distances(scenario.roadmap)))
+    fleet.settle_all(by_two_levels)
+    [why] = fleet.aside.values()
+    apart, _, circle = why.partition(": in a circle, ")
+    assert apart.startswith("waiting cannot keep ")
+    names = circle.removesuffix(" would each wait for the next").split(", ")
+    start = names.index("R1")
+    assert names[start:] + names[:start] == ["R1", "R2", "R3", "R4"]

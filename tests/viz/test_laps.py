@@ -1,0 +1,105 @@
+"""What the page is told about robots that repeat themselves."""
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.model import SteadyState, Tick
+from rightofway.viz import page_of, payload_of
+from tests.viewer.plans import counter, counter_steady, door
+
+
+def test_what_a_plan_says_itself_is_told() -> None:
+    group = counter_steady()
+    plan = replace(counter(4), steady=(group,))
+    assert payload_of(plan) == payload_of(counter(4), steady=[group])
+
+
+def told(*groups: SteadyState, laps: int = 4) -> Any:
+    return json.loads(json.dumps(payload_of(counter(laps), steady=groups)))
+
+
+def test_a_group_is_told_with_its_circuit() -> None:
+    assert told(counter_steady())["steady"] == [
+        {
+            "robots": [0, 1],
+            "start": 6,
+            "period": 10,
+            "until": 36,
+            "critical": [[0, 3], [0, 2], [1, 1], [1, 2]],
+        }
+    ]
+
+
+def test_the_repetition_ends_with_the_last_lap() -> None:
+    """R1 comes home at 6, 16, 26, 36 and then stays; R2 5 ticks later."""
+    one, two = (SteadyState(robots=(robot,), start=Tick(6), period=Tick(10)) for robot in (0, 1))
+    assert [group["until"] for group in told(one, two)["steady"]] == [36, 41]
+
+
+def test_a_wrong_period_repeats_nothing() -> None:
+    """R1 enters N1 at 11, but not at 20."""
+    wrong = replace(counter_steady(), period=Tick(9))
+    assert told(wrong)["steady"][0]["until"] < 6 + 9
+
+
+def test_a_plan_that_ends_before_the_start_repeats_nothing() -> None:
+    late = replace(counter_steady(), start=Tick(100), critical=())
+    assert told(late)["steady"][0]["until"] == 100
+
+
+def test_home_at_tick_0_is_not_the_first_of_a_period() -> None:
+    """R1 is home from 6 for turning, waiting and the drive, but at 0 it need not turn."""
+    group = SteadyState(robots=(0,), start=Tick(0), period=Tick(10))
+    assert told(group)["steady"][0]["until"] == 36
+
+
+def test_laps_are_told_and_the_page_ends_with_them() -> None:
+    payload = told(counter_steady())
+    assert (payload["laps"], payload["end"]) == ([4, 4], 36)
+
+
+def test_a_page_without_them_is_told_nothing() -> None:
+    assert payload_of(counter()).keys() == payload_of(door()).keys()
+    assert {"steady", "laps", "floor"}.isdisjoint(payload_of(counter()))
+    assert page_of(door()) == page_of(door(), steady=(), actual=None)
+
+
+@pytest.mark.parametrize(
+    ("group", "message"),
+    [
+        (
+            SteadyState(robots=(0, 2), start=Tick(0), period=Tick(10)),
+            r"steady\[0\].robots: there is no robot 2 \(give 0 to 1\)",
+        ),
+        (
+            replace(counter_steady(), critical=((1, 9),)),
+            r"steady\[0\].critical\[0\]: R2 has no visit 9 \(give 0 to 8\)",
+        ),
+    ],
+)
+def test_strangers_are_refused(group: SteadyState, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        payload_of(counter(), steady=[group])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"period": Tick(0)}, "period: 0 is not positive"),
+        ({"start": Tick(-1)}, "start: -1 is negative"),
+        ({"robots": (0,)}, r"critical\[2\]: robot 1 is not of this group"),
+    ],
+)
+def test_a_steady_period_makes_sense(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        replace(counter_steady(), **change)
+
+
+def test_ticks_may_come_from_arrays() -> None:
+    group = replace(counter_steady(), start=Tick(int(np.int64(6))))
+    assert told(group)["steady"][0]["start"] == 6
