@@ -215,9 +215,10 @@ class NativeHeaders(LiveDirective):
 
     def lines(self, *_: str) -> Iterable[str]:
         """Return a table."""
-        headers = sorted((ROOT / "cpp" / "include" / "rightofway").glob("*.hpp"))
+        headers = sorted((ROOT / "cpp").glob("[!bt]*/*.hpp"))
         return table(
-            ("header", "what it is"), ((f"`{each.name}`", _opening(each)) for each in headers)
+            ("header", "what it is"),
+            ((f"`{each.parent.name}/{each.name}`", _opening(each)) for each in headers),
         )
 
 

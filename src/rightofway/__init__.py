@@ -32,16 +32,16 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _LATER = {
-    "CyclicResult": "laps",
+    "CyclicResult": "cyclic",
     "Metrics": "metrics",
-    "Outcome": "floor",
+    "Outcome": "execution",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
-    "plan_of": "laps",
-    "run_laps": "laps",
+    "plan_of": "cyclic",
+    "run_laps": "cyclic",
     "save_plan": "io",
-    "simulate": "floor",
+    "simulate": "execution",
     "waits": "metrics",
     "write_gif": "viz",
     "write_page": "viz",
