@@ -22,7 +22,7 @@ from rightofway.metrics import alone_completions, measure
 from rightofway.model import Plan, Route, Rules, Scenario
 from rightofway.planners.routing import clear_routes, shortest_routes
 from rightofway.search import Distances
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.oracles.fixed_routes import Optimum, best_on, routes_of
 
 DOCS = Path(__file__).parents[1] / "docs"

@@ -26,7 +26,7 @@ from rightofway.errors import GaveUp
 from rightofway.metrics import alone_completions, measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, roadmap_of_grid
 from rightofway.planners import Deadline, Task, find
-from tests.fleets import grid_fleet, largest_part, random_grid
+from tests.builders.fleets import grid_fleet, largest_part, random_grid
 
 PLANNERS = ("two-level", "fixed-priority", "random-priority", "priority-search")
 ROUTES = ("clear", "shortest")

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from rightofway.model import Scenario
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 
 
 @pytest.fixture(scope="session")

@@ -11,7 +11,7 @@ import numpy as np
 from benchmarks.laps_rows import Row
 from benchmarks.marked import write_tables
 from rightofway.cyclic import Conflict, CyclicResult, run_laps
-from tests.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "laps.md"
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from benchmarks.laps_page import RULES, in_laps, repeats
 from benchmarks.laps_rows import FLEETS, Row
 from rightofway.cyclic import run_laps
-from tests.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario
 
 IMAGES = Path(__file__).parents[1] / "docs" / "images"
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from rightofway.cyclic import RULES, CyclicResult, GroupRun, run_laps
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
-from tests.fleets import largest_part, random_grid
+from tests.builders.fleets import largest_part, random_grid
 
 ROWS = Path(__file__).parent / "laps.csv"
 

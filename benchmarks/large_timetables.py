@@ -21,7 +21,7 @@ from pathlib import Path
 from rightofway.cyclic import best_timetable, run_laps, run_of
 from rightofway.io.movingai import read_map
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
-from tests.fleets import largest_part
+from tests.builders.fleets import largest_part
 
 SEEDS = (1, 2, 3)
 

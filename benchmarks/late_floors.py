@@ -22,7 +22,7 @@ from benchmarks.kept import Kept
 from benchmarks.marked import tables_in, write_tables
 from rightofway.model import Plan, Rules
 from rightofway.planners import registered
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 
 RUNS = 10_000
 """Runs of each plan with each kind of delay."""

@@ -18,7 +18,7 @@ from benchmarks.marked import write_tables
 from rightofway.errors import GaveUp
 from rightofway.metrics import measure
 from rightofway.model import Plan, Rules, Scenario
-from tests.fleets import fleet_on, random_grid
+from tests.builders.fleets import fleet_on, random_grid
 
 PAGE = Path(__file__).with_name("README.md")
 SEEDS = range(3)

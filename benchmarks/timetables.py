@@ -22,7 +22,7 @@ from benchmarks.marked import write_tables
 from rightofway.cyclic import CyclicResult, best_timetable, run_laps, run_of
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 
 PAGE = Path(__file__).with_name("README.md")
 HEADING = (

@@ -3,7 +3,7 @@
 import pytest
 
 import rightofway
-from tests.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario
 
 
 def test_every_public_name_can_be_imported() -> None:

@@ -21,7 +21,7 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
 )
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 Trip = tuple[Sequence[int], Sequence[int]]
 """Vertices and enter of a track."""

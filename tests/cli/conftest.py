@@ -9,9 +9,17 @@ from pathlib import Path
 import pytest
 
 from rightofway.cli.main import run
-from tests.odd_planners import install
+from tests.builders.odd_planners import install
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+
+SWAP = """format: rightofway-scenario/1
+map: {grid: ["...", "@.@", "..."]}
+robots:
+  - {name: R1, home: N0, target: N6}
+  - {name: R2, home: N2, target: N8, speed: 1/2, work: 3}
+"""
+"""Two robots that exchange their places if `two-level` leaves swaps."""
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from rightofway.bench import process
+from tests.builders.suites import rows_of, soon, write_suite
 from tests.cli.conftest import EXAMPLES, Cli
-from tests.suites import rows_of, soon, write_suite
 
 
 def files() -> list[str]:

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from rightofway.bench import cluster
+from tests.builders.suites import rows_of, soon, write_suite
 from tests.cli.conftest import Cli
-from tests.suites import rows_of, soon, write_suite
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.usefixtures("others")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.cli.main import commands
-from tests.cli.conftest import EXAMPLES, Cli
+from tests.cli.conftest import EXAMPLES, SWAP, Cli
 
 STUCK = """format: rightofway-scenario/1
 map: {grid: ["...."]}
@@ -24,13 +24,6 @@ robots:
   - {name: R1, home: N3, target: N7, speed: 1/2}
   - {name: R2, home: N1, target: N6}
 rules: {return: none}
-"""
-
-SWAP = """format: rightofway-scenario/1
-map: {grid: ["...", "@.@", "..."]}
-robots:
-  - {name: R1, home: N0, target: N6}
-  - {name: R2, home: N2, target: N8, speed: 1/2, work: 3}
 """
 
 

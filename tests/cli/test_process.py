@@ -15,8 +15,8 @@ import pytest
 import rightofway
 from rightofway.io import save_scenario
 from rightofway.model import Rules
+from tests.builders.fleets import random_fleet
 from tests.cli.conftest import Cli
-from tests.fleets import random_fleet
 
 
 def test_standard_input_is_read_for_a_dash(door: Path) -> None:

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from tests.cli.conftest import Cli
-from tests.cli.test_commands import SWAP
+from tests.cli.conftest import SWAP, Cli
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -12,36 +11,12 @@ import pytest
 import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import measure
-from rightofway.model import Plan, Rules, Scenario
+from rightofway.model import Plan, Scenario
 from rightofway.planners import registered
-from tests.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.small import SMALL
 
 PLANNERS = sorted(registered())
-
-RULES = {
-    "paper": Rules(),
-    "both": Rules(occupancy="both"),
-    "headway": Rules(headway=Fraction(1)),
-    "both and headway": Rules(occupancy="both", headway=Fraction(1, 2)),
-    "one way": Rules(ends="none"),
-    "two laps": Rules(laps=2),
-    "no rotations": Rules(rotations=False),
-    "no turning": Rules(turn=Fraction(0)),
-}
-
-SMALL: dict[str, Scenario] = {
-    **{case["name"]: paper_scenario(case) for case in PAPER},
-    **{
-        f"random {seed}, {name}": random_fleet(seed, rules=rules)
-        for seed, (name, rules) in enumerate(RULES.items())
-    },
-    **{
-        f"{case['name']}, four laps": replace(paper_scenario(case), rules=Rules(laps=4))
-        for case in PAPER
-        if case["name"] in {"door-2", "door-5", "cross-2"}
-    },
-    "stays at home": grid_fleet(["..."], [("N0", "N0"), ("N2", "N2")], work=[3]),
-}
 
 
 def key(plan: Plan) -> list[tuple[bytes, bytes]]:

@@ -8,7 +8,7 @@ import pytest
 
 import rightofway
 from rightofway.planners import registered
-from tests.conformance.test_every_planner import SMALL
+from tests.builders.small import SMALL
 
 DELAYS = (
     "exponential:0.3",

@@ -12,8 +12,8 @@ from rightofway.cyclic.bottleneck import bottleneck_of, in_words
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects, stages_at
 from rightofway.model import Lap, Rules, Scenario, Tick, VertexId
 from rightofway.precedence import TimedEventGraph
-from tests.fleets import grid_fleet
-from tests.periodic import timetable_of
+from tests.builders.fleets import grid_fleet
+from tests.builders.periodic import timetable_of
 
 
 def crossing(*, work: tuple[int, int] = (4, 2), rules: Rules | None = None) -> Scenario:

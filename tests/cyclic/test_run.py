@@ -16,7 +16,7 @@ from rightofway.cyclic.run import share_time
 from rightofway.cyclic.window import Ground
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick, roadmap_of_grid
 from rightofway.planners import Deadline, Task
-from tests.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: paper_scenario(case) for case in PAPER}
 

@@ -10,7 +10,7 @@ from rightofway.cyclic import run_laps, shown
 from rightofway.io import load
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from rightofway.viz import payload_of
-from tests.viewer.plans import counter
+from tests.builders.plans import counter
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -7,7 +7,7 @@ import numpy as np
 from rightofway.cyclic import CyclicResult, GroupRun, cyclic_routes
 from rightofway.cyclic.visit_times import VisitTimes
 from rightofway.cyclic.warmup import measure, warm_up_of
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 # Four cells there and back and two turns: laps of 8 visits and 10 ticks, the first one of 9.
 [ALONE] = cyclic_routes(grid_fleet(["....."], [("N0", "N4")]))

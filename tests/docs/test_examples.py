@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from tests.docs.pages import PAGES, ROOT, Block, blocks, title_of
+from tests.builders.pages import PAGES, ROOT, Block, blocks, title_of
 
 RUN = {"python", "console"}
 PAGES_WITH_EXAMPLES = [

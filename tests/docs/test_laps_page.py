@@ -5,7 +5,7 @@ from pathlib import Path
 from benchmarks.laps_page import tables, write_page
 from benchmarks.laps_rows import load, measure, save
 from benchmarks.marked import tables_in
-from tests.docs.pages import DOCS
+from tests.builders.pages import DOCS
 
 PAGE = DOCS / "laps.md"
 

@@ -17,7 +17,7 @@ from rightofway.errors import InputError
 from rightofway.io import scenario_of, schema
 from rightofway.io.text.yaml_text import parse_yaml
 from rightofway.planners.registry import PLANNERS
-from tests.docs.pages import DOCS, PAGES, ROOT, Block, blocks, title_of
+from tests.builders.pages import DOCS, PAGES, ROOT, Block, blocks, title_of
 
 LINK = re.compile(r"!?\[[^\]]*\]\((?!https?:|#)(?P<file>[^)#\s]+)(?:#(?P<anchor>[^)\s]+))?\)")
 CODE = re.compile(r"`([^`\n]+)`")

@@ -7,8 +7,8 @@ from typing import Any
 
 import rightofway
 from rightofway.model import Decision, Plan
-from tests.docs.pages import DOCS
-from tests.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario
+from tests.builders.pages import DOCS
 
 
 def written_rows() -> list[list[str]]:

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.marked import tables_in
 from benchmarks.priorities_page import later, pairs, tables, write_page
 from benchmarks.priorities_rows import Row, load
-from tests.docs.pages import DOCS
+from tests.builders.pages import DOCS
 
 PAGE = DOCS / "priorities.md"
 

@@ -12,7 +12,7 @@ from rightofway.execution import CAUSES, delay_model_of, read_delays
 from rightofway.io import load_delays
 from rightofway.model import Scenario
 from rightofway.precedence import NEVER
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 
 @pytest.fixture

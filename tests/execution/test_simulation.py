@@ -10,7 +10,7 @@ import pytest
 import rightofway
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ import pytest
 
 from rightofway import solve
 from rightofway.execution import simulate
-from tests.fleets import random_fleet
-from tests.viewer.plans import door
+from tests.builders.fleets import random_fleet
+from tests.builders.plans import door
 
 
 def test_what_befell_a_run_accounts_for_its_times() -> None:

@@ -4,7 +4,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from rightofway.io import load, read
-from tests.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

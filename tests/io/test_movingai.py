@@ -8,7 +8,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io import load, read_map, read_scen, write_map, write_scen
 from rightofway.model import Edge, Robot, Rules, Scenario, Stop, roadmap_of_edges
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 MAP = "type octile\nheight 2\nwidth 3\nmap\n..T\nG@S\n"
 SCEN = "version 1\n0\thall.map\t3\t2\t1\t0\t2\t1\t1.41421356\n3\thall.map\t3\t2\t0\t0\t0\t1\t1\n"

@@ -23,7 +23,7 @@ from rightofway.model import (
     Track,
     VertexId,
 )
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 
 def door_plan() -> Plan:

@@ -10,7 +10,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, load, read, save_scenario, scenario_of
 from rightofway.model import Rules, Scenario, Stop
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 DOOR = ["...", "@.@", "..."]
 

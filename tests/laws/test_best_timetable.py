@@ -13,7 +13,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
 from rightofway.precedence import critical_circuit
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.oracles import circle as oracle
 
 law = settings(max_examples=30, derandomize=True, deadline=None)

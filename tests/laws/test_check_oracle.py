@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.model import Occupancy, Plan, PlannerRun, Rules, Track
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 Told = tuple[int, tuple[int, ...], str, tuple[int, ...]]
 """Tick, robots, kind and vertices of a fault: the order that faults come in."""

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from rightofway.model import Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.search import PeriodicBookings
+from tests.builders.periodic import random_timetable
 from tests.oracles import circle as oracle
-from tests.periodic import random_timetable
 
 law = settings(max_examples=300, derandomize=True, deadline=None)
 

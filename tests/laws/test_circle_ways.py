@@ -14,9 +14,9 @@ from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, edge_ticks
 from rightofway.planners import planning_headway
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.periodic import timetable_of
 from tests.oracles import circle as oracle
-from tests.periodic import timetable_of
 
 law = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rightofway.model import Rules, Scenario, Tick
 from rightofway.search import FOREVER, Booking, Bookings, Distances, earliest_track
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 from tests.oracles.sipp import Booked, earliest_completion
 
 GRIDS = (["...", ".@.", "..."], ["....", "@.@@"], [".....", "..@..", "....."])

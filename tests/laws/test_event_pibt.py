@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rightofway._core import Instants
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 from tests.oracles.event_pibt import Fleet
 
 GRIDS = (

@@ -16,7 +16,7 @@ import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners import registered
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.oracles import precedence
 from tests.oracles.fixed_routes import best_on, least_flowtime, routes_of
 from tests.oracles.precedence import Right, System

@@ -15,7 +15,7 @@ from rightofway.metrics.alone import alone_completions
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, roadmap_of_grid
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 law = settings(max_examples=25, deadline=None, derandomize=True)
 

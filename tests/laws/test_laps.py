@@ -19,7 +19,7 @@ from rightofway.cyclic.window import Ground
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, Task, planning_headway
-from tests.fleets import fleet_on, random_grid
+from tests.builders.fleets import fleet_on, random_grid
 from tests.oracles.laps import largest_mean_cycle_is, replay
 
 every_rule = pytest.mark.parametrize("rule", RULES)

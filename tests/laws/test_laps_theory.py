@@ -11,7 +11,7 @@ from rightofway.errors import InputError
 from rightofway.model import Rules
 from rightofway.planners import planning_headway
 from rightofway.precedence import TimedEventGraph
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 
 FLEETS = 40
 RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]

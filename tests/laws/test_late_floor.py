@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.model import Plan, Rules, Tick
 from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel, DelaySample, Execution
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.oracles import late_floor
 
 RULES = (

@@ -15,7 +15,7 @@ from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners import planning_headway
 from rightofway.precedence import graph_of
 from rightofway.search import plan_by_lacam
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 from tests.oracles.joint import can_get_through, is_step
 
 GRIDS = (["...", "@.@"], ["..", ".."], [".....", "@@.@@"], ["...", ".@.", "..."], ["...."])

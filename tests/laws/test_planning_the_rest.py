@@ -19,7 +19,7 @@ from rightofway.execution.run import run_in_phases
 from rightofway.execution.stop import Rest, breakdown, stop_all
 from rightofway.model import Plan, Rules, Scenario, Tick
 from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel
-from tests.fleets import fleet_on
+from tests.builders.fleets import fleet_on
 from tests.oracles.rest import most_who_can_finish
 
 GRIDS = (

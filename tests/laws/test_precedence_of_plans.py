@@ -12,7 +12,7 @@ import rightofway
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.precedence import PrecedenceGraph, graph_of
 from rightofway.search import Bookings, Distances, earliest_track
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 
 
 @st.composite

@@ -16,7 +16,7 @@ from rightofway.cyclic.run import go_on, make_simulator
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, Task
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.laws.test_windows import shift_of
 from tests.oracles import circle as oracle
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.precedence import TimedEventGraph, cycle_time_without, sensitivity
-from tests.laws.test_timed_event_graph import patterns
+from tests.builders.periodic import patterns
 
 law = settings(max_examples=150, derandomize=True, deadline=None)
 LITTLE = Fraction(1, 10**5)

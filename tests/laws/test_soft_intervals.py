@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from rightofway import _core
 from rightofway.model import Rules, Scenario
 from rightofway.search import Distances
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 from tests.oracles.sipp import Booked
 from tests.oracles.soft_sipp import cheapest_track
 

@@ -12,23 +12,10 @@ from hypothesis import strategies as st
 from rightofway import _core
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, TimedEventGraph, unrolled
+from tests.builders.periodic import patterns
 from tests.oracles import timed_event_graph as oracle
-from tests.periodic import random_timetable
 
 law = settings(max_examples=300, derandomize=True, deadline=None)
-
-
-@st.composite
-def patterns(draw: st.DrawFn) -> TimedEventGraph:
-    """Two to five robots that all pass a door, under every rule, in an order that takes place."""
-    headway, books_ahead = draw(st.sampled_from([0, 0, 1, 3])), draw(st.booleans())
-    timetable = random_timetable(
-        draw(st.integers(0, 10**9)),
-        robots=draw(st.integers(2, 5)),
-        headway=headway,
-        books_ahead=books_ahead,
-    )
-    return TimedEventGraph(timetable, headway=Tick(headway), books_ahead=books_ahead)
 
 
 def slow_arcs(graph: TimedEventGraph) -> list[oracle.Arc]:

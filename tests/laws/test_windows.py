@@ -17,7 +17,7 @@ from rightofway.cyclic.result import GroupRun
 from rightofway.cyclic.windows import windows
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, planning_headway
-from tests.fleets import random_fleet
+from tests.builders.fleets import random_fleet
 from tests.oracles import circle as oracle
 
 law = settings(max_examples=30, derandomize=True, deadline=None)

@@ -8,7 +8,7 @@ from typing import Any
 
 from rightofway.metrics import Collision, collisions, free_running
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 DOOR = ["...", "@.@", "..."]
 OPEN = ["...", "...", "..."]

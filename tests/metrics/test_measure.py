@@ -21,7 +21,7 @@ from rightofway.model import (
     Track,
     roadmap_of_grid,
 )
-from tests.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 DOOR = ["...", "@.@", "..."]
 ONE_WAY = Rules(ends="none")

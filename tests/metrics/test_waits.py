@@ -10,7 +10,7 @@ import pytest
 
 from rightofway.metrics import waits
 from rightofway.model import Plan, PlannerRun, Rules, Track
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 OPEN = ["...", "...", "..."]
 

@@ -7,7 +7,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 ROW = ["....."]
 

@@ -10,7 +10,7 @@ import rightofway
 from rightofway.io import load_plan, save_plan
 from rightofway.metrics import measure
 from rightofway.model import Rules
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(3, size=9, robots=12, rules=Rules(occupancy="both"))
 

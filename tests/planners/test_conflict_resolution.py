@@ -10,7 +10,7 @@ from rightofway.planners.conflict_resolution import Fleet
 from rightofway.planners.routing import shortest_routes
 from rightofway.planners.two_level import by_two_levels
 from rightofway.search import Distances
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 
 def test_a_deadlock_is_explained_by_its_circle() -> None:

@@ -12,7 +12,7 @@ import pytest
 import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Occupancy, Rules, Scenario
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 HARD = sorted((Path(__file__).parents[1] / "data" / "hard").glob("*.scen"))
 

@@ -14,7 +14,7 @@ from rightofway.model import Plan, PlannerRun, Rules
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import ORDERS, prioritized
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(5, size=10, robots=30, rules=Rules(occupancy="both"))
 

@@ -9,7 +9,7 @@ from rightofway.metrics import measure
 from rightofway.model import Plan, Rules, Scenario, Track
 from rightofway.planners import Task
 from rightofway.planners.local_search import local_search
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 
 def flowtime(plan: Plan) -> int:

@@ -14,7 +14,7 @@ from rightofway.model import Plan, Rules, Scenario, Track
 from rightofway.planners import Draft
 from rightofway.planners.routing import clear_routes, shortest_routes
 from rightofway.search import Distances
-from tests.fleets import grid_fleet, random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 
 DOOR = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
 SEARCHES = ["random-priority", "priority-search"]

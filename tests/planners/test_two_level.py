@@ -9,7 +9,7 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
-from tests.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
 DOOR = ["...", "@.@", "..."]

@@ -14,7 +14,7 @@ import pytest
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
 from rightofway.precedence import TimedEventGraph, critical_circuit, sensitivity, unrolled
-from tests.periodic import timetable_of
+from tests.builders.periodic import timetable_of
 
 
 def lap(home: int, target: int, *, work: int, turn: int = 0) -> Lap:

@@ -118,3 +118,16 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
 def show(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
     with pages(browser, tmp_path) as open_page:
         yield open_page
+
+
+PIXEL = """([canvas, x, y]) => {
+  const ratio = Math.min(devicePixelRatio, 2);
+  return Array.from(document.getElementById(canvas).getContext("2d")
+    .getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data);
+}"""
+
+
+def pixel(viewer: Viewer, canvas: str, x: float, y: float) -> list[int]:
+    """Return a colour as red, green, blue, opacity."""
+    found: list[int] = viewer.page.evaluate(PIXEL, [canvas, x, y])
+    return found

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
+from tests.builders.plans import crowd, door, loop
 from tests.viewer.conftest import Opener
-from tests.viewer.plans import crowd, door, loop
 
 
 def test_a_robot_tells_its_times_and_why_it_waits(show: Opener) -> None:

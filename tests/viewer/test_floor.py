@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from rightofway.model import ExecutionTrace, Tick, Track
-from tests.viewer.conftest import Opener, Viewer
-from tests.viewer.plans import counter, counter_late, counter_steady, crowd, delayed, door
-from tests.viewer.test_laps import pixel
+from tests.builders.plans import counter, counter_late, counter_steady, crowd, delayed, door
+from tests.viewer.conftest import Opener, Viewer, pixel
 
 
 @pytest.fixture

@@ -8,20 +8,8 @@ from typing import Any
 import pytest
 
 from rightofway.model import SteadyState, Tick
-from tests.viewer.conftest import Opener, Viewer
-from tests.viewer.plans import counter, counter_late, counter_steady, door
-
-PIXEL = """([canvas, x, y]) => {
-  const ratio = Math.min(devicePixelRatio, 2);
-  return Array.from(document.getElementById(canvas).getContext("2d")
-    .getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data);
-}"""
-
-
-def pixel(viewer: Viewer, canvas: str, x: float, y: float) -> list[int]:
-    """Return a colour as red, green, blue, opacity."""
-    found: list[int] = viewer.page.evaluate(PIXEL, [canvas, x, y])
-    return found
+from tests.builders.plans import counter, counter_late, counter_steady, door
+from tests.viewer.conftest import Opener, Viewer, pixel
 
 
 def lit(viewer: Viewer) -> list[int]:

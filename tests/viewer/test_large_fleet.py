@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.builders.plans import crowd
 from tests.viewer.conftest import Opener, pages
-from tests.viewer.plans import crowd
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -5,8 +5,8 @@ import pytest
 from rightofway.model import Plan
 from rightofway.viz.motion import trips_of
 from rightofway.viz.plane import plane_of
+from tests.builders.plans import crowd, door, hostile, loop
 from tests.viewer.conftest import Opener
-from tests.viewer.plans import crowd, door, hostile, loop
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -10,7 +10,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Tick, Track
 from rightofway.viz import payload_of
-from tests.viewer.plans import counter, counter_late, door
+from tests.builders.plans import counter, counter_late, door
 
 
 def told(actual: ExecutionTrace | None = None) -> Any:

@@ -10,7 +10,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
 from rightofway.viz import page_of, payload_of
-from tests.viewer.plans import counter, counter_steady, door
+from tests.builders.plans import counter, counter_steady, door
 
 
 def test_what_a_plan_says_itself_is_told() -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from rightofway.viz.motion import Activity, Moment, Trip, end_of, trips_of
-from tests.viewer.plans import door, loop
+from tests.builders.plans import door, loop
 
 
 @pytest.fixture

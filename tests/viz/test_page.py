@@ -12,7 +12,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.viz import frame_of, page_of, payload_of, write_page
-from tests.viewer.plans import (
+from tests.builders.plans import (
     counter,
     counter_late,
     counter_steady,

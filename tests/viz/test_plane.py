@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz.plane import plane_of
-from tests.viewer.plans import DOOR, loop
+from tests.builders.plans import DOOR, loop
 
 
 def test_a_cell_is_a_unit_whatever_its_size() -> None:

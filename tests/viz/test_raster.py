@@ -12,7 +12,7 @@ from rightofway.errors import InputError
 from rightofway.model import Plan
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours
-from tests.viewer.plans import crowd, door, hostile, loop
+from tests.builders.plans import crowd, door, hostile, loop
 
 BLUE, CORAL = robot_colours(2)
 MARGIN = 24

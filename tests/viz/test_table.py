@@ -23,7 +23,7 @@ from rightofway.model import (
     roadmap_of_edges,
 )
 from rightofway.viz.table import Row, TimeSpaceTable, as_text, table_of
-from tests.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
 

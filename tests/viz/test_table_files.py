@@ -24,7 +24,7 @@ from rightofway.model import (
     roadmap_of_edges,
 )
 from rightofway.viz.table import table_of, write_csv, write_xlsx
-from tests.fleets import grid_fleet
+from tests.builders.fleets import grid_fleet
 
 
 def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:

@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 PAPER: list[dict[str, Any]] = json.loads(
-    (Path(__file__).parent / "data" / "paper.json").read_text(encoding="utf-8")
+    (Path(__file__).parents[1] / "data" / "paper.json").read_text(encoding="utf-8")
 )["cases"]
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import random
 
 import numpy as np
+from hypothesis import strategies as st
 
 from rightofway.model import Lap, Tick, VertexId
-from rightofway.precedence import CyclicSchedule
+from rightofway.precedence import CyclicSchedule, TimedEventGraph
 
-__all__ = ["random_timetable", "timetable_of"]
+__all__ = ["patterns", "random_timetable", "timetable_of"]
 
 
 def timetable_of(laps: list[Lap], enter: list[list[int]], *, period: int) -> CyclicSchedule:
@@ -108,3 +109,16 @@ def _begun_anywhere(
         [[tick - ticks[0] // period * period for tick in ticks] for ticks in moved],
         period=period,
     )
+
+
+@st.composite
+def patterns(draw: st.DrawFn) -> TimedEventGraph:
+    """Two to five robots that all pass a door, under every rule, in an order that takes place."""
+    headway, books_ahead = draw(st.sampled_from([0, 0, 1, 3])), draw(st.booleans())
+    timetable = random_timetable(
+        draw(st.integers(0, 10**9)),
+        robots=draw(st.integers(2, 5)),
+        headway=headway,
+        books_ahead=books_ahead,
+    )
+    return TimedEventGraph(timetable, headway=Tick(headway), books_ahead=books_ahead)
