@@ -25,9 +25,13 @@ types:
 contracts:
     lint-imports
 
-# Python tests
+# The quick lane of the Python tests
 test *args:
     pytest {{ args }}
+
+# The thorough lane: browser, processes, every example of the documentation, the long laws
+thorough *args:
+    pytest -m slow -n 2 {{ args }}
 
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:

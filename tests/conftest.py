@@ -1,0 +1,46 @@
+"""Two lanes: plain ``pytest`` runs the quick one, ``pytest -m slow`` the rest; CI runs both."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+
+SLOW = (
+    "benchmarks/",  # scripts that measure
+    "cli/test_bench.py",  # a process for each case of a suite
+    "cli/test_bench_cluster.py",  # starts a Dask cluster
+    "cli/test_process.py",  # starts the command as a process, and interrupts it
+    "conformance/test_late_floors.py",  # hundreds of runs for each planner and scenario
+    "conformance/test_mixed_scenarios.py",  # a thousand scenarios
+    "docs/test_examples.py",  # runs every command on every page
+    "laws/test_best_timetable.py",
+    "laws/test_circle_ways.py",
+    "laws/test_fixed_routes.py",
+    "laws/test_io_fuzz.py",
+    "laws/test_io_round_trip.py",
+    "laws/test_laps.py",
+    "laws/test_precedence_graph.py",
+    "laws/test_watching.py",
+    "viewer/",  # a browser
+)
+"""Files and folders of the slow lane: what takes more than about four seconds."""
+
+
+def slow_files() -> set[Path]:
+    """Return the test files of the slow lane."""
+    named = (TESTS / name for name in SLOW)
+    return {
+        file for path in named for file in (path.rglob("test_*.py") if path.is_dir() else [path])
+    }
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of the slow lane, before any are deselected."""
+    slow = slow_files()
+    for item in items:
+        if item.path in slow:
+            item.add_marker(pytest.mark.slow)
