@@ -1,4 +1,4 @@
-"""The plot of ``docs/floor.md``: ``python -m benchmarks.late_floors_plot`` writes it.
+"""The plot of ``docs/execution.md``: ``python -m benchmarks.late_floors_plot`` writes it.
 
 How soon a plan collides by the clock, and how late its fleet is by right of way: order kept,
 switched, or planned anew.
