@@ -42,7 +42,7 @@ delay_a, delay_b : float64[D]
 first_standstill : int32[R + 1]
     Which standstills of every run are whose.
 standstill_tick, standstill_ticks : int64[S]
-    From when each robot stands still, rising, and how long, ``INFINITY`` for ever. [ticks]
+    From when each robot stands still, rising, and how long, ``NEVER`` for ever. [ticks]
 
 Raises
 ------
@@ -61,12 +61,12 @@ time_limit : float or None
 Returns
 -------
 completion : int64[K, R]
-    When each robot completes by right of way, ``INFINITY`` for never. [ticks]
+    When each robot completes by right of way, ``NEVER`` for never. [ticks]
 is_broken : uint8[K, R]
     Not 0 where a robot stands still for ever.
 by_right_of_way, by_clock : int64[K, 4]
     Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
-    these begins, ``INFINITY`` for never.
+    these begins, ``NEVER`` for never.
 own, of_others : int64[N]
     Ticks of lateness that began at each visit: of its own robot, of others.
 between : int64[P, 3]

@@ -21,7 +21,7 @@ least ``enter[x] + least[x]`` on the visit after ``x``, and at least
 
 A visit books its vertex for ``[enter - approach, leave + headway)``. Two bookings of one vertex by
 different robots that overlap are a *vertex conflict* (kind 0); its tick is the start of the
-overlap, and it counts the overlap's ticks, at most ``FOREVER``. Two robots that exchange two
+overlap, and it counts the overlap's ticks, at most ``CONFLICT_CAP``. Two robots that exchange two
 vertices at the same tick, without such an overlap at either, are a *swap conflict* (kind 1) at
 that tick, which counts 1.
 

@@ -20,10 +20,10 @@ constexpr const char* compiler() {
 NB_MODULE(_core, module) {
     module.doc() =
         "The native kernels: arrays and integers in, arrays and integers out.\n\n"
-        "``FOREVER`` is the most that one conflict counts, also if it never ends;\n"
-        "``INFINITY`` is the end of a booking that never ends. [ticks]";
-    module.attr("FOREVER") = rightofway::forever;
-    module.attr("INFINITY") = rightofway::infinity;
+        "``CONFLICT_CAP`` is the most that one conflict counts, also if it never ends;\n"
+        "``NEVER`` is the end of a booking that never ends. [ticks]";
+    module.attr("CONFLICT_CAP") = rightofway::conflict_cap;
+    module.attr("NEVER") = rightofway::never;
     module.def("compiler", &compiler, "Return the name and version of what compiled this module.");
     rightofway::bind::bind_periodic_bookings(module);
     rightofway::bind::bind_distances(module);

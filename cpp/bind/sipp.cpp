@@ -163,7 +163,7 @@ void require_prices(const BookingTable& bookings, std::span<const Tick> prices) 
         }
     }
     for (std::size_t robot = 0; robot < prices.size(); ++robot) {
-        if (prices[robot] < 0 || prices[robot] >= forever) {
+        if (prices[robot] < 0 || prices[robot] >= conflict_cap) {
             reject_entry("prices", robot, prices[robot], "is negative or too high");
         }
     }

@@ -11,11 +11,11 @@ constexpr auto between_questions = std::chrono::milliseconds(10);
 
 }  // namespace
 
-void TaskCrew::run(std::size_t n_tasks, const Work& work, const IsOver& is_over) {
+void TaskCrew::run(std::size_t n_tasks, const Work& work, const StopCondition& is_over) {
     next_task_ = 0;
     is_stopped_ = false;
     thrown_ = nullptr;
-    const auto take_tasks = [&](std::size_t worker, const IsOver& must_stop) {
+    const auto take_tasks = [&](std::size_t worker, const StopCondition& must_stop) {
         for (std::size_t k = next_task_++; k < n_tasks && !must_stop(); k = next_task_++) {
             work(worker, k, must_stop);
         }
@@ -31,7 +31,7 @@ void TaskCrew::run(std::size_t n_tasks, const Work& work, const IsOver& is_over)
     }
 }
 
-bool TaskCrew::ask(const IsOver& is_over) {
+bool TaskCrew::ask(const StopCondition& is_over) {
     if (!is_stopped_ && std::chrono::steady_clock::now() - asked_ > between_questions) {
         asked_ = std::chrono::steady_clock::now();
         try {

@@ -10,13 +10,15 @@
 #include <exception>
 #include <functional>
 
+#include "core/search_end.hpp"
+
 namespace rightofway {
 
 class TaskCrew {
   public:
-    using IsOver = std::function<bool()>;
     // Does a task, or part of it if told to stop.
-    using Work = std::function<void(std::size_t worker, std::size_t task, const IsOver& is_over)>;
+    using Work =
+        std::function<void(std::size_t worker, std::size_t task, const StopCondition& is_over)>;
 
     explicit TaskCrew(std::size_t n_workers) : n_workers_(n_workers) {}
 
@@ -24,7 +26,7 @@ class TaskCrew {
 
     // Does tasks 0 .. n_tasks - 1, or the first of them if `is_over` says so. What that throws
     // means the same and is kept, so that the caller can tidy up before it calls `pass_on`.
-    void run(std::size_t n_tasks, const Work& work, const IsOver& is_over);
+    void run(std::size_t n_tasks, const Work& work, const StopCondition& is_over);
 
     // Whether the last run was told to stop.
     bool is_stopped() const { return is_stopped_; }
@@ -33,7 +35,7 @@ class TaskCrew {
     void pass_on();
 
   private:
-    bool ask(const IsOver& is_over);
+    bool ask(const StopCondition& is_over);
 
     std::size_t n_workers_;
     std::atomic<std::size_t> next_task_ = 0;

@@ -15,14 +15,15 @@ using RobotId = std::int32_t;
 using VisitId = std::int32_t;  // position in the concatenation of all robots' routes
 using Tick = std::int64_t;     // the integer unit of time
 
+inline constexpr std::int32_t none = -1;  // no index, of whatever numbering
 inline constexpr RobotId nobody = -1;
 
-// The leave of a last visit: a robot stays at its last vertex for ever. Far above every time that
-// routes may reach (routes.hpp checks that), and far enough below the type's end to add to.
-inline constexpr Tick infinity = Tick{1} << 62;
+// The tick of what never happens, such as the leave of a last visit. Far above every tick that a
+// plan may reach (routes.hpp checks that), and far enough below the type's end to add to.
+inline constexpr Tick never = Tick{1} << 62;
 
-// The most that one conflict adds to the count of conflicts. Two robots that stay for ever at one
-// vertex overlap without end; this bound keeps every sum of conflicts finite.
-inline constexpr Tick forever = Tick{1} << 32;
+// The most ticks that one conflict adds to the count of conflicts. Two robots that stay at one
+// vertex for ever overlap without end; the cap keeps every sum of conflicts finite.
+inline constexpr Tick conflict_cap = Tick{1} << 32;
 
 }  // namespace rightofway

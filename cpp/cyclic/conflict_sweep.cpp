@@ -63,12 +63,12 @@ void ConflictSweep::look_ahead(RobotId robot) {
     sweep.place = routes_.place_in_lap(visit);
     sweep.start = visit.number < timetable_.end(robot)
                       ? timetable_.enter(visit) - routes_.approach(visit)
-                      : infinity;
+                      : never;
 }
 
 void ConflictSweep::push_ahead(RobotId robot) {
     const Sweep& sweep = sweeps_[robot];
-    if (sweep.start < infinity) {
+    if (sweep.start < never) {
         ahead_.push_back({sweep.start, {robot, sweep.number}});
         std::push_heap(ahead_.begin(), ahead_.end(), std::greater<>());
     }
@@ -120,8 +120,8 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
             std::pop_heap(conflicts_.begin(), conflicts_.end(), std::greater<>());
             conflicts_.pop_back();
         }
-        const Tick known = conflicts_.empty() ? infinity : conflicts_.front().tick;
-        const Tick swept_to = ahead_.empty() ? infinity : ahead_.front().start;
+        const Tick known = conflicts_.empty() ? never : conflicts_.front().tick;
+        const Tick swept_to = ahead_.empty() ? never : ahead_.front().start;
         if (known < swept_to) {
             return known < limit ? std::optional(conflicts_.front()) : std::nullopt;
         }
@@ -130,7 +130,7 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
         }
         const auto& [start, visit] = ahead_.front();
         const Sweep& own = sweeps_[visit.robot];
-        if (start < infinity && start == own.start && visit.number == own.number) {
+        if (start < never && start == own.start && visit.number == own.number) {
             sweep(visit.robot);
         } else {
             std::pop_heap(ahead_.begin(), ahead_.end(), std::greater<>());
@@ -167,7 +167,7 @@ void ConflictSweep::sweep(RobotId robot) {
     sweep.place = sweep.place + 1 == routes_.length(robot) ? 0 : sweep.place + 1;
     sweep.start = sweep.number < timetable_.end(robot)
                       ? leave - routes_.approach_at(robot, sweep.place)
-                      : infinity;
+                      : never;
     replace_first_ahead(robot);
     prepare(robot);
 }

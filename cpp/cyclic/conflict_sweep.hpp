@@ -54,7 +54,7 @@ class ConflictSweep {
     struct Sweep {  // of a robot: the first visit that is not swept
         std::int32_t number = 0;
         std::int32_t place = 0;
-        Tick start = infinity;  // of its booking; never, if it is not shown
+        Tick start = never;  // of its booking; never, if it is not shown
     };
 
     Booking booking(CyclicVisit visit) const;

@@ -83,8 +83,6 @@ class RollingTimetable {
     std::vector<Changed>& changed() { return changed_; }
 
   private:
-    static constexpr std::int32_t none = -1;
-
     struct Node {
         Tick enter;
         std::int32_t rights;  // the latest right of way of this visit over others

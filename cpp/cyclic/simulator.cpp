@@ -40,7 +40,7 @@ void CyclicSimulator::follow(CyclicRule rule) {
     forget();
 }
 
-CyclicSimulator::End CyclicSimulator::go_on(const IsOver& is_over) {
+CyclicSimulator::End CyclicSimulator::go_on(const StopCondition& is_over) {
     while (true) {
         if (!has_begun_) {
             if (is_over()) {
@@ -137,7 +137,7 @@ void CyclicSimulator::show_longer(Tick until) {
 }
 
 Tick CyclicSimulator::earliest_end() const {
-    Tick end = infinity;
+    Tick end = never;
     for (RobotId r = 0; r < n_robots(); ++r) {
         end = std::min(end, timetable_.enter({r, timetable_.end(r)}));
     }
@@ -145,7 +145,7 @@ Tick CyclicSimulator::earliest_end() const {
 }
 
 // Settles what has to be before the next cut.
-CyclicSimulator::Step CyclicSimulator::settle(const IsOver& is_over) {
+CyclicSimulator::Step CyclicSimulator::settle(const StopCondition& is_over) {
     for (int count = 1;; ++count) {
         if (giving_.is_going_back()) {
             if (is_over()) {
@@ -245,7 +245,7 @@ void CyclicSimulator::return_to(const Moment& moment) {
 // The robot that is home again first sets the pace; this one seems to wait for ever.
 void CyclicSimulator::change_pacemaker() {
     RobotId first = nobody;
-    Tick earliest = infinity;
+    Tick earliest = never;
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t home = next_home(r);
         if (home < timetable_.end(r) && timetable_.enter({r, home}) < earliest) {

@@ -9,10 +9,10 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "cyclic/backjumping.hpp"
 #include "cyclic/conflict_sweep.hpp"
@@ -35,8 +35,6 @@ struct Horizon {
 class CyclicSimulator {
   public:
     enum class End : std::int32_t { open = 0, repeats = 1, deadlock = 2 };
-    using IsOver = std::function<bool()>;
-
     // `loss` is what a tick of waiting costs each robot, above 0; only least_loss asks for it.
     // Throws std::invalid_argument if that does not fit.
     CyclicSimulator(const LapArrays& laps, const Horizon& pace, CyclicRule rule,
@@ -46,7 +44,7 @@ class CyclicSimulator {
 
     // Goes on until a state comes again, or the rule runs into a deadlock, or it is over; it can go
     // on after that.
-    End go_on(const IsOver& is_over);
+    End go_on(const StopCondition& is_over);
 
     // Forgets the states that were seen, so that it goes on where one came again.
     void forget() { seen_.clear(); }
@@ -77,7 +75,7 @@ class CyclicSimulator {
     bool begin();
     void show();
     void show_longer(Tick until);
-    Step settle(const IsOver& is_over);
+    Step settle(const StopCondition& is_over);
     bool is_far_enough(Tick tick);
     void freeze();
     bool go_back();

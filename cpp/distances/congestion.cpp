@@ -6,11 +6,7 @@
 #include "core/reject.hpp"
 
 namespace rightofway {
-namespace {
-
-constexpr std::int32_t none = -1;
-
-}  // namespace
+namespace {}  // namespace
 
 Congestion::Congestion(const Graph& graph, std::int64_t shares,
                        std::span<const std::int64_t> station)
@@ -29,7 +25,7 @@ Congestion::Congestion(const Graph& graph, std::int64_t shares,
         }
     }
     oncoming_.assign(indices_.size(), 0);
-    cost_.assign(station_.size(), infinity);
+    cost_.assign(station_.size(), never);
     cheapest_way_.assign(station_.size(), none);
     is_marked_.assign(station_.size(), 0);
     for (VertexId v = 0; v < n_vertices(); ++v) {
@@ -105,7 +101,7 @@ void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::i
         return;
     }
     if (cost < cost_[vertex]) {
-        if (cost_[vertex] == infinity) {
+        if (cost_[vertex] == never) {
             reached_.push_back(vertex);
         }
         cost_[vertex] = cost;
@@ -154,7 +150,7 @@ std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) 
 
 void Congestion::clear() {
     for (const VertexId vertex : reached_) {
-        cost_[vertex] = infinity;
+        cost_[vertex] = never;
         cheapest_way_[vertex] = none;
         is_marked_[vertex] = 0;
     }

@@ -125,7 +125,7 @@ std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
                                                    std::span<const std::int32_t> edge_ticks) const {
     using Key = std::pair<Tick, VertexId>;  // a total order: equal distances by vertex
     std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
-    std::vector<Tick> best(n_vertices(), infinity);
+    std::vector<Tick> best(n_vertices(), never);
     std::vector<std::int32_t> distance(n_vertices(), unreached);
     best[target] = 0;
     open.emplace(0, target);

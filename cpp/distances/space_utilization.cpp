@@ -5,7 +5,6 @@
 namespace rightofway {
 namespace {
 
-constexpr EdgeId none = -1;
 constexpr VertexId nowhere = -1;
 
 // What an edge costs, and what it costs more for each path against it and each at its end, up to
@@ -34,7 +33,7 @@ SpaceUtilization::SpaceUtilization(const Trips& trips, StepTables& tables)
       tables_(tables),
       tail_(trips.graph.indices.size()),
       back_(trips.graph.indices.size(), none),
-      ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), infinity),
+      ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), never),
       edge_cost_(trips.graph.indices.size(), cost_of_edge),
       into_cost_(ended_from_.size(), 0),
       first_hop_(trips.stage_vertex.size(), 0),
@@ -68,7 +67,7 @@ void SpaceUtilization::find_ends() {
     }
 }
 
-bool SpaceUtilization::choose(const std::function<bool()>& is_over) {
+bool SpaceUtilization::choose(const StopCondition& is_over) {
     const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
     if (n_legs * least_for_a_leg > most_opened) {
         return true;

@@ -12,9 +12,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "distances/step_tables.hpp"
 #include "problem/trips.hpp"
@@ -28,7 +28,7 @@ class SpaceUtilization {
 
     // Chooses the paths; false if told to stop before that was done. The effort is bounded: in a
     // large fleet some robots are left without a path, and in a very large one all of them.
-    bool choose(const std::function<bool()>& is_over);
+    bool choose(const StopCondition& is_over);
 
     // Where the path to a stage goes on from a vertex; -1 where it does not pass.
     VertexId next(std::int32_t stage, VertexId at) const;

@@ -17,7 +17,6 @@
 namespace rightofway {
 namespace {
 
-constexpr StepTables::TableId none = -1;
 constexpr std::size_t first_block_size = std::size_t{1} << 20;
 constexpr std::size_t most_block_size = std::size_t{1} << 26;
 // Vertices of one line are at most so far from its first one.
@@ -206,8 +205,7 @@ void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
     search.frontier.assign(scratch.begin(), scratch.end());
 }
 
-SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables,
-                    const std::function<bool()>& is_over) {
+SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables, const StopCondition& is_over) {
     std::vector<StepTables::Request> legs;
     for (RobotId r = 0; r < goals.n_robots(); ++r) {
         VertexId place = goals.home[r];

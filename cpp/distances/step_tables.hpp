@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -98,7 +97,6 @@ class StepTables {
 };
 
 // Whether every robot, if it were alone, could go through all of its stages: `found` if so.
-SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables,
-                    const std::function<bool()>& is_over);
+SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables, const StopCondition& is_over);
 
 }  // namespace rightofway

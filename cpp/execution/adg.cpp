@@ -12,7 +12,7 @@ std::vector<T> copy(std::span<const T> values) {
     return {values.begin(), values.end()};
 }
 
-// A sum of this many ticks for each of 2^31 visits stays below `infinity`.
+// A sum of this many ticks for each of 2^31 visits stays below `never`.
 constexpr Tick longest = Tick{1} << 31;
 
 void check_ticks(const std::string& name, const std::vector<Tick>& ticks, Tick most) {
@@ -64,10 +64,10 @@ void ActionDependencyGraph::number_robots() {
 }
 
 void ActionDependencyGraph::check() const {
-    check_ticks("planned", planned_, infinity);
+    check_ticks("planned", planned_, never);
     check_ticks("dwell", dwell_, longest);
     check_ticks("drive", drive_, longest);
-    check_ticks("since", since_, infinity);
+    check_ticks("since", since_, never);
     if (headway_ < 0 || headway_ >= longest) {
         reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
     }

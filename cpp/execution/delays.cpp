@@ -34,7 +34,7 @@ void merge(std::vector<Stoppage>& standstills, std::size_t first) {
         }
         Stoppage& last = standstills[end - 1];
         const Tick until = std::max(last.tick + last.ticks, next.tick + next.ticks);
-        last.ticks = std::min(until - last.tick, infinity);
+        last.ticks = std::min(until - last.tick, never);
     }
     standstills.resize(end, {});
 }
@@ -102,7 +102,7 @@ void Delays::draw_standstills(RobotId robot, Random& random, DelaySample& out) c
         if (delay.kind == DelayKind::breaks && unit(random) <= delay.a) {
             const double share = unit(random);
             out.standstills.push_back(
-                {static_cast<Tick>(share * static_cast<double>(makespan_)), infinity});
+                {static_cast<Tick>(share * static_cast<double>(makespan_)), never});
         }
     }
     std::stable_sort(

@@ -31,7 +31,7 @@ struct Delay {
     double b;
 };
 
-// A robot does nothing for some ticks, from a tick on; for ever if they are `infinity`.
+// A robot does nothing for some ticks, from a tick on; for ever if they are `never`.
 struct Stoppage {
     Tick tick;
     Tick ticks;

@@ -73,7 +73,7 @@ void ExecutedConflicts::count_at_vertex(std::size_t group, const ActualTimes& ti
         for (std::size_t m = k + 1; m < visits.size(); ++m) {
             const VisitId other = visits[m];
             const Tick start = times.start[other];
-            if (start >= infinity || start >= left + plan_.headway()) {
+            if (start >= never || start >= left + plan_.headway()) {
                 break;
             }
             const bool lasts = times.start[one] < left + plan_.headway() &&
@@ -96,7 +96,7 @@ void ExecutedConflicts::count_on_edge(std::size_t group, const ActualTimes& time
         for (std::size_t m = k + 1; m < visits.size(); ++m) {
             const VisitId one = visits[k];
             const VisitId other = visits[m];
-            if (instant >= infinity || times.enter[other] != instant) {
+            if (instant >= never || times.enter[other] != instant) {
                 break;
             }
             if (plan_.robot(one) != plan_.robot(other) &&

@@ -17,7 +17,7 @@ struct ConflictCount {
     std::int64_t vertex = 0;   // pairs of visits that overlap
     std::int64_t headway = 0;  // pairs that overlap only by the headway
     std::int64_t swap = 0;     // pairs of moves
-    Tick first = infinity;     // when the earliest begins
+    Tick first = never;        // when the earliest begins
 };
 
 class ExecutedConflicts {
@@ -30,7 +30,7 @@ class ExecutedConflicts {
     void count_at_vertex(std::size_t group, const ActualTimes& times, ConflictCount& found);
     void count_on_edge(std::size_t group, const ActualTimes& times, ConflictCount& found);
     Tick leave(VisitId visit, const ActualTimes& times) const {
-        return plan_.is_last(visit) ? infinity : times.enter[visit + 1];
+        return plan_.is_last(visit) ? never : times.enter[visit + 1];
     }
 
     // Visits to one vertex, or into both ends of one edge, by more than one robot. Each group stays

@@ -5,8 +5,8 @@
 namespace rightofway {
 namespace {
 
-// None is negative, and each at most `infinity` and a little more.
-Tick sum(Tick left, Tick right) { return right >= infinity - left ? infinity : left + right; }
+// None is negative, and each at most `never` and a little more.
+Tick sum(Tick left, Tick right) { return right >= never - left ? never : left + right; }
 
 // One robot's standstills, of which those up to now are behind it.
 class Standstills {
@@ -36,7 +36,7 @@ class Standstills {
 
   private:
     Tick take() {
-        is_broken_ |= static_cast<std::uint8_t>(all_[next_].ticks == infinity);
+        is_broken_ |= static_cast<std::uint8_t>(all_[next_].ticks == never);
         return all_[next_].ticks;
     }
 
@@ -50,9 +50,9 @@ void reset(const ActionDependencyGraph& plan, const DelaySample& setbacks, Actua
            std::vector<std::int32_t>& next_standstill) {
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     const auto n_robots = static_cast<std::size_t>(plan.n_robots());
-    times.enter.assign(n_visits, infinity);
-    times.start.assign(n_visits, infinity);
-    times.completion.assign(n_robots, infinity);
+    times.enter.assign(n_visits, never);
+    times.start.assign(n_visits, never);
+    times.completion.assign(n_robots, never);
     times.is_broken.assign(n_robots, 0);
     next_standstill.assign(setbacks.first_standstill.begin(), setbacks.first_standstill.end() - 1);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
@@ -65,7 +65,7 @@ void complete(const ActionDependencyGraph& plan, const DelaySample& setbacks, Ac
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         const VisitId last = plan.last_of(r);
         Standstills standstills(setbacks, r, next_standstill[r], times.is_broken[r]);
-        if (times.enter[last] < infinity) {
+        if (times.enter[last] < never) {
             times.completion[r] =
                 standstills.busy_until(sum(times.enter[last], setbacks.dwell[last]));
         }
@@ -190,7 +190,7 @@ void ExecutionTimetable::by_right_of_way(const DelaySample& setbacks, ActualTime
 
 void ExecutionTimetable::take_place(VisitId x, const DelaySample& setbacks, ActualTimes& times) {
     const Tick from = times.enter[x - 1];
-    if (from >= infinity) {
+    if (from >= never) {
         return;
     }
     const RobotId robot = plan_.robot(x);
@@ -225,14 +225,14 @@ void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
     for (const VisitId x : group) {
         const Tick from = times.enter[x - 1];
         const Tick done = sum(from, setbacks.dwell[x - 1] + setbacks.drive[x]);
-        put_off(x, from >= infinity ? infinity : standstills_of(x).busy_until(done));
+        put_off(x, from >= never ? never : standstills_of(x).busy_until(done));
         put_off(x, plan_.since(x));
     }
     for (Tick before = -1; before < instant;) {
         before = instant;
         for (const VisitId x : group) {
-            put_off(x, times.enter[x - 1] >= infinity ? infinity
-                                                      : standstills_of(x).waits_until(instant));
+            put_off(x,
+                    times.enter[x - 1] >= never ? never : standstills_of(x).waits_until(instant));
         }
     }
     for (const VisitId x : group) {
@@ -248,7 +248,7 @@ void by_clock(const ActionDependencyGraph& plan, const DelaySample& setbacks, Ac
         Standstills standstills(setbacks, r, next[r], times.is_broken[r]);
         for (VisitId x = plan.first_of(r) + 1; x <= plan.last_of(r); ++x) {
             const Tick from = times.enter[x - 1];
-            if (from >= infinity) {
+            if (from >= never) {
                 break;
             }
             const Tick done = standstills.busy_until(sum(from, setbacks.dwell[x - 1]));

@@ -18,7 +18,7 @@
 
 namespace rightofway {
 
-// When things really happen; `infinity` where they never do. Reused from run to run.
+// When things really happen; `never` where they never do. Reused from run to run.
 struct ActualTimes {
     std::vector<Tick> enter;       // of each visit
     std::vector<Tick> start;       // from when each visit books its vertex

@@ -14,7 +14,7 @@ void LatenessSources::add(const ActualTimes& times) {
         return std::max<Tick>(times.enter[x] - plan_.planned(x), 0);
     };
     for (RobotId r = 0; r < plan_.n_robots(); ++r) {
-        if (times.completion[r] >= infinity) {
+        if (times.completion[r] >= never) {
             continue;
         }
         VisitId x = plan_.last_of(r);

@@ -11,7 +11,7 @@ ExecutionRuns::ExecutionRuns(const ActionDependencyGraph& plan, const Delays& de
     : plan_(plan), delays_(delays), timetable_(plan), conflicts_(plan), conflicts_by_clock_(plan) {}
 
 RunBatch ExecutionRuns::run(std::uint64_t seed, std::uint64_t first, std::size_t count,
-                            LatenessSources& sources, const std::function<bool()>& is_over) {
+                            LatenessSources& sources, const StopCondition& is_over) {
     RunBatch out;
     std::size_t n_visits = 0;
     for (std::size_t k = 0; k < count; ++k) {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "execution/delays.hpp"
 #include "execution/executed_conflicts.hpp"
 #include "execution/execution_timetable.hpp"
@@ -14,7 +14,7 @@ namespace rightofway {
 
 // One entry for each run and robot, runs one behind the other; or one for each run.
 struct RunBatch {
-    std::vector<Tick> completion;         // by right of way; `infinity` for never
+    std::vector<Tick> completion;         // by right of way; `never` for never
     std::vector<std::uint8_t> is_broken;  // it stands still for ever
     std::vector<ConflictCount> by_right_of_way;
     std::vector<ConflictCount> by_clock;
@@ -28,7 +28,7 @@ class ExecutionRuns {
     // Runs `first`, `first` + 1, … up to so many; fewer where `is_over`, asked now and then, says
     // so. Each depends on its number and the seed alone. Lateness is added to `sources`.
     RunBatch run(std::uint64_t seed, std::uint64_t first, std::size_t count,
-                 LatenessSources& sources, const std::function<bool()>& is_over);
+                 LatenessSources& sources, const StopCondition& is_over);
 
   private:
     const ActionDependencyGraph& plan_;

@@ -6,7 +6,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int32_t none = -1;
 constexpr std::int64_t effort_between_questions = 4096;
 constexpr std::int32_t levels_between_snapshots = 32;
 constexpr std::size_t most_snapshots = 16;
@@ -36,7 +35,7 @@ Lacam::Lacam(const Trips& trips, StepTables& tables, const SpaceUtilization& pat
     }
 }
 
-SearchEnd Lacam::run(const std::function<bool()>& is_over, std::int64_t most_effort) {
+SearchEnd Lacam::run(const StopCondition& is_over, std::int64_t most_effort) {
     add(none, 0);
     std::int64_t next_question = effort_between_questions;
     for (; !open_.empty(); ++n_retaken_) {

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -34,7 +33,7 @@ class Lacam {
     // Stops when `is_over` says so, asked every few thousand units of effort, or when that is
     // spent. A choice of a robot is a unit, and so is a decision that is taken again to make a
     // state. `proven_none` is not among its ends.
-    SearchEnd run(const std::function<bool()>& is_over, std::int64_t most_effort);
+    SearchEnd run(const StopCondition& is_over, std::int64_t most_effort);
 
     // Where each robot is, when; empty unless a plan was found.
     Tracks tracks() const;

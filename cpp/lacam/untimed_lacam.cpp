@@ -8,7 +8,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int32_t none = -1;
 constexpr std::int64_t steps_between_questions = 64;
 
 std::size_t hash_of(const Configuration& now) {
@@ -28,7 +27,7 @@ UntimedLacam::UntimedLacam(const Graph& graph, const UntimedProblem& goals, Step
                            bool may_rotate, std::uint32_t seed)
     : graph_(graph), goals_(goals), pibt_(graph, goals, tables, may_rotate, seed) {}
 
-SearchEnd UntimedLacam::run(const std::function<bool()>& is_over) {
+SearchEnd UntimedLacam::run(const StopCondition& is_over) {
     Configuration start;
     start.at.assign(goals_.home.begin(), goals_.home.end());
     start.stage.assign(goals_.first_stage.begin(), goals_.first_stage.end() - 1);

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -28,7 +27,7 @@ class UntimedLacam {
                  bool may_rotate, std::uint32_t seed);
 
     // `is_over` is asked every few steps whether to stop.
-    SearchEnd run(const std::function<bool()>& is_over);
+    SearchEnd run(const StopCondition& is_over);
 
     // Where all robots are, step by step: the first n_robots entries are the homes.
     std::vector<VertexId> steps() const;

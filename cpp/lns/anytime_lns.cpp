@@ -20,8 +20,8 @@ AnytimeLns::AnytimeLns(const Problem& fleet, FleetPlan& plan, std::span<const Ti
       idle_until_stuck_(tasks_per_robot * fleet.n_robots()),
       one_(fleet, plan, alone, seed, n_threads) {}
 
-void AnytimeLns::run(std::int64_t n_tasks, std::int64_t patience,
-                     const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
+void AnytimeLns::run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+                     const StopCondition& is_due) {
     if (!many_) {
         const std::int64_t before = one_.n_tasks();
         one_.run(n_tasks, std::min(patience, idle_until_stuck_), is_over, is_due);

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 
+#include "core/search_end.hpp"
 #include "lns/lns.hpp"
 #include "lns/population.hpp"
 
@@ -18,8 +18,8 @@ class AnytimeLns {
                std::uint64_t seed, std::size_t n_threads);
 
     // As `Lns::run`.
-    void run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
-             const std::function<bool()>& is_due);
+    void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+             const StopCondition& is_due);
 
     std::int64_t n_tasks() const;
     std::int64_t n_idle() const;  // since the last gain

@@ -14,8 +14,7 @@ FleetPlan::FleetPlan(const Problem& fleet)
 Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     const auto& visits = track.visits;
     const Tick approach = fleet_->rules().books_ahead ? visits[k].drive : 0;
-    const Tick end =
-        k + 1 < visits.size() ? visits[k + 1].enter + fleet_->rules().headway : infinity;
+    const Tick end = k + 1 < visits.size() ? visits[k + 1].enter + fleet_->rules().headway : never;
     return {visits[k].enter - approach, end};
 }
 

@@ -55,8 +55,8 @@ std::int64_t Lns::n_expanded() const {
     return sum;
 }
 
-void Lns::run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
-              const std::function<bool()>& is_due) {
+void Lns::run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+              const StopCondition& is_due) {
     while (n_tasks > 0 && n_idle_ < patience) {
         const auto n = std::min<std::int64_t>(n_tasks, static_cast<std::int64_t>(tasks_.size()));
         round(static_cast<std::size_t>(n), is_over);
@@ -69,12 +69,12 @@ void Lns::run(std::int64_t n_tasks, std::int64_t patience, const std::function<b
     crew_.pass_on();
 }
 
-void Lns::round(std::size_t n, const std::function<bool()>& is_over) {
+void Lns::round(std::size_t n, const StopCondition& is_over) {
     for (Task& task : tasks_) {
         task.gain = -1;
         task.effort = 0;
     }
-    const auto work = [this](std::size_t worker, std::size_t task, const TaskCrew::IsOver& stop) {
+    const auto work = [this](std::size_t worker, std::size_t task, const StopCondition& stop) {
         Random random(seed_, n_rounds_, task);
         attempt(*workers_[worker], tasks_[task], random, stop);
     };
@@ -82,8 +82,7 @@ void Lns::round(std::size_t n, const std::function<bool()>& is_over) {
     ++n_rounds_;
 }
 
-void Lns::attempt(Worker& worker, Task& task, Random& random,
-                  const SafeIntervalSearch::IsOver& is_over) {
+void Lns::attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over) {
     task.neighbourhood = neighbourhood_.draw(random);
     const auto kind = static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
     const std::size_t size = sizes[task.neighbourhood % sizes.size()];
@@ -99,7 +98,7 @@ void Lns::attempt(Worker& worker, Task& task, Random& random,
 }
 
 // Plans the robots of a task anew, notes the tracks in the task, and leaves the plan as it was.
-bool Lns::replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over) {
+bool Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     const std::size_t n = task.robots.size();
     if (task.tracks.size() < n) {
         task.tracks.resize(n);

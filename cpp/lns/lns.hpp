@@ -14,11 +14,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/task_crew.hpp"
 #include "lns/adaptive_choice.hpp"
 #include "lns/fleet_plan.hpp"
@@ -37,8 +37,8 @@ class Lns {
     // Does that many tasks; less after `patience` of them in a row without a gain, if `is_over`
     // says so, or after the first round that ends when `is_due` does. Both are asked by the calling
     // thread only. What `is_over` throws is passed on when the plan is whole again.
-    void run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
-             const std::function<bool()>& is_due);
+    void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+             const StopCondition& is_due);
 
     std::int64_t n_tasks() const { return n_tasks_; }
     std::int64_t n_idle() const { return n_idle_; }  // since the last gain
@@ -56,10 +56,9 @@ class Lns {
     };
     struct Worker;
 
-    void round(std::size_t n, const std::function<bool()>& is_over);
-    void attempt(Worker& worker, Task& task, Random& random,
-                 const SafeIntervalSearch::IsOver& is_over);
-    bool replan(Worker& worker, Task& task, const SafeIntervalSearch::IsOver& is_over);
+    void round(std::size_t n, const StopCondition& is_over);
+    void attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over);
+    bool replan(Worker& worker, Task& task, const StopCondition& is_over);
     void settle(std::size_t n);
     bool adopt(Task& task, bool may_clash);
     void learn(const Task& task, bool is_adopted);

@@ -115,7 +115,7 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
             if (way == 0) {
                 const Tick until = now + trip.stage_work[stage] + trip.stage_turn[stage];
                 const bool is_last = stage + 1 == trip.n_stages();
-                add_all(place, now, is_last ? infinity : until + 1, size);
+                add_all(place, now, is_last ? never : until + 1, size);
                 now = until;
                 ++stage;
                 continue;

@@ -100,12 +100,12 @@ Population::Population(const Problem& fleet, FleetPlan& plan, std::span<const Ti
       crew_(std::min(n_threads, n_members)),
       n_idle_(n_idle) {}
 
-void Population::run(std::int64_t n_tasks, std::int64_t patience,
-                     const std::function<bool()>& is_over, const std::function<bool()>& is_due) {
+void Population::run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+                     const StopCondition& is_due) {
     while (n_tasks > 0 && n_idle_ < patience) {
         const std::int64_t before = n_tasks_;
         const std::size_t n = begin_generation(std::min(n_tasks, patience - n_idle_));
-        const auto work = [this](std::size_t, std::size_t k, const TaskCrew::IsOver& stop) {
+        const auto work = [this](std::size_t, std::size_t k, const StopCondition& stop) {
             bring_up(k, stop);
         };
         crew_.run(n, work, is_over);
@@ -135,7 +135,7 @@ std::size_t Population::begin_generation(std::int64_t n_tasks) {
 
 bool Population::has_all_members() const { return members_.size() == n_members; }
 
-void Population::bring_up(std::size_t k, const TaskCrew::IsOver& is_over) {
+void Population::bring_up(std::size_t k, const StopCondition& is_over) {
     Child& child = children_[k];
     Random random(seed_, n_generations_, k);
     if (!vary(child, has_all_members() ? k : 0, random, is_over)) {
@@ -151,7 +151,7 @@ void Population::bring_up(std::size_t k, const TaskCrew::IsOver& is_over) {
 
 // Makes a plan unlike the one it comes from; false if some robots got no track.
 bool Population::vary(Child& child, std::size_t parent, Random& random,
-                      const TaskCrew::IsOver& is_over) {
+                      const StopCondition& is_over) {
     child.plan = members_[parent];
     const FleetPlan& mate = members_[(parent + 1 + random.below(n_members - 1)) % members_.size()];
     const std::vector<RobotId> differing = all_that_differ(fleet_, child.plan, mate);

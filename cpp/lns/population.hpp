@@ -18,11 +18,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/random.hpp"
+#include "core/search_end.hpp"
 #include "core/task_crew.hpp"
 #include "lns/fleet_plan.hpp"
 
@@ -38,8 +38,8 @@ class Population {
     // Brings up children with that many tasks of an `Lns` in all; with less after `patience`
     // of them in a row without a better plan, if `is_over` says so, or when `is_due` does between
     // generations. Both are asked by the calling thread only. What `is_over` throws is passed on.
-    void run(std::int64_t n_tasks, std::int64_t patience, const std::function<bool()>& is_over,
-             const std::function<bool()>& is_due);
+    void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+             const StopCondition& is_due);
 
     std::int64_t n_tasks() const { return n_tasks_; }
     std::int64_t n_idle() const { return n_idle_; }  // since the last gain
@@ -56,8 +56,8 @@ class Population {
 
     bool has_all_members() const;
     std::size_t begin_generation(std::int64_t n_tasks);
-    void bring_up(std::size_t k, const TaskCrew::IsOver& is_over);
-    bool vary(Child& child, std::size_t parent, Random& random, const TaskCrew::IsOver& is_over);
+    void bring_up(std::size_t k, const StopCondition& is_over);
+    bool vary(Child& child, std::size_t parent, Random& random, const StopCondition& is_over);
     std::vector<RobotId> take_over(FleetPlan& plan, const FleetPlan& mate,
                                    std::span<const RobotId> differing, Random& random) const;
     void take_up(std::size_t n_children);

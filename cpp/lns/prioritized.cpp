@@ -53,7 +53,7 @@ void Prioritized::start(std::span<const RobotId> order) {
     highest_outlook_ = outlook_;
 }
 
-SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over) {
+SearchEnd Prioritized::run(std::int64_t n_searches, const StopCondition& is_over) {
     for (; !waiting_.empty(); waiting_.pop_front()) {
         if (n_searches_ >= n_searches || !place(waiting_.front(), is_over)) {
             return SearchEnd::stopped;
@@ -65,7 +65,7 @@ SearchEnd Prioritized::run(std::int64_t n_searches, const SafeIntervalSearch::Is
     return SearchEnd::found;
 }
 
-bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
+bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
     plan_.hold_home(robot, 0);
     if (!find(robot, is_over)) {
         return false;
@@ -84,8 +84,8 @@ bool Prioritized::place(RobotId robot, const SafeIntervalSearch::IsOver& is_over
     return true;
 }
 
-bool Prioritized::find(RobotId robot, const SafeIntervalSearch::IsOver& is_over) {
-    const SearchRequest errand{reader_.read(robot), plan_.bookings(), prices_, infinity, greed};
+bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
+    const SearchRequest errand{reader_.read(robot), plan_.bookings(), prices_, never, greed};
     if (search_.run(errand, is_over) != SearchEnd::found) {
         return false;
     }

@@ -52,7 +52,7 @@ class Prioritized {
 
     // Gives them tracks, until so many searches were made since the start. `stopped` means that
     // some are without a track; it can go on from there.
-    SearchEnd run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
+    SearchEnd run(std::int64_t n_searches, const StopCondition& is_over);
 
     // The most that the flowtime has looked like since the start, where each robot is expected to
     // be complete as late as by its last track, or as alone.
@@ -60,8 +60,8 @@ class Prioritized {
     std::int64_t n_expanded() const { return search_.n_expanded(); }
 
   private:
-    bool place(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
-    bool find(RobotId robot, const SafeIntervalSearch::IsOver& is_over);
+    bool place(RobotId robot, const StopCondition& is_over);
+    bool find(RobotId robot, const StopCondition& is_over);
     bool evict_those_met();
     bool crosses_their_homes(RobotId robot);
     void evict(RobotId robot);

@@ -11,8 +11,7 @@ constexpr auto between_questions = std::chrono::milliseconds(5);
 
 }  // namespace
 
-void PrioritizedPortfolio::Side::run(std::int64_t n_searches,
-                                     const SafeIntervalSearch::IsOver& is_over) {
+void PrioritizedPortfolio::Side::run(std::int64_t n_searches, const StopCondition& is_over) {
     is_there = planner.run(n_searches, is_over) == SearchEnd::found;
 }
 
@@ -37,7 +36,7 @@ class PrioritizedPortfolio::Beside {
         thread_.join();
     }
 
-    void wait(const SafeIntervalSearch::IsOver& is_over) const {
+    void wait(const StopCondition& is_over) const {
         while (!has_ended_ && !is_over()) {
             std::this_thread::sleep_for(between_questions);
         }
@@ -60,8 +59,7 @@ PrioritizedPortfolio::PrioritizedPortfolio(const Problem& fleet, FleetPlan& plan
 }
 
 bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
-                               const SafeIntervalSearch::IsOver& is_over,
-                               const SafeIntervalSearch::IsOver& is_late) {
+                               const StopCondition& is_over, const StopCondition& is_late) {
     {
         std::optional<Beside> beside;
         if (has_second_thread) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/search_end.hpp"
 #include "lns/fleet_plan.hpp"
 #include "lns/prioritized.hpp"
 
@@ -24,12 +25,12 @@ class PrioritizedPortfolio {
     // Gives all robots a track each, in at most so many searches since the beginning. False if that
     // does not work out, with the plan in an unknown state; it can go on from there. Once there is
     // a plan made in haste, `is_late` is asked instead of `is_over`; both by the calling thread.
-    bool run(std::int64_t n_searches, bool has_second_thread,
-             const SafeIntervalSearch::IsOver& is_over, const SafeIntervalSearch::IsOver& is_late);
+    bool run(std::int64_t n_searches, bool has_second_thread, const StopCondition& is_over,
+             const StopCondition& is_late);
 
   private:
     struct Side {
-        void run(std::int64_t n_searches, const SafeIntervalSearch::IsOver& is_over);
+        void run(std::int64_t n_searches, const StopCondition& is_over);
         bool is_beaten_by(const Side& other) const;
 
         const FleetPlan& plan;

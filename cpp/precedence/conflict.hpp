@@ -14,8 +14,8 @@
 namespace rightofway {
 
 struct Booking {
-    Tick start = infinity;
-    Tick end = infinity;
+    Tick start = never;
+    Tick end = never;
 
     bool is_empty() const { return start >= end; }
 };
@@ -23,9 +23,10 @@ struct Booking {
 // A booking that overlaps nothing, not even one without end.
 inline constexpr Booking no_booking{};
 
-// What an overlap counts: its ticks, at most `forever`; 0 or less if there is none.
+// What an overlap counts: its ticks, at most `conflict_cap`; 0 or less if there is none.
 inline Tick overlap(const Booking& left, const Booking& right) {
-    return std::min(std::min(left.end, right.end) - std::max(left.start, right.start), forever);
+    return std::min(std::min(left.end, right.end) - std::max(left.start, right.start),
+                    conflict_cap);
 }
 
 // What a swap counts.

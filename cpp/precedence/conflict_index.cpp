@@ -8,13 +8,13 @@
 namespace rightofway {
 namespace {
 
-// Each pair of visits at one vertex counts at most `forever` and one swap: 2^30 pairs stay well
-// within 2^63.
+// Each pair of visits at one vertex counts at most `conflict_cap` and one swap: 2^30 pairs stay
+// well within 2^63.
 constexpr std::int64_t most_pairs = std::int64_t{1} << 30;
 
 Booking booked(VisitId visit, const Routes& routes, const Timetable& timetable) {
     const Tick start = timetable.enter(visit) - routes.approach(visit);
-    const Tick end = routes.is_last(visit) ? infinity : timetable.leave(visit) + routes.headway();
+    const Tick end = routes.is_last(visit) ? never : timetable.leave(visit) + routes.headway();
     return {start, end};
 }
 

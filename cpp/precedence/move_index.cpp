@@ -41,7 +41,7 @@ MoveIndex::MoveIndex(const Routes& routes) : slot_(routes.n_visits(), none) {
         const auto start = std::lower_bound(moves.begin(), moves.end(), opposite, before);
         const auto end = std::upper_bound(start, moves.end(), opposite, after);
         slot_[x] = static_cast<std::int32_t>(slots_.size());
-        slots_.push_back({infinity, x, routes.robot(x)});
+        slots_.push_back({never, x, routes.robot(x)});
         opposite_.push_back({static_cast<std::size_t>(start - moves.begin()),
                              static_cast<std::size_t>(end - moves.begin())});
     }

@@ -30,7 +30,7 @@ class MoveIndex {
             slots_[slot_[visit]].instant = instant;
         }
     }
-    void clear(VisitId visit) { set(visit, infinity); }
+    void clear(VisitId visit) { set(visit, never); }
 
     // Calls use(slot, tick, weight) for each move of another robot that swaps with this one.
     template <class Use>
@@ -42,8 +42,7 @@ class MoveIndex {
         const Range& range = opposite_[slot_[visit]];
         for (std::size_t k = range.start; k < range.end; ++k) {
             const Slot& other = slots_[k];
-            if (other.instant == own.instant && own.instant != infinity &&
-                other.robot != own.robot) {
+            if (other.instant == own.instant && own.instant != never && other.robot != own.robot) {
                 use(other, own.instant, swap_weight);
             }
         }
@@ -54,8 +53,6 @@ class MoveIndex {
         std::size_t start;
         std::size_t end;
     };
-
-    static constexpr std::int32_t none = -1;
 
     std::vector<Slot> slots_;         // by (from, to), then by visit
     std::vector<Range> opposite_;     // per slot: the moves (to, from)

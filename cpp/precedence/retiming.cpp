@@ -9,8 +9,6 @@
 namespace rightofway {
 namespace {
 
-constexpr VisitId none = -1;
-
 // What a visit waits for: the robot's own visit before, and the leave of another at this vertex.
 struct Waits {
     Tick own;       // least ticks from the visit before; unused for a first visit

@@ -19,8 +19,6 @@ struct RightOfWay {
 
 class RightsOfWay {
   public:
-    static constexpr std::int32_t none = -1;
-
     explicit RightsOfWay(VisitId n_visits)
         : latest_of_first_(n_visits, none), latest_of_second_(n_visits, none) {}
 

@@ -11,7 +11,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int32_t none = -1;
 constexpr Tick most_product = Tick{1} << 58;
 
 // The arcs that leave each node, side by side: what a sweep reads lies in order.
@@ -58,7 +57,7 @@ class PolicyIteration {
           follows_(value_.size(), none),
           seen_(value_.size(), 0) {}
 
-    std::optional<CriticalCircuit> run(const IsOver& is_over) {
+    std::optional<CriticalCircuit> run(const StopCondition& is_over) {
         while (improve()) {
             if (is_over()) {
                 return std::nullopt;
@@ -263,12 +262,12 @@ void require_event_arcs(const TimedEventGraph& arcs) {
 }
 
 std::optional<CriticalCircuit> critical_circuit(const TimedEventGraph& arcs,
-                                                const IsOver& is_over) {
+                                                const StopCondition& is_over) {
     return PolicyIteration(arcs).run(is_over);
 }
 
 std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tick period,
-                                                std::int64_t parts, const IsOver& is_over) {
+                                                std::int64_t parts, const StopCondition& is_over) {
     const Sums sums = sums_of(arcs);
     require_small("period", period, sums.heights);
     require_small("parts", parts, sums.lengths);

@@ -18,11 +18,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -46,16 +46,15 @@ struct CriticalCircuit {
     std::vector<std::int32_t> arcs;  // in order; empty if every circuit has length 0
 };
 
-using IsOver = std::function<bool()>;
-
 // Nothing if `is_over` said so. Throws std::invalid_argument if a circuit of positive length has
 // height 0 or less: what these arcs ask for can never take place.
-std::optional<CriticalCircuit> critical_circuit(const TimedEventGraph& arcs, const IsOver& is_over);
+std::optional<CriticalCircuit> critical_circuit(const TimedEventGraph& arcs,
+                                                const StopCondition& is_over);
 
 // The least times, none below 0, that keep all arcs when everything comes again every
 // `period` / `parts` ticks; in parts of a tick. Nothing if that is less than the cycle time, or
 // if `is_over` said so.
 std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tick period,
-                                                std::int64_t parts, const IsOver& is_over);
+                                                std::int64_t parts, const StopCondition& is_over);
 
 }  // namespace rightofway

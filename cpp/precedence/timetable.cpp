@@ -24,7 +24,7 @@ void Timetable::run_freely() {
 
 bool Timetable::precede(VisitId a, VisitId b) {
     changed_.clear();
-    if (rights_.find(a, b) != RightsOfWay::none) {
+    if (rights_.find(a, b) != none) {
         return true;
     }
     if (routes_.is_last(a) || routes_.is_first(b)) {
@@ -129,7 +129,7 @@ bool Timetable::raise_to_held(VisitId visit) {
 bool Timetable::take_back(VisitId a, VisitId b) {
     changed_.clear();
     const std::int32_t right = rights_.find(a, b);
-    if (right == RightsOfWay::none) {
+    if (right == none) {
         return false;
     }
     const bool was_tight = enter_[b] == enter_[a + 1] + routes_.gap_before(b);
@@ -147,7 +147,7 @@ bool Timetable::take_back(VisitId a, VisitId b) {
 // such a cycle has a positive length, and is refused as that anyway.) Longer cycles of zero length
 // are rotations, which are allowed.
 bool Timetable::closes_swap(VisitId a, VisitId b) const {
-    return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != RightsOfWay::none;
+    return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != none;
 }
 
 // Raises b and all that follows from it; false as soon as the raise reaches the source. No arc
@@ -159,7 +159,7 @@ bool Timetable::spread(VisitId b, Tick delta, VisitId source) {
     if (!settle(source)) {
         return false;
     }
-    latest_ = infinity;
+    latest_ = never;
     open_.swap(deferred_);
     std::make_heap(open_.begin(), open_.end(), is_later);
     return settle(source);

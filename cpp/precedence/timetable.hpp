@@ -34,9 +34,7 @@ class Timetable {
     explicit Timetable(const Routes& routes);
 
     Tick enter(VisitId visit) const { return enter_[visit]; }
-    Tick leave(VisitId visit) const {
-        return routes_.is_last(visit) ? infinity : enter_[visit + 1];
-    }
+    Tick leave(VisitId visit) const { return routes_.is_last(visit) ? never : enter_[visit + 1]; }
     std::span<const Tick> enters() const { return enter_; }
     std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
 
@@ -118,8 +116,6 @@ class Timetable {
     void restore_enters(std::size_t trail_length);
     static bool is_later(const Raise& left, const Raise& right);
 
-    static constexpr VisitId none = -1;
-
     const Routes& routes_;
     std::vector<Tick> enter_;
     RightsOfWay rights_;
@@ -131,7 +127,7 @@ class Timetable {
     std::vector<VisitId> cause_;   // per raised visit: whose raise raised it
     std::vector<Raise> open_;      // a heap
     std::vector<Raise> deferred_;  // visits entered after latest_
-    Tick latest_ = infinity;
+    Tick latest_ = never;
     std::vector<VisitId> falling_;  // a heap
     std::vector<VisitId> instant_;  // those that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;

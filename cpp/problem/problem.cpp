@@ -26,7 +26,7 @@ void require_ids(const char* name, std::span<const std::int32_t> ids, std::int64
 
 void require_durations(const char* name, std::span<const Tick> ticks) {
     for (std::size_t k = 0; k < ticks.size(); ++k) {
-        if (ticks[k] < 0 || ticks[k] >= forever) {
+        if (ticks[k] < 0 || ticks[k] >= conflict_cap) {
             reject_entry(name, k, ticks[k], "is negative or too long");
         }
     }
@@ -52,7 +52,7 @@ Problem::Problem(const ProblemArrays& arrays, std::int32_t n_classes, const Book
     if (n_classes < 0) {
         reject("n_classes", n_classes, "is negative");
     }
-    if (rules.headway < 0 || rules.headway >= forever) {
+    if (rules.headway < 0 || rules.headway >= conflict_cap) {
         reject("headway", rules.headway, "is negative or too long");
     }
     check(arrays);

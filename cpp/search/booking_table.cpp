@@ -78,7 +78,7 @@ void BookingTable::erase(VertexId vertex, Tick start, RobotId robot) {
     if (k < 0 || here[k].time.start != start) {
         return;
     }
-    Tick reach = k > 0 ? here[k - 1].reach : -infinity;
+    Tick reach = k > 0 ? here[k - 1].reach : -never;
     --row.size;
     for (; k < row.size; ++k) {
         here[k] = here[k + 1];

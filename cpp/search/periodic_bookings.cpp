@@ -115,16 +115,15 @@ void PeriodicBookings::remove(RobotId robot) {
 
 Tick PeriodicBookings::enters(const Gap& here, const Gap& there, Tick soonest, Tick last,
                               Tick approach) const {
-    const Tick enter =
-        there.start == -infinity ? soonest : std::max(soonest, there.start + approach);
-    const bool fits = there.end == infinity || enter + headway_ < there.end;
+    const Tick enter = there.start == -never ? soonest : std::max(soonest, there.start + approach);
+    const bool fits = there.end == never || enter + headway_ < there.end;
     const bool swaps = headway_ == 0 && approach == 0 && there.start == enter &&
                        here.end == enter && there.before == here.after;
-    return enter <= last && fits && !swaps ? enter : infinity;
+    return enter <= last && fits && !swaps ? enter : never;
 }
 
 bool PeriodicBookings::search(const Round& round, Tick phase, std::vector<Tick>& enter,
-                              const IsOver& is_over) {
+                              const StopCondition& is_over) {
     require_round(round, static_cast<VertexId>(at_.size()));
     const std::size_t n = round.vertex.size();
     rest_.assign(n + 1, 0);
@@ -140,7 +139,7 @@ bool PeriodicBookings::search(const Round& round, Tick phase, std::vector<Tick>&
     bool is_found = false;
     reached_ = 0;
     for_each_gap(round.vertex[0], first, first + period_, [&](const Gap& home) {
-        const Tick start = home.start == -infinity ? first : home.start + approach;
+        const Tick start = home.start == -never ? first : home.start + approach;
         is_found = close_from(round, home, start, enter, is_over);
         return !is_found;
     });
@@ -149,14 +148,13 @@ bool PeriodicBookings::search(const Round& round, Tick phase, std::vector<Tick>&
 
 // Starts as early in a gap of its home as it can be back there a period later.
 bool PeriodicBookings::close_from(const Round& round, const Gap& home, Tick start,
-                                  std::vector<Tick>& enter, const IsOver& is_over) {
+                                  std::vector<Tick>& enter, const StopCondition& is_over) {
     const Tick leaves =
-        home.end == infinity ? start : home.end - headway_ - round.dwell[0] - round.drive[1];
+        home.end == never ? start : home.end - headway_ - round.dwell[0] - round.drive[1];
     while (start <= leaves && !is_over()) {
         // Home again at the latest when the last possible start comes again.
-        const Tick again =
-            run(round, home, start, (home.end == infinity ? start : leaves) + period_);
-        if (again >= infinity) {
+        const Tick again = run(round, home, start, (home.end == never ? start : leaves) + period_);
+        if (again >= never) {
             return false;
         }
         if (again <= start + period_) {
@@ -169,7 +167,7 @@ bool PeriodicBookings::close_from(const Round& round, const Gap& home, Tick star
 }
 
 // When a robot that enters its home at `start` is there again, in the same gap a period later;
-// infinity if it cannot be.
+// `never` if it cannot be.
 Tick PeriodicBookings::run(const Round& round, const Gap& home, Tick start, Tick latest) {
     const std::size_t n = round.vertex.size();
     for (std::size_t k = 0; k <= n; ++k) {
@@ -185,12 +183,12 @@ Tick PeriodicBookings::run(const Round& round, const Gap& home, Tick start, Tick
     closing_ = nobody;
     for (std::size_t k = 0; k < stays_[n].size(); ++k) {
         const Stay& stay = stays_[n][k];
-        if (home.end == infinity || stay.gap.start == home.start + period_) {
+        if (home.end == never || stay.gap.start == home.start + period_) {
             closing_ = static_cast<std::int32_t>(k);
             return stay.enter;
         }
     }
-    return infinity;
+    return never;
 }
 
 // Drives from a stay into every gap of the next vertex that it can enter.
@@ -199,15 +197,15 @@ void PeriodicBookings::go_on(const Round& round, std::size_t k, std::int32_t fro
     const Stay here = stays_[k][static_cast<std::size_t>(from)];
     const std::size_t next = (k + 1) % n;
     const Tick soonest = here.enter + round.dwell[k] + round.drive[next];
-    const Tick last = std::min(here.gap.end == infinity ? infinity : here.gap.end - headway_,
-                               latest - rest_[k + 1]);
+    const Tick last =
+        std::min(here.gap.end == never ? never : here.gap.end - headway_, latest - rest_[k + 1]);
     if (soonest > last) {
         return;
     }
     const Tick approach = books_ahead_ ? round.drive[next] : 0;
     for_each_gap(round.vertex[next], soonest, last - approach, [&](const Gap& gap) {
         const Tick enter = enters(here.gap, gap, soonest, last, approach);
-        if (enter < infinity) {
+        if (enter < never) {
             arrive(k + 1, {enter, gap, from});
         }
         return true;

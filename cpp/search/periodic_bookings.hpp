@@ -19,11 +19,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -37,8 +37,6 @@ struct Round {
 
 class PeriodicBookings {
   public:
-    using IsOver = std::function<bool()>;
-
     // What lies between two bookings of a vertex, on unrolled time.
     struct Gap {
         Tick start;
@@ -69,7 +67,8 @@ class PeriodicBookings {
     // Finds ticks at which a robot can enter the visits of its round; false if there are none
     // (from homes that others visit too), or none from this phase (from other homes), or if
     // `is_over` said so. Among gaps of its home those that begin after the phase come first.
-    bool search(const Round& round, Tick phase, std::vector<Tick>& enter, const IsOver& is_over);
+    bool search(const Round& round, Tick phase, std::vector<Tick>& enter,
+                const StopCondition& is_over);
 
     // Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in
     // order, until it returns false. Gaps may be empty where one robot follows another at once.
@@ -77,7 +76,7 @@ class PeriodicBookings {
     void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;
 
     // When a robot that waits in one gap enters another, driving at least until `soonest` and at
-    // most until `last`, and books the way there `approach` ahead; infinity if it never can.
+    // most until `last`, and books the way there `approach` ahead; `never` if it never can.
     Tick enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach) const;
 
     // Which visit of its round the last search has reached: what comes next is where it got stuck.
@@ -96,8 +95,6 @@ class PeriodicBookings {
         std::int32_t from;  // its predecessor among the stays of the visit before
     };
 
-    static constexpr RobotId nobody = -1;
-
     // The first booking of a row that starts at a tick or after it.
     static std::vector<Booking>::const_iterator first_from(const std::vector<Booking>& row,
                                                            Tick tick);
@@ -108,7 +105,7 @@ class PeriodicBookings {
     void go_on(const Round& round, std::size_t k, std::int32_t from, Tick latest);
     void arrive(std::size_t k, const Stay& stay);
     bool close_from(const Round& round, const Gap& home, Tick start, std::vector<Tick>& enter,
-                    const IsOver& is_over);
+                    const StopCondition& is_over);
     void trace(const Round& round, std::int32_t last, std::vector<Tick>& enter) const;
 
     Tick period_;
@@ -126,7 +123,7 @@ template <class Use>
 void PeriodicBookings::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
     const auto& row = at_[static_cast<std::size_t>(vertex)];
     if (row.empty()) {
-        use(Gap{-infinity, infinity, nobody, nobody});
+        use(Gap{-never, never, nobody, nobody});
         return;
     }
     // The first gap is that before the first booking that starts at `from` or after it.

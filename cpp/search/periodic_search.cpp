@@ -7,7 +7,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int32_t none = -1;
 constexpr std::int64_t expansions_between_looks = 512;
 
 }  // namespace
@@ -37,7 +36,7 @@ Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
 }
 
 bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
-                         const IsOver& is_over) {
+                         const StopCondition& is_over) {
     require_trip(roads_, trip);
     trip_ = &trip;
     is_over_ = &is_over;
@@ -51,7 +50,7 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     bool is_found = false;
     circle_.for_each_gap(
         trip.home, first, first + circle_.period(), [&](const PeriodicBookings::Gap& home) {
-            is_found = close_from(home, home.start == -infinity ? first : home.start, found);
+            is_found = close_from(home, home.start == -never ? first : home.start, found);
             return !is_found && !is_stopped_;
         });
     return is_found;
@@ -61,11 +60,11 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
 bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
                                 PeriodicRoundTrip& found) {
     const Tick leaves =
-        home.end == infinity ? start : home.end - circle_.headway() - dwell_of(last_stage());
+        home.end == never ? start : home.end - circle_.headway() - dwell_of(last_stage());
     while (start <= leaves && !is_stopped_) {
         // Home again at the latest when the last possible start comes again.
         const Tick again = earliest_return(home, start, leaves + circle_.period());
-        if (again >= infinity) {
+        if (again >= never) {
             return false;
         }
         if (again <= start + circle_.period()) {
@@ -78,7 +77,7 @@ bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
 }
 
 // When a robot that enters its home at `start` is there again, in the same gap a period later;
-// infinity if it cannot be.
+// `never` if it cannot be.
 Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest) {
     for (const VertexId vertex : touched_) {
         at_[static_cast<std::size_t>(vertex)] = none;
@@ -97,7 +96,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
             continue;
         }
         const bool is_same_gap =
-            home.end == infinity || node.gap.start == home.start + circle_.period();
+            home.end == never || node.gap.start == home.start + circle_.period();
         if (node.from != none && node.stage == last_stage() && node.vertex == trip_->home &&
             is_same_gap) {
             goal_ = top.node;
@@ -105,11 +104,11 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
         }
         if (n_expanded_++ % expansions_between_looks == 0 && (*is_over_)()) {
             is_stopped_ = true;
-            return infinity;
+            return never;
         }
         expand(top.node, latest);
     }
-    return infinity;
+    return never;
 }
 
 // Drives on along every edge, with as many stages served here as there may be, or fewer.
@@ -140,15 +139,15 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
     }
     const std::int32_t ticks = trip_->pace[static_cast<std::size_t>(roads_.length_class[e])];
     const Tick soonest = here.enter + dwell + ticks;
-    const Tick last = std::min(
-        here.gap.end == infinity ? infinity : here.gap.end - circle_.headway(), latest - left);
+    const Tick last =
+        std::min(here.gap.end == never ? never : here.gap.end - circle_.headway(), latest - left);
     if (soonest > last) {
         return;
     }
     const Tick approach = circle_.books_ahead() ? ticks : 0;
     circle_.for_each_gap(next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
         const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach);
-        if (enter < infinity) {
+        if (enter < never) {
             reach({enter, gap, next, stage, from, ticks, none}, left);
         }
         return true;

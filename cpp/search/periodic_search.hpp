@@ -13,9 +13,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "problem/trip.hpp"
 #include "search/periodic_bookings.hpp"
@@ -32,8 +32,6 @@ struct PeriodicRoundTrip {
 
 class PeriodicSearch {
   public:
-    using IsOver = std::function<bool()>;
-
     // Borrows both. The last stage of a trip is at its home; vertices from which a stage's table
     // leads nowhere are not entered on the way to it.
     PeriodicSearch(const Roads& roads, const PeriodicBookings& circle);
@@ -41,7 +39,7 @@ class PeriodicSearch {
     // Finds a way and when to take it; false as `PeriodicBookings::search`. Among gaps of its home
     // those that begin after the phase come first; in the first that is possible it is home again
     // as early as it can be. Throws std::invalid_argument if roads and circle do not fit together.
-    bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const IsOver& is_over);
+    bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over);
 
     // How many states all searches have expanded.
     std::int64_t n_expanded() const { return n_expanded_; }
@@ -78,7 +76,7 @@ class PeriodicSearch {
     Roads roads_;
     const PeriodicBookings& circle_;
     const Trip* trip_ = nullptr;
-    const IsOver* is_over_ = nullptr;
+    const StopCondition* is_over_ = nullptr;
     std::vector<Tick> to_go_;  // from the enter of each stage's vertex to being home again
     std::vector<Node> nodes_;
     std::vector<Open> open_;

@@ -73,12 +73,12 @@ void Seam::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
     auto next = std::lower_bound(row.begin(), row.end(), from,
                                  [](const Booking& one, Tick tick) { return one.start < tick; });
     for (;; ++next) {
-        const Tick start = next == row.begin() ? -infinity : std::prev(next)->end;
+        const Tick start = next == row.begin() ? -never : std::prev(next)->end;
         const RobotId before = next == row.begin() ? nobody : std::prev(next)->robot;
         if (start > to) {
             return;
         }
-        const Tick end = next == row.end() ? infinity : next->start;
+        const Tick end = next == row.end() ? never : next->start;
         const RobotId after = next == row.end() ? nobody : next->robot;
         if ((start <= end && !use(Gap{start, end, before, after})) || next == row.end()) {
             return;
@@ -87,12 +87,11 @@ void Seam::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
 }
 
 Tick Seam::enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach) const {
-    const Tick enter =
-        there.start == -infinity ? soonest : std::max(soonest, there.start + approach);
-    const bool fits = there.end == infinity || enter + headway_ < there.end;
+    const Tick enter = there.start == -never ? soonest : std::max(soonest, there.start + approach);
+    const bool fits = there.end == never || enter + headway_ < there.end;
     const bool swaps = headway_ == 0 && approach == 0 && there.start == enter &&
                        here.end == enter && there.before == here.after;
-    return enter <= last && fits && !swaps ? enter : infinity;
+    return enter <= last && fits && !swaps ? enter : never;
 }
 
 bool Seam::connect(const Stretch& stretch, Tick from, Tick until, Tick leave,
@@ -126,8 +125,7 @@ bool Seam::connect(const Stretch& stretch, Tick from, Tick until, Tick leave,
     }
     const auto& last = stays_[n - 1];
     const auto found = std::find_if(last.begin(), last.end(), [&](const Stay& stay) {
-        return stay.enter <= until &&
-               (stay.gap.end == infinity || leave + headway_ <= stay.gap.end);
+        return stay.enter <= until && (stay.gap.end == never || leave + headway_ <= stay.gap.end);
     });
     if (found == last.end()) {
         return false;
@@ -146,15 +144,15 @@ bool Seam::connect(const Stretch& stretch, Tick from, Tick until, Tick leave,
 void Seam::go_on(const Stretch& stretch, std::size_t k, std::int32_t from, Tick latest) {
     const Stay here = stays_[k][static_cast<std::size_t>(from)];
     const Tick soonest = here.enter + stretch.dwell[k] + stretch.drive[k + 1];
-    const Tick last = std::min(here.gap.end == infinity ? infinity : here.gap.end - headway_,
-                               latest - rest_[k + 1]);
+    const Tick last =
+        std::min(here.gap.end == never ? never : here.gap.end - headway_, latest - rest_[k + 1]);
     if (soonest > last) {
         return;
     }
     const Tick ahead = approach(stretch, k + 1);
     for_each_gap(stretch.vertex[k + 1], soonest - ahead, last - ahead, [&](const Gap& gap) {
         const Tick enter = enters(here.gap, gap, soonest, last, ahead);
-        if (enter < infinity) {
+        if (enter < never) {
             arrive(k + 1, {enter, gap, from});
         }
         return true;

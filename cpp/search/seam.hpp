@@ -68,8 +68,6 @@ class Seam {
         std::int32_t from;
     };
 
-    static constexpr RobotId nobody = -1;
-
     static bool is_earlier(const Booking& left, const Booking& right);
     template <class Use>
     void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;

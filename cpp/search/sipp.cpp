@@ -5,7 +5,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int32_t none = -1;
 constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
 constexpr std::int64_t states_per_drive = 8;  // as many as there is time for, for aiming
@@ -62,7 +61,7 @@ void SafeIntervalSearch::measure_stages(const Trip& trip) {
 Tick SafeIntervalSearch::least_end() const {
     const auto last = bookings_->at(trip_->stage_vertex.back());
     Tick paid = 0;
-    Tick least = infinity;
+    Tick least = never;
     for (std::size_t k = last.size(); k > 0 && paid < least; --k) {
         least = std::min(least, paid + free_end(last.first(k)));
         paid += price(last[k - 1].robot);
@@ -88,9 +87,9 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
 }
 
-SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const IsOver& is_over) {
+SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopCondition& is_over) {
     begin(errand);
-    if (least_f_ >= infinity || least_f_ > limit_) {
+    if (least_f_ >= never || least_f_ > limit_) {
         return SearchEnd::proven_none;
     }
     if (is_worth_aiming()) {
@@ -100,7 +99,7 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const IsOver& is_
         }
         begin(errand);
     }
-    return search(infinity, is_over);
+    return search(never, is_over);
 }
 
 // Whether others keep the last vertex longer than the way takes, and waiting for them is the best
@@ -110,7 +109,7 @@ bool SafeIntervalSearch::is_worth_aiming() const {
     return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
 }
 
-SearchEnd SafeIntervalSearch::aim(const IsOver& is_over) {
+SearchEnd SafeIntervalSearch::aim(const StopCondition& is_over) {
     is_aiming_ = true;
     has_one_label_ = true;
     prices_ = {};
@@ -118,12 +117,12 @@ SearchEnd SafeIntervalSearch::aim(const IsOver& is_over) {
     return search(states_per_drive * (least_f_ / least_drive_ + 1), is_over);
 }
 
-SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const IsOver& is_over) {
+SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopCondition& is_over) {
     const auto here = bookings_->at(trip_->home);
     Node first{0,    0, trip_->home, BookingTable::started(here, rules_.headway), 0, none,
                none, 0, false};
     first.cost = price_of_entry(first, 0);
-    if (first.cost >= infinity) {
+    if (first.cost >= never) {
         return SearchEnd::proven_none;  // somebody else holds home at tick 0
     }
     first_f_ = rest(first.vertex, 0);
@@ -171,7 +170,7 @@ void SafeIntervalSearch::finish(std::int32_t node) {
     const auto here = bookings_->at(after.vertex);
     for (auto k = static_cast<std::size_t>(after.gap); k < here.size(); ++k) {
         after.cost += price(here[k].robot);
-        if (after.cost >= infinity) {
+        if (after.cost >= never) {
             return;
         }
     }
@@ -195,7 +194,7 @@ void SafeIntervalSearch::serve(std::int32_t node) {
     for (; after.gap < n && here[after.gap].time.start <= after.ready + rules_.headway;
          ++after.gap) {
         after.cost += price(here[after.gap].robot);
-        if (after.cost >= infinity) {
+        if (after.cost >= never) {
             return;
         }
     }
@@ -214,7 +213,7 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
     }
     const BookedBy& next = here[after.gap];
     after.cost += price(next.robot);
-    if (after.cost >= infinity) {
+    if (after.cost >= never) {
         return;
     }
     after.ready = std::max(after.ready, next.time.start - rules_.headway);
@@ -235,12 +234,12 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     candidate.parent = node;
     candidate.drive = ticks;
     const bool never_ends = static_cast<std::size_t>(here.gap) == from.size();
-    const Tick latest = never_ends ? infinity : from[here.gap].time.start - rules_.headway;
+    const Tick latest = never_ends ? never : from[here.gap].time.start - rules_.headway;
     const Tick way = rest(candidate.vertex, candidate.stage);
     if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
         return;
     }
-    const Tick in_time = limit_ == infinity ? latest : std::min(latest, limit_ - way - here.cost);
+    const Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - here.cost);
     const Tick approach = rules_.books_ahead ? ticks : 0;
     if (prices_.empty()) {
         drive_between(candidate, way, in_time, approach);
@@ -258,7 +257,7 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
         if (k > 0) {
             candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
         }
-        if (candidate.ready > latest || candidate.ready >= infinity) {
+        if (candidate.ready > latest || candidate.ready >= never) {
             return;
         }
         candidate.gap = k;
@@ -278,10 +277,10 @@ void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest
         candidate.ready = tick;
         candidate.gap = BookingTable::started(to, tick + rules_.headway);
         candidate.cost += price_of_entry(candidate, approach);
-        if (candidate.cost < infinity) {
+        if (candidate.cost < never) {
             candidate.cost += price_of_swaps(candidate);
         }
-        if (candidate.cost < infinity) {
+        if (candidate.cost < never) {
             reach(candidate, way);
         }
     };
@@ -291,7 +290,7 @@ void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest
     });
     for (auto one = first; one != to.end() && one->time.start + approach < latest; ++one) {
         const Tick tick = one->time.end + approach;
-        if (one->time.end < infinity && tick > soonest.ready && tick <= latest) {
+        if (one->time.end < never && tick > soonest.ready && tick <= latest) {
             enter(tick);
         }
     }
@@ -306,8 +305,8 @@ Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) co
         if (to[k - 1].time.end > start) {
             sum += price(to[k - 1].robot);
         }
-        if (sum >= infinity) {
-            return infinity;
+        if (sum >= never) {
+            return never;
         }
     }
     return sum;
@@ -331,11 +330,11 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
             }
         }
     }
-    return std::min(sum, infinity);
+    return std::min(sum, never);
 }
 
 Tick SafeIntervalSearch::price(RobotId robot) const {
-    return prices_.empty() ? infinity : prices_[static_cast<std::size_t>(robot)];
+    return prices_.empty() ? never : prices_[static_cast<std::size_t>(robot)];
 }
 
 // Notes that a state can be reached, unless it is known to be reached as early and as cheaply.

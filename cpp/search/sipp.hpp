@@ -25,7 +25,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,7 +41,7 @@ struct SearchRequest {
     const Trip& trip;
     const BookingTable& bookings;
     std::span<const Tick> prices = {};  // for overlapping a booking of each robot; empty: never
-    Tick limit = infinity;              // tracks that cost more are of no use
+    Tick limit = never;                 // tracks that cost more are of no use
     // Above 0: a good track in a hurry. The way ahead counts so many eighths more, and of the ways
     // to reach a state only that of the least time and prices together is kept.
     Tick greed = 0;
@@ -50,13 +49,11 @@ struct SearchRequest {
 
 class SafeIntervalSearch {
   public:
-    using IsOver = std::function<bool()>;
-
     // Borrows the roads.
     SafeIntervalSearch(const Roads& roads, const BookingRules& rules);
 
     // `is_over` is asked every few hundred states whether to stop.
-    SearchEnd run(const SearchRequest& errand, const IsOver& is_over);
+    SearchEnd run(const SearchRequest& errand, const StopCondition& is_over);
 
     // What the last search found; empty if nothing.
     void track(std::vector<Visit>& visits) const;
@@ -86,13 +83,13 @@ class SafeIntervalSearch {
     };
     static constexpr Slot unused{0, 0, 0, -1};
 
-    SearchEnd search(std::int64_t most_states, const IsOver& is_over);
+    SearchEnd search(std::int64_t most_states, const StopCondition& is_over);
     void begin(const SearchRequest& errand);
     void measure_stages(const Trip& trip);
     Tick least_end() const;
     Tick free_end(std::span<const BookedBy> before) const;
     bool is_worth_aiming() const;
-    SearchEnd aim(const IsOver& is_over);
+    SearchEnd aim(const StopCondition& is_over);
     Tick rest(VertexId vertex, std::int32_t stage) const;
     void expand(std::int32_t node);
     void finish(std::int32_t node);
@@ -116,7 +113,7 @@ class SafeIntervalSearch {
     const Trip* trip_ = nullptr;
     const BookingTable* bookings_ = nullptr;
     std::span<const Tick> prices_;
-    Tick limit_ = infinity;
+    Tick limit_ = never;
     std::vector<Tick> to_go_;      // from each stage's vertex to completion
     std::int32_t first_last_ = 0;  // from this stage on, all are at the last vertex
     std::vector<Node> nodes_;

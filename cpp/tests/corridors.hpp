@@ -39,6 +39,6 @@ inline Roads corridor() { return {4, {{0, 1}, {1, 2}, {2, 3}}}; }
 // 0 - 1 - 2, and a bay, 3, at 1
 inline Roads corridor_with_bay() { return {4, {{0, 1}, {1, 2}, {1, 3}}}; }
 
-inline bool never() { return false; }
+inline bool no_deadline() { return false; }
 
 }  // namespace rightofway::test

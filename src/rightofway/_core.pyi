@@ -1,8 +1,8 @@
 """
 The native kernels: arrays and integers in, arrays and integers out.
 
-``FOREVER`` is the most that one conflict counts, also if it never ends;
-``INFINITY`` is the end of a booking that never ends. [ticks]
+``CONFLICT_CAP`` is the most that one conflict counts, also if it never ends;
+``NEVER`` is the end of a booking that never ends. [ticks]
 """
 
 from collections.abc import Sequence
@@ -12,9 +12,9 @@ import numpy
 from numpy.typing import NDArray
 
 
-FOREVER: int = 4294967296
+CONFLICT_CAP: int = 4294967296
 
-INFINITY: int = 4611686018427387904
+NEVER: int = 4611686018427387904
 
 def compiler() -> str:
     """Return the name and version of what compiled this module."""
@@ -657,7 +657,7 @@ class ActionDependencyGraph:
     first_standstill : int32[R + 1]
         Which standstills of every run are whose.
     standstill_tick, standstill_ticks : int64[S]
-        From when each robot stands still, rising, and how long, ``INFINITY`` for ever. [ticks]
+        From when each robot stands still, rising, and how long, ``NEVER`` for ever. [ticks]
 
     Raises
     ------
@@ -681,12 +681,12 @@ class ActionDependencyGraph:
         Returns
         -------
         completion : int64[K, R]
-            When each robot completes by right of way, ``INFINITY`` for never. [ticks]
+            When each robot completes by right of way, ``NEVER`` for never. [ticks]
         is_broken : uint8[K, R]
             Not 0 where a robot stands still for ever.
         by_right_of_way, by_clock : int64[K, 4]
             Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
-            these begins, ``INFINITY`` for never.
+            these begins, ``NEVER`` for never.
         own, of_others : int64[N]
             Ticks of lateness that began at each visit: of its own robot, of others.
         between : int64[P, 3]
@@ -787,7 +787,7 @@ class PrecedenceGraph:
 
     A visit books its vertex for ``[enter - approach, leave + headway)``. Two bookings of one vertex by
     different robots that overlap are a *vertex conflict* (kind 0); its tick is the start of the
-    overlap, and it counts the overlap's ticks, at most ``FOREVER``. Two robots that exchange two
+    overlap, and it counts the overlap's ticks, at most ``CONFLICT_CAP``. Two robots that exchange two
     vertices at the same tick, without such an overlap at either, are a *swap conflict* (kind 1) at
     that tick, which counts 1.
 

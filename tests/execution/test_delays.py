@@ -10,8 +10,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.execution import CAUSES, delay_model_of, read_delays
 from rightofway.io import load_delays
-from rightofway.model import Scenario
-from rightofway.precedence import NEVER
+from rightofway.model import NEVER, Scenario
 from tests.builders.fleets import grid_fleet
 
 

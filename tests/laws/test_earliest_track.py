@@ -7,8 +7,8 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.model import Rules, Scenario, Tick
-from rightofway.search import FOREVER, Booking, Bookings, Distances, earliest_track
+from rightofway.model import NEVER, Rules, Scenario, Tick
+from rightofway.search import Booking, Bookings, Distances, earliest_track
 from tests.builders.fleets import grid_fleet
 from tests.oracles.sipp import Booked, earliest_completion
 
@@ -33,7 +33,7 @@ def problems(draw: st.DrawFn) -> tuple[Scenario, list[Booked]]:
     for robot in range(draw(st.integers(0, 8))):
         vertex = draw(st.integers(0, scenario.roadmap.n_vertices - 1))
         start = draw(st.integers(-1, 15))
-        end = draw(st.one_of(st.integers(start + 1, start + 8), st.just(FOREVER)))
+        end = draw(st.one_of(st.integers(start + 1, start + 8), st.just(NEVER)))
         if all(b.vertex != vertex or b.end <= start or end <= b.start for b in booked):
             booked.append(Booked(vertex, start, end, draw(st.integers(0, robot))))
     return scenario, booked

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rightofway
-from rightofway.model import Plan, Rules, Tick
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel, DelaySample, Execution
+from rightofway.model import NEVER, Plan, Rules, Tick
+from rightofway.precedence import ActionDependencyGraph, DelayModel, DelaySample, Execution
 from tests.builders.fleets import random_fleet
 from tests.oracles import late_floor
 

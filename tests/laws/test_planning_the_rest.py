@@ -17,8 +17,8 @@ from rightofway.errors import NoPlanExists
 from rightofway.execution.replan import plan_the_rest
 from rightofway.execution.run import run_in_phases
 from rightofway.execution.stop import Rest, breakdown, stop_all
-from rightofway.model import Plan, Rules, Scenario, Tick
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel
+from rightofway.model import NEVER, Plan, Rules, Scenario, Tick
+from rightofway.precedence import ActionDependencyGraph, DelayModel
 from tests.builders.fleets import fleet_on
 from tests.oracles.rest import most_who_can_finish
 

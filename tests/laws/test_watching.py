@@ -14,8 +14,8 @@ import rightofway
 from rightofway.check import check
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import Draw, ExecutionMonitor
-from rightofway.model import Tick
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelayModel, DelaySample
+from rightofway.model import NEVER, Tick
+from rightofway.precedence import ActionDependencyGraph, DelayModel, DelaySample
 from tests.builders.fleets import random_fleet
 from tests.laws.test_late_floor import RULES, oracle_of, some_hazards, some_plan, times
 from tests.oracles import late_floor

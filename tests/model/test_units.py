@@ -4,7 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.model import Clock, choose_clock
+from rightofway import _core
+from rightofway.model import NEVER, Clock, choose_clock
 
 
 @pytest.mark.parametrize(
@@ -35,3 +36,7 @@ def test_the_shortest_duration_has_at_most_1000_ticks_and_the_rest_is_rounded_up
 
 def test_exactly_1000_ticks_for_the_shortest_duration_are_still_exact() -> None:
     assert choose_clock([Fraction(1), Fraction(1001, 1000)]).exact
+
+
+def test_never_is_one_tick_in_both_languages() -> None:
+    assert NEVER == _core.NEVER == 2**62

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from rightofway._core import FOREVER, PrecedenceGraph
+from rightofway._core import CONFLICT_CAP, PrecedenceGraph
+from rightofway.model import NEVER
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-INFINITY = 2**62
 VERTEX, SWAP = 0, 1
 
 
@@ -141,7 +141,7 @@ def conflicts(system: System, enter: Sequence[int]) -> list[Conflict]:
 
 
 def _booking(system: System, enter: Sequence[int], x: int) -> tuple[int, int]:
-    end = INFINITY if system.is_last(x) else enter[x + 1] + system.headway
+    end = NEVER if system.is_last(x) else enter[x + 1] + system.headway
     return enter[x] - system.approach[x], end
 
 
@@ -152,7 +152,7 @@ def _overlap(system: System, enter: Sequence[int], x: int, y: int) -> Iterator[C
     start, end = max(x_start, y_start), min(x_end, y_end)
     if start < end:
         robots = system.robot[x], system.robot[y]
-        yield Conflict(start, *robots, x, y, VERTEX, min(end - start, FOREVER))
+        yield Conflict(start, *robots, x, y, VERTEX, min(end - start, CONFLICT_CAP))
 
 
 def _swap(system: System, enter: Sequence[int], x: int, y: int) -> Iterator[Conflict]:

@@ -14,7 +14,7 @@ namespace {
 
 using Ticks = std::vector<Tick>;
 
-const auto never = [] { return false; };
+const auto no_deadline = [] { return false; };
 
 // Robots that go somewhere and back, again and again: a tick for each vertex, turning one more.
 struct Laps {
@@ -59,7 +59,7 @@ TEST_CASE("at a door one robot waits once and both repeat their laps from then o
     const Laps laps{door, {1, 1}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 10, 40, 80, 1, 32}, CyclicRule::first_come);
-    REQUIRE(run.go_on(never) == CyclicSimulator::End::repeats);
+    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::repeats);
     CHECK((run.cut() - run.came_before()) % 10 == 0);
     CHECK(times(run, 0, 9) == Ticks{0, 1, 2, 3, 4, 6, 7, 8, 9});
     CHECK(times(run, 1, 9) == Ticks{0, 2, 3, 4, 5, 7, 8, 9, 10});
@@ -69,7 +69,7 @@ TEST_CASE("in a fixed order a slower robot may wait at the door for ever") {
     const Laps laps{door, {2, 3}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 20, 120, 240, 1, 32}, CyclicRule::fixed_order);
-    REQUIRE(run.go_on(never) == CyclicSimulator::End::repeats);
+    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::repeats);
     CHECK(run.waits().n_begun(1) < 8);
     CHECK(run.waits().n_begun(0) > 8);
 }
@@ -78,7 +78,7 @@ TEST_CASE("robots that live in each other's corridor are deadlocked, whoever wai
     const Laps laps{{{0, 1, 2, 3}, {3, 2, 1, 0}}, {1, 1}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 8, 32, 64, 1, 32}, CyclicRule::first_come);
-    REQUIRE(run.go_on(never) == CyclicSimulator::End::deadlock);
+    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::deadlock);
     CHECK(run.deadlock().robot_a == 0);
     CHECK(run.deadlock().robot_b == 1);
 }
@@ -89,7 +89,7 @@ TEST_CASE("a run that was stopped goes on as if it had not been") {
     const Horizon pace{0, 20, 120, 240, 1, 32};
     CyclicSimulator whole(laps.arrays(approach), pace, CyclicRule::first_come);
     CyclicSimulator parts(laps.arrays(approach), pace, CyclicRule::first_come);
-    REQUIRE(whole.go_on(never) == CyclicSimulator::End::repeats);
+    REQUIRE(whole.go_on(no_deadline) == CyclicSimulator::End::repeats);
     int asked = 0;
     const auto now_and_then = [&asked] { return ++asked % 2 == 0; };
     int stopped = 0;

@@ -14,7 +14,7 @@ TEST_CASE("who comes the other way takes the other one") {
     const Trips trips = fleet.trips();
     StepTables tables(trips.graph);
     SpaceUtilization paths(trips, tables);
-    REQUIRE(paths.choose(test::never));
+    REQUIRE(paths.choose(test::no_deadline));
     const VertexId first_by = paths.next(0, 0);
     const VertexId second_by = paths.next(1, 2);
     CHECK(first_by + second_by == 4);  // one by 1, one by 3
@@ -28,7 +28,7 @@ TEST_CASE("nobody drives over a robot at the end of its trip if there is another
     const Trips trips = fleet.trips();
     StepTables tables(trips.graph);
     SpaceUtilization paths(trips, tables);
-    REQUIRE(paths.choose(test::never));
+    REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(1, 0) == 3);
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("each leg of a trip has its own path") {
     StepTables tables(trips.graph);
     SpaceUtilization paths(trips, tables);
     CHECK(paths.next(0, 1) == -1);  // none is chosen yet
-    REQUIRE(paths.choose(test::never));
+    REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(0, 1) == 2);
     CHECK(paths.next(1, 1) == 0);
 }
@@ -53,7 +53,7 @@ TEST_CASE("so many legs that there is no time for any have no paths") {
     const Trips trips = fleet.trips();
     StepTables tables(trips.graph);
     SpaceUtilization paths(trips, tables);
-    REQUIRE(paths.choose(test::never));
+    REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(0, 1) == -1);
 }
 

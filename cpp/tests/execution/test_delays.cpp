@@ -98,7 +98,7 @@ TEST_CASE("who is done where it ends stops no more") {
 TEST_CASE("standstills that overlap are one") {
     const ActionDependencyGraph plan = long_way();
     const std::vector<double> pace{1};
-    const Delays delays(plan, pace, {}, {0, 3}, {{2, 10}, {5, 20}, {40, infinity}});
+    const Delays delays(plan, pace, {}, {0, 3}, {{2, 10}, {5, 20}, {40, never}});
     DelaySample out;
     delays.draw(0, 0, out);
     CHECK(out.standstills.size() == 2);

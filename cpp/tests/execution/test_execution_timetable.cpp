@@ -103,16 +103,16 @@ TEST_CASE("robots round a circle with a headway are deadlocked") {
     const ActionDependencyGraph plan = late.plan();
     const ExecutionTimetable timetable(plan);
     CHECK(timetable.deadlocked().size() == 3);
-    CHECK(in_order(late, late.setbacks()).completion == Ticks{infinity, infinity, infinity});
+    CHECK(in_order(late, late.setbacks()).completion == Ticks{never, never, never});
 }
 
 TEST_CASE("who stands still for ever strands those that wait for it") {
     const Late late = following();
     DelaySample setbacks = late.setbacks();
     setbacks.first_standstill = {0, 1, 1};
-    setbacks.standstills = {{1, infinity}};
+    setbacks.standstills = {{1, never}};
     const ActualTimes times = in_order(late, setbacks);
-    CHECK(times.enter == Ticks{0, 1, infinity, 0, infinity, infinity});
+    CHECK(times.enter == Ticks{0, 1, never, 0, never, never});
     CHECK(times.is_broken == std::vector<std::uint8_t>{1, 0});
 }
 

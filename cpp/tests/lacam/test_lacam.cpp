@@ -18,9 +18,9 @@ Tracks plan(test::ClockedFleet& fleet, SearchEnd expected = SearchEnd::found) {
     check(trips);
     StepTables tables(trips.graph);
     SpaceUtilization paths(trips, tables);
-    REQUIRE(paths.choose(test::never));
+    REQUIRE(paths.choose(test::no_deadline));
     Lacam search(trips, tables, paths, 0);
-    CHECK(search.run(test::never, patience) == expected);
+    CHECK(search.run(test::no_deadline, patience) == expected);
     return search.tracks();
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a stage out of reach is noticed") {
     test::ClockedFleet fleet{test::Roads{3, {{0, 1}}}, {{0, {{1}, {2}}}}};
     const Trips trips = fleet.trips();
     StepTables tables(trips.graph);
-    CHECK(reach_all(trips.goals(), tables, test::never) == SearchEnd::proven_none);
+    CHECK(reach_all(trips.goals(), tables, test::no_deadline) == SearchEnd::proven_none);
 }
 
 }  // namespace

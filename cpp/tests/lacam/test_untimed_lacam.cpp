@@ -22,7 +22,7 @@ struct Problem {
         check(roads.graph(), goals);
         StepTables tables(roads.graph());
         UntimedLacam search(roads.graph(), goals, tables, may_rotate, 0);
-        const SearchEnd end = search.run(test::never);
+        const SearchEnd end = search.run(test::no_deadline);
         steps = search.steps();
         return end;
     }

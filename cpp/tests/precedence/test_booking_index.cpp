@@ -41,20 +41,20 @@ TEST_CASE("bookings that only touch do not overlap") {
 TEST_CASE("a robot never disturbs itself") {
     BookingIndex index = at_seven();
     index.set(0, {0, 10});
-    index.set(2, {5, infinity});
+    index.set(2, {5, never});
     CHECK(overlaps(index, 0).empty());
 }
 
 TEST_CASE("an overlap without end counts a large constant, whenever it begins") {
     BookingIndex index = at_seven();
-    index.set(2, {3, infinity});
-    index.set(3, {5, infinity});
-    CHECK(overlaps(index, 2) == std::vector<Overlap>{{3, 5, forever}});
+    index.set(2, {3, never});
+    index.set(3, {5, never});
+    CHECK(overlaps(index, 2) == std::vector<Overlap>{{3, 5, conflict_cap}});
 }
 
 TEST_CASE("a visit without a booking overlaps nothing, not even a booking without end") {
     BookingIndex index = at_seven();
-    index.set(2, {3, infinity});
+    index.set(2, {3, never});
     CHECK(index.booking(3).is_empty());
     CHECK(overlaps(index, 3).empty());
     CHECK(overlaps(index, 2).empty());

@@ -30,7 +30,7 @@ TEST_CASE("rights of way are found from either of their visits") {
     rights.for_each_first(8, [&](VisitId first) { firsts.push_back(first); });
     CHECK(firsts == std::vector<VisitId>{4, 1});
     CHECK(rights.find(1, 8) == 1);
-    CHECK(rights.find(8, 1) == RightsOfWay::none);
+    CHECK(rights.find(8, 1) == none);
 }
 
 TEST_CASE("one that is taken back keeps its place in the order of giving") {

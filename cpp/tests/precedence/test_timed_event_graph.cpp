@@ -18,7 +18,7 @@ struct Events {
     TimedEventGraph arcs() const { return {n_nodes, tail, head, length, height}; }
 };
 
-bool never() { return false; }
+bool no_deadline() { return false; }
 
 // Two robots of two visits each, laps of 5 and 7, and one door: 0 1 | 2 3, visits 1 and 3 there.
 Events door() {
@@ -27,7 +27,7 @@ Events door() {
 
 TEST_CASE("the largest ratio of length to height is the cycle time") {
     const Events events = door();
-    const auto found = critical_circuit(events.arcs(), never);
+    const auto found = critical_circuit(events.arcs(), no_deadline);
     REQUIRE(found);
     // The second robot alone: 1 + 6 in one period; through the other: 1 + 6 + 1 + 3 in three.
     CHECK(found->length == 7);
@@ -37,7 +37,7 @@ TEST_CASE("the largest ratio of length to height is the cycle time") {
 
 TEST_CASE("a ratio is in lowest terms, and no rounding spoils it") {
     const Events events{2, {0, 0, 1}, {0, 1, 0}, {3, 2, 5}, {1, 1, 1}};  // 3 / 1, 7 / 2
-    const auto found = critical_circuit(events.arcs(), never);
+    const auto found = critical_circuit(events.arcs(), no_deadline);
     REQUIRE(found);
     CHECK(found->length == 7);
     CHECK(found->height == 2);
@@ -46,7 +46,7 @@ TEST_CASE("a ratio is in lowest terms, and no rounding spoils it") {
 
 TEST_CASE("a rotation, of length and height zero, is walked round no more than once") {
     const Events events{3, {0, 1, 2, 0}, {1, 2, 0, 0}, {0, 0, 0, 4}, {0, 0, 0, 1}};
-    const auto found = critical_circuit(events.arcs(), never);
+    const auto found = critical_circuit(events.arcs(), no_deadline);
     REQUIRE(found);
     CHECK(found->length == 4);
     CHECK(found->arcs == std::vector<std::int32_t>{3});
@@ -54,7 +54,7 @@ TEST_CASE("a rotation, of length and height zero, is walked round no more than o
 
 TEST_CASE("parts that do not reach each other have the larger of their cycle times") {
     const Events events{3, {0, 1, 2, 1}, {0, 1, 2, 2}, {3, 5, 4, 1}, {1, 1, 1, 0}};
-    const auto found = critical_circuit(events.arcs(), never);
+    const auto found = critical_circuit(events.arcs(), no_deadline);
     REQUIRE(found);
     CHECK(found->length == 5);
     CHECK(found->arcs == std::vector<std::int32_t>{1});
@@ -62,7 +62,7 @@ TEST_CASE("parts that do not reach each other have the larger of their cycle tim
 
 TEST_CASE("nothing that takes time: the cycle time is zero") {
     const Events events{1, {0}, {0}, {0}, {1}};
-    const auto found = critical_circuit(events.arcs(), never);
+    const auto found = critical_circuit(events.arcs(), no_deadline);
     REQUIRE(found);
     CHECK(found->length == 0);
     CHECK(found->arcs.empty());
@@ -70,7 +70,7 @@ TEST_CASE("nothing that takes time: the cycle time is zero") {
 
 TEST_CASE("what can never take place is refused, with its circuit") {
     const Events events{2, {0, 1}, {1, 0}, {2, 0}, {0, 0}};
-    CHECK_THROWS_WITH_AS(critical_circuit(events.arcs(), never),
+    CHECK_THROWS_WITH_AS(critical_circuit(events.arcs(), no_deadline),
                          "height: a circuit of length 2 has height 0, but must have one above 0",
                          std::invalid_argument);
 }
@@ -83,15 +83,15 @@ TEST_CASE("a search that is told to stop has found nothing") {
 
 TEST_CASE("times are the least that keep all arcs, at the cycle time and above") {
     const Events events = door();
-    const auto times = earliest_times(events.arcs(), 7, 1, never);
+    const auto times = earliest_times(events.arcs(), 7, 1, no_deadline);
     REQUIRE(times);
     CHECK(*times == std::vector<Tick>{0, 2, 0, 1});
-    CHECK_FALSE(earliest_times(events.arcs(), 6, 1, never));
+    CHECK_FALSE(earliest_times(events.arcs(), 6, 1, no_deadline));
 }
 
 TEST_CASE("times at a fraction are whole numbers of its parts") {
     const Events events{2, {0, 0, 1}, {0, 1, 0}, {3, 2, 5}, {1, 1, 1}};  // cycle time 7 / 2
-    const auto times = earliest_times(events.arcs(), 7, 2, never);
+    const auto times = earliest_times(events.arcs(), 7, 2, no_deadline);
     REQUIRE(times);
     CHECK(*times == std::vector<Tick>{3, 0});  // 5 - 7/2 = 3/2 after the other
 }

@@ -82,7 +82,7 @@ std::vector<RobotId> in_turn(const Problem& fleet) {
 SearchEnd plan_all(const Problem& fleet, FleetPlan& plan, std::int64_t n_searches) {
     Prioritized planner(fleet, plan);
     planner.start(in_turn(fleet));
-    return planner.run(n_searches, test::never);
+    return planner.run(n_searches, test::no_deadline);
 }
 
 FleetPlan planned(const Problem& fleet) {
@@ -170,10 +170,10 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
         FleetPlan one(fleet);
         FleetPlan two(fleet);
         const bool is_found = PrioritizedPortfolio(fleet, one, in_turn(fleet))
-                                  .run(n_searches, false, test::never, test::never);
+                                  .run(n_searches, false, test::no_deadline, test::no_deadline);
         PrioritizedPortfolio second(fleet, two, in_turn(fleet));
-        second.run(3, true, test::never, test::never);  // and on from there
-        CHECK(second.run(n_searches, true, test::never, test::never) == is_found);
+        second.run(3, true, test::no_deadline, test::no_deadline);  // and on from there
+        CHECK(second.run(n_searches, true, test::no_deadline, test::no_deadline) == is_found);
         if (is_found) {
             CHECK(is_sound(fleet, two));
             CHECK(one.flowtime() == two.flowtime());
@@ -191,12 +191,12 @@ TEST_CASE("planning in turn takes the better one of the patient plan and the one
             FleetPlan alone(fleet);
             Prioritized planner(fleet, alone, is_hasty ? hasty : patient);
             planner.start(in_turn(fleet));
-            REQUIRE(planner.run(1000, test::never) == SearchEnd::found);
+            REQUIRE(planner.run(1000, test::no_deadline) == SearchEnd::found);
             flowtime[is_hasty ? 1 : 0] = alone.flowtime();
         }
         FleetPlan plan(fleet);
         REQUIRE(PrioritizedPortfolio(fleet, plan, in_turn(fleet))
-                    .run(1000, true, test::never, test::never));
+                    .run(1000, true, test::no_deadline, test::no_deadline));
         CHECK(plan.flowtime() == std::min(flowtime[0], flowtime[1]));
         has_either_won[0] |= flowtime[0] < flowtime[1];
         has_either_won[1] |= flowtime[1] < flowtime[0];
@@ -262,7 +262,7 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
     std::vector<FleetPlan> plans(3, first);
     for (std::size_t k = 0; k < plans.size(); ++k) {
         Lns improver(fleet, plans[k], bounds, 5, k + 1);
-        improver.run(300, 1000, test::never, test::never);
+        improver.run(300, 1000, test::no_deadline, test::no_deadline);
         CHECK(improver.n_tasks() == 300);
         CHECK(is_sound(fleet, plans[k]));
         CHECK(plans[k].flowtime() < first.flowtime());
@@ -284,7 +284,8 @@ TEST_CASE("what the caller throws comes back when the plan is whole") {
         return ++n_questions > 2 ? throw std::runtime_error("enough") : false;
     };
     // Each round is shorter than questions are apart.
-    CHECK_THROWS_AS(improver.run(20'000, 1 << 30, interrupt, test::never), std::runtime_error);
+    CHECK_THROWS_AS(improver.run(20'000, 1 << 30, interrupt, test::no_deadline),
+                    std::runtime_error);
     CHECK(is_sound(fleet, plan));
 }
 
@@ -294,12 +295,12 @@ TEST_CASE("a plan that is stuck gets better among others, whatever the number of
     const auto bounds = alone(fleet);
     FleetPlan stuck = planned(fleet);
     Lns alone_for_long(fleet, stuck, bounds, 5, 1);
-    alone_for_long.run(20'000, 1000, test::never, test::never);
+    alone_for_long.run(20'000, 1000, test::no_deadline, test::no_deadline);
     REQUIRE(alone_for_long.n_idle() >= 1000);
     std::vector<FleetPlan> plans(3, stuck);
     for (std::size_t k = 0; k < plans.size(); ++k) {
         Population population(fleet, plans[k], bounds, 5, k + 1, 0);
-        population.run(6'000, 1 << 30, test::never, test::never);
+        population.run(6'000, 1 << 30, test::no_deadline, test::no_deadline);
         CHECK(population.n_tasks() == 6'000);
         CHECK(is_sound(fleet, plans[k]));
         CHECK(plans[k].flowtime() < stuck.flowtime());
@@ -316,7 +317,7 @@ TEST_CASE("one plan comes before a population, and both end when patience does")
     const FleetPlan first = planned(fleet);
     FleetPlan in_one_go = first;
     AnytimeLns whole(fleet, in_one_go, bounds, 5, 1);
-    whole.run(1 << 30, 3000, test::never, test::never);
+    whole.run(1 << 30, 3000, test::no_deadline, test::no_deadline);
     CHECK(whole.n_idle() >= 3000);
     CHECK(whole.n_tasks() < 1 << 30);
     CHECK(is_sound(fleet, in_one_go));
@@ -324,7 +325,7 @@ TEST_CASE("one plan comes before a population, and both end when patience does")
     FleetPlan with_pauses = first;
     AnytimeLns parts(fleet, with_pauses, bounds, 5, 2);
     while (parts.n_idle() < 3000) {
-        parts.run(1 << 30, 3000, test::never, [] { return true; });
+        parts.run(1 << 30, 3000, test::no_deadline, [] { return true; });
     }
     CHECK(parts.n_tasks() == whole.n_tasks());
     CHECK(with_pauses.flowtime() == in_one_go.flowtime());
@@ -341,7 +342,8 @@ TEST_CASE("an interrupted population leaves the best plan, and says who interrup
     const auto interrupt = [&n_questions]() -> bool {
         return ++n_questions > 5 ? throw std::runtime_error("enough") : false;
     };
-    CHECK_THROWS_AS(population.run(1 << 30, 1 << 30, interrupt, test::never), std::runtime_error);
+    CHECK_THROWS_AS(population.run(1 << 30, 1 << 30, interrupt, test::no_deadline),
+                    std::runtime_error);
     CHECK(is_sound(fleet, plan));
     CHECK(plan.flowtime() <= before);
     CHECK(population.n_tasks() < 1 << 30);

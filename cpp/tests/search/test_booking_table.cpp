@@ -46,9 +46,9 @@ TEST_CASE("a robot may book on before its own booking is over") {
 
 TEST_CASE("where bookings overlap, all of them are seen") {
     BookingTable table(1);
-    table.insert(0, {0, infinity}, 4);
+    table.insert(0, {0, never}, 4);
     table.insert(0, {2, 3}, 5);
-    CHECK(table.at(0)[1].reach == infinity);
+    CHECK(table.at(0)[1].reach == never);
     CHECK_FALSE(table.is_free(0, {8, 9}, 5));
     CHECK(table.is_free(0, {8, 9}, 4));
     table.erase(0, 0, 4);

@@ -11,7 +11,7 @@ namespace {
 using Ticks = std::vector<Tick>;
 using Vertices = std::vector<VertexId>;
 
-bool never() { return false; }
+bool no_deadline() { return false; }
 
 // Two ways from 0 to 3: by 1, or by 2; edges of one tick, both directions.
 struct Diamond {
@@ -37,7 +37,7 @@ TEST_CASE("alone, a robot takes a shortest way from the phase it is given") {
     const PeriodicBookings circle(4, 10, 0, false);
     PeriodicSearch search(map.roads(), circle);
     PeriodicRoundTrip found;
-    REQUIRE(search.run(map.trip(), 3, found, never));
+    REQUIRE(search.run(map.trip(), 3, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 1, 3, 1});
     CHECK(found.dwell == Ticks{1, 0, 2, 0});
     CHECK(found.drive == Ticks{1, 1, 1, 1});
@@ -53,7 +53,7 @@ TEST_CASE("where one way is taken for long, it goes the other") {
     circle.add(7, {there, dwell, drive}, Ticks{1, 0 + 10});  // in 1 from 1 to 10, in 3 from 0 to 1
     PeriodicSearch search(map.roads(), circle);
     PeriodicRoundTrip found;
-    REQUIRE(search.run(map.trip(), 0, found, never));
+    REQUIRE(search.run(map.trip(), 0, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 2, 3, 2});
     circle.add(0, {found.vertex, found.dwell, found.drive}, found.enter);
 }
@@ -62,10 +62,10 @@ TEST_CASE("a trip longer than the period has no place, and what must not be ente
     Diamond map;
     PeriodicRoundTrip found;
     const PeriodicBookings tight(4, 6, 0, false);
-    CHECK_FALSE(PeriodicSearch(map.roads(), tight).run(map.trip(), 0, found, never));
+    CHECK_FALSE(PeriodicSearch(map.roads(), tight).run(map.trip(), 0, found, no_deadline));
     const PeriodicBookings circle(4, 7, 0, false);
     map.to_three[1] = map.to_zero[1] = -1;
-    REQUIRE(PeriodicSearch(map.roads(), circle).run(map.trip(), 0, found, never));
+    REQUIRE(PeriodicSearch(map.roads(), circle).run(map.trip(), 0, found, no_deadline));
     CHECK(found.vertex == Vertices{0, 2, 3, 2});
 }
 

@@ -26,7 +26,7 @@ struct Case {
     Vertices stages;
     Ticks work;
     Ticks prices{};
-    Tick limit = infinity;
+    Tick limit = never;
 
     SearchEnd run(FoundTrack& found) const {
         const std::vector<std::int32_t> classes(roads.heads.size(), 0);
@@ -43,7 +43,7 @@ struct Case {
         const Roads all{roads.graph(), classes};
         require_trip(all, trip);
         SafeIntervalSearch search(all, rules);
-        const SearchEnd end = search.run({trip, table, prices, limit}, test::never);
+        const SearchEnd end = search.run({trip, table, prices, limit}, test::no_deadline);
         std::vector<Visit> visits;
         search.track(visits);
         found = {};
@@ -106,7 +106,7 @@ TEST_CASE("two robots do not change places") {
 TEST_CASE("without an end that stays free there is no track, and that is proven") {
     FoundTrack found;
     Case one{test::corridor(), BookingTable(4), {0, false}, 0, {3}, {0}};
-    one.table.book(3, {50, infinity}, 9);
+    one.table.book(3, {50, never}, 9);
     CHECK(one.run(found) == SearchEnd::proven_none);
     CHECK(found.vertices.empty());
 }
@@ -137,7 +137,7 @@ TEST_CASE("at a price a robot stays where somebody else comes, and changes place
     CHECK(found.cost == 6);
     Case other{test::corridor(), BookingTable(4), {0, false}, 0, {2}, {0}};
     other.table.insert(1, {0, 1}, 0);
-    other.table.insert(0, {1, infinity}, 0);
+    other.table.insert(0, {1, never}, 0);
     other.prices = {9};
     CHECK(other.run(found) == SearchEnd::found);
     CHECK(found.enter == Ticks{0, 1, 2});
@@ -166,7 +166,7 @@ TEST_CASE("one object serves many searches") {
     BookingTable bookings(4);
     for (Tick k = 0; k < 1500; ++k) {  // the table of states has to grow on the way
         bookings.book(2, {2 * k + 2, 2 * k + 3}, 5);
-        REQUIRE(search.run({trip, bookings}, test::never) == SearchEnd::found);
+        REQUIRE(search.run({trip, bookings}, test::no_deadline) == SearchEnd::found);
         CHECK(search.completion() == 2 * k + 3);
     }
 }
@@ -197,11 +197,11 @@ TEST_CASE("where somebody else comes to the end late, the search does not look a
         }
     }
     bookings.book(5, {398, 400}, 50);
-    REQUIRE(search.run({trip, bookings}, test::never) == SearchEnd::found);
+    REQUIRE(search.run({trip, bookings}, test::no_deadline) == SearchEnd::found);
     CHECK(search.completion() == 400);
     CHECK(search.n_expanded() < 20);
     const std::int64_t before = search.n_expanded();
-    CHECK(search.run({trip, bookings, {}, 399}, test::never) == SearchEnd::proven_none);
+    CHECK(search.run({trip, bookings, {}, 399}, test::no_deadline) == SearchEnd::proven_none);
     CHECK(search.n_expanded() == before);
 }
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from rightofway.check import check
 from rightofway.cyclic.result import CyclicResult, GroupRun
 from rightofway.errors import GaveUp
-from rightofway.model import Plan, PlannerRun, Track
+from rightofway.model import NEVER, Plan, PlannerRun, Track
 
 __all__ = ["plan_of", "whole_laps"]
 
@@ -71,7 +71,7 @@ def _until(run: CyclicResult) -> int:
     """Return until when the run is worth to be seen [ticks]."""
     worth = (p.transient + 2 * p.period for group in run.groups if (p := group.pattern))
     known = (max(past[-1] for past in group.history) for group in run.groups if not group.pattern)
-    return min([max(worth, default=2**62), *known])
+    return min([max(worth, default=NEVER), *known])
 
 
 def _laps_by(group: GroupRun, index: int, until: int) -> int:

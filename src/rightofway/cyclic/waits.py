@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import CyclicRoute
-from rightofway.model import Tick, VertexId
+from rightofway.model import NEVER, Tick, VertexId
 
 __all__ = ["Bookings", "Conflict"]
 
@@ -98,7 +98,7 @@ class Bookings:
         seen: Sequence[range],
         asked: Sequence[range],
         begins: int = 0,
-        period: int = 2**62,
+        period: int = NEVER,
     ) -> tuple[Conflict, ...]:
         waits = [
             wait

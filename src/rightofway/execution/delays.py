@@ -11,8 +11,8 @@ from typing import Any
 
 from rightofway.errors import InputError
 from rightofway.io.text.exact import exact
-from rightofway.model import Clock, Scenario, Tick
-from rightofway.precedence import NEVER, DelayModel
+from rightofway.model import NEVER, Clock, Scenario, Tick
+from rightofway.precedence import DelayModel
 
 __all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
 

@@ -15,7 +15,8 @@ from rightofway.execution.forecast import Forecast, Times
 from rightofway.execution.online_replanning import replan_online
 from rightofway.execution.reorder import switched
 from rightofway.execution.stop import first_breakdown, with_standstills
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelaySample
+from rightofway.model import NEVER
+from rightofway.precedence import ActionDependencyGraph, DelaySample
 
 __all__ = ["SHARE", "ExecutionMonitor"]
 

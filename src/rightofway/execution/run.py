@@ -15,8 +15,8 @@ from rightofway.execution.stop import (
     stop_all,
     with_standstills,
 )
-from rightofway.model import Tick, Track
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelaySample, Execution
+from rightofway.model import NEVER, Tick, Track
+from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution
 
 __all__ = ["RunResult", "run_in_phases"]
 

@@ -13,8 +13,8 @@ from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.outcome import Collisions, Outcome
 from rightofway.execution.policy import ExecutionPolicy
 from rightofway.execution.tally import Tally
-from rightofway.model import Plan
-from rightofway.precedence import NEVER, ActionDependencyGraph
+from rightofway.model import NEVER, Plan
+from rightofway.precedence import ActionDependencyGraph
 
 __all__ = ["simulate"]
 

@@ -12,8 +12,8 @@ from itertools import accumulate, chain
 
 import numpy as np
 
-from rightofway.model import Route, Scenario, Stage, Tick, VertexId
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelaySample, Execution
+from rightofway.model import NEVER, Route, Scenario, Stage, Tick, VertexId
+from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution
 
 __all__ = ["Rest", "breakdown", "first_breakdown", "served", "stop_all", "with_standstills"]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.outcome import Lateness, PolicyGain, Quantiles, RobotLateness, Source
-from rightofway.model import VertexId
-from rightofway.precedence import NEVER, ActionDependencyGraph, RunBatch
+from rightofway.model import NEVER, VertexId
+from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 __all__ = ["Tally"]
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rightofway.execution.run import RunResult
 from rightofway.metrics.stays import stays_of
-from rightofway.model import ExecutionTrace, Tick, Track
-from rightofway.precedence import NEVER, ActionDependencyGraph, DelaySample
+from rightofway.model import NEVER, ExecutionTrace, Tick, Track
+from rightofway.precedence import ActionDependencyGraph, DelaySample
 
 __all__ = ["trace_after_replanning", "trace_of"]
 

@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.metrics.stays import Stays
-from rightofway.model import Scenario, Tick, Track
+from rightofway.model import NEVER, Scenario, Track
 
-__all__ = ["FOREVER", "Bookings", "bookings_of"]
-
-FOREVER = Tick(2**62)
-"""When a robot's last booking ends."""
+__all__ = ["Bookings", "bookings_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -43,8 +40,8 @@ def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Sta
     lengths = [len(track) for track in tracks]
     last = np.cumsum(lengths) - 1
     enter = np.concatenate([track.enter for track in tracks])
-    end = np.append(enter[1:] + scenario.problem.headway, FOREVER)
-    end[last] = FOREVER
+    end = np.append(enter[1:] + scenario.problem.headway, NEVER)
+    end[last] = NEVER
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), lengths)
     start = enter - _approaches(scenario, stays)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rightofway.metrics.bookings import FOREVER, Bookings, bookings_of
+from rightofway.metrics.bookings import Bookings, bookings_of
 from rightofway.metrics.stays import stays_of
-from rightofway.model import Plan, Scenario, Tick, Track, VertexId
+from rightofway.model import NEVER, Plan, Scenario, Tick, Track, VertexId
 
 __all__ = ["Collision", "collisions", "free_running"]
 
@@ -74,5 +74,5 @@ def _collision(robots: tuple[int, int], vertex: int, start: int, end: int) -> Co
         robots=(min(robots), max(robots)),
         vertex=VertexId(vertex),
         start=Tick(start),
-        end=None if end == FOREVER else Tick(end),
+        end=None if end == NEVER else Tick(end),
     )

@@ -11,9 +11,10 @@ from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
-from rightofway.model.units import Clock, Tick, VertexId, choose_clock
+from rightofway.model.units import NEVER, Clock, Tick, VertexId, choose_clock
 
 __all__ = [
+    "NEVER",
     "Clock",
     "Decision",
     "Edge",

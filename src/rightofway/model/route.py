@@ -10,11 +10,9 @@ import numpy as np
 from rightofway.model.plan import Track
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
-from rightofway.model.units import Tick, VertexId
+from rightofway.model.units import NEVER, Tick, VertexId
 
 __all__ = ["Route", "edge_ticks", "route_along", "route_of", "route_through"]
-
-_FOR_EVER = 2**62
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +77,7 @@ def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[Ver
     vertices
         Where it goes, visit by visit.
     """
-    for_ever = [_FOR_EVER] * len(vertices)
+    for_ever: list[int] = [NEVER] * len(vertices)
     return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, for_ever))
 
 
@@ -98,7 +96,7 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
     drive = np.array(_drives(roadmap, itinerary, vertices), np.int64)
-    spare = [*(np.diff(track.enter) - drive).tolist(), _FOR_EVER]
+    spare = [*(np.diff(track.enter) - drive).tolist(), NEVER]
     return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, spare))
 
 

@@ -15,10 +15,13 @@ from typing import TYPE_CHECKING, NewType
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["MAX_TICKS_OF_SHORTEST", "Clock", "Tick", "VertexId", "choose_clock"]
+__all__ = ["MAX_TICKS_OF_SHORTEST", "NEVER", "Clock", "Tick", "VertexId", "choose_clock"]
 
 Tick = NewType("Tick", int)
 VertexId = NewType("VertexId", int)
+
+NEVER = Tick(2**62)
+"""The tick of what never happens, such as the end of a booking that never ends."""
 
 MAX_TICKS_OF_SHORTEST = 1000
 """The shortest duration of a fleet is at most this many ticks long."""

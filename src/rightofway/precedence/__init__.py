@@ -1,7 +1,6 @@
 """Rights of way between visits, and the earliest timetable that keeps them."""
 
 from rightofway.precedence.adg import (
-    NEVER,
     ActionDependencyGraph,
     DelayModel,
     DelaySample,
@@ -27,7 +26,6 @@ from rightofway.precedence.timed_event_graph import (
 )
 
 __all__ = [
-    "NEVER",
     "ActionDependencyGraph",
     "Arcs",
     "Circuit",

@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Route, Scenario, Tick, Track, route_of
+from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
 
 __all__ = [
-    "NEVER",
     "ActionDependencyGraph",
     "DelayModel",
     "DelaySample",
@@ -31,9 +30,6 @@ __all__ = [
     "RunBatch",
     "order_of",
 ]
-
-NEVER = Tick(_core.INFINITY)
-"""When something happens that never does; how long a robot stands still for ever."""
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay, as the kernel counts them."""

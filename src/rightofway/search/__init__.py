@@ -1,6 +1,6 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
-from rightofway.search.bookings import FOREVER, Booking, Bookings
+from rightofway.search.bookings import Booking, Bookings
 from rightofway.search.congestion import Congestion, CongestionCosts
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch
@@ -13,7 +13,6 @@ from rightofway.search.sipp import earliest_track
 from rightofway.search.untimed_lacam import untimed_lacam
 
 __all__ = [
-    "FOREVER",
     "Booking",
     "Bookings",
     "Congestion",

@@ -7,12 +7,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from rightofway import _core
-from rightofway.model import Itinerary, Roadmap, Tick, Track, edge_ticks
+from rightofway.model import NEVER, Itinerary, Roadmap, Tick, Track, edge_ticks
 
-__all__ = ["FOREVER", "Booking", "Bookings"]
-
-FOREVER = Tick(_core.INFINITY)
-"""The end of a booking that never ends."""
+__all__ = ["Booking", "Bookings"]
 
 
 class Booking(NamedTuple):
@@ -69,7 +66,7 @@ class Bookings:
         vertices, enter = track.vertices.tolist(), track.enter.tolist()
         for visit, vertex in enumerate(vertices):
             last = visit == len(vertices) - 1
-            end = FOREVER if last else Tick(enter[visit + 1] + self.headway)
+            end = NEVER if last else Tick(enter[visit + 1] + self.headway)
             approach = self._approach(vertices, visit, itinerary)
             yield vertex, Booking(Tick(enter[visit] - approach), end, robot)
 

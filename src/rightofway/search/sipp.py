@@ -19,7 +19,7 @@ __all__ = ["earliest_track"]
 
 STOPPED = 2
 
-NEVER = np.zeros(0, np.int64)
+NO_PRICES = np.zeros(0, np.int64)
 """No prices: bookings of others are never overlapped."""
 
 
@@ -71,7 +71,7 @@ def earliest_track(
         np.array([stage.work for stage in stages], np.int64),
         np.array([stage.turn for stage in stages], np.int64),
         [distances.to(stage.vertex, ticks) for stage in stages],
-        NEVER,
+        NO_PRICES,
         time_limit,
     )
     if end == STOPPED:

@@ -9,14 +9,11 @@ from functools import partial
 
 from rightofway.errors import InputError, InputFault
 from rightofway.metrics import collisions, completions_of, free_running, waits
-from rightofway.model import Plan, Roadmap, Scenario, Tick, Track
+from rightofway.model import NEVER, Plan, Roadmap, Scenario, Tick, Track
 from rightofway.viz.table.runs import Span, runs_of
 from rightofway.viz.table.timespace import Mark, Place, Row, RowKind, TimeSpaceTable
 
 __all__ = ["table_of"]
-
-NEVER = 2**62
-"""Later than any tick."""
 
 
 def table_of(
