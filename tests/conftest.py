@@ -17,7 +17,7 @@ SLOW = (
     "conformance/test_mixed_scenarios.py",  # a thousand scenarios
     "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
-    "laws/test_circle_ways.py",
+    "laws/test_periodic_search.py",
     "laws/test_fixed_routes.py",
     "laws/test_io_fuzz.py",
     "laws/test_io_round_trip.py",

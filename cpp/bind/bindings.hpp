@@ -64,7 +64,6 @@ void bind_adg(nb::module_& module);
 void bind_untimed_lacam(nb::module_& module);
 void bind_graph(nb::module_& module);
 void bind_sipp(nb::module_& module);
-void bind_seam(nb::module_& module);
 void bind_congestion(nb::module_& module);
 
 }  // namespace rightofway::bind

@@ -36,6 +36,5 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_untimed_lacam(module);
     rightofway::bind::bind_graph(module);
     rightofway::bind::bind_sipp(module);
-    rightofway::bind::bind_seam(module);
     rightofway::bind::bind_congestion(module);
 }

@@ -1,66 +1,61 @@
 #include "search/periodic_bookings.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "core/reject.hpp"
 
 namespace rightofway {
 namespace {
 
-constexpr Tick longest_period = Tick{1} << 50;
+constexpr Tick longest = Tick{1} << 50;
 
-void require_round(const Round& round, VertexId n_vertices) {
-    require_length("dwell", round.dwell.size(), round.vertex.size());
-    require_length("drive", round.drive.size(), round.vertex.size());
-    if (round.vertex.size() < 2) {
-        reject("vertex", static_cast<std::int64_t>(round.vertex.size()), "visits are too few");
+void require_visits(const Visits& visits, VertexId n_vertices, std::size_t least) {
+    require_length("dwell", visits.dwell.size(), visits.vertex.size());
+    require_length("drive", visits.drive.size(), visits.vertex.size());
+    if (visits.vertex.size() < least) {
+        reject("vertex", static_cast<std::int64_t>(visits.vertex.size()), "visits are too few");
     }
-    for (std::size_t k = 0; k < round.vertex.size(); ++k) {
-        require_id("vertex[" + std::to_string(k) + "]", round.vertex[k], n_vertices);
-        if (round.dwell[k] < 0 || round.dwell[k] > longest_period) {
-            reject_entry("dwell", k, round.dwell[k], "is negative or too long");
+    for (std::size_t k = 0; k < visits.vertex.size(); ++k) {
+        require_id("vertex[" + std::to_string(k) + "]", visits.vertex[k], n_vertices);
+        if (visits.dwell[k] < 0 || visits.dwell[k] > longest) {
+            reject_entry("dwell", k, visits.dwell[k], "is negative or too long");
         }
-        if (round.drive[k] <= 0 || round.drive[k] > longest_period) {
-            reject_entry("drive", k, round.drive[k], "is not above 0, or too long");
+        if (visits.drive[k] <= 0 || visits.drive[k] > longest) {
+            reject_entry("drive", k, visits.drive[k], "is not above 0, or too long");
         }
     }
 }
 
+template <class T>
+void sort_unique(std::vector<T>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 }  // namespace
 
-PeriodicBookings::PeriodicBookings(VertexId n_vertices, Tick period, Tick headway, bool books_ahead)
-    : period_(period), headway_(headway), books_ahead_(books_ahead) {
+PeriodicBookings::PeriodicBookings(VertexId n_vertices, std::optional<Tick> period, Tick headway,
+                                   bool books_ahead)
+    : period_(period.value_or(never)), headway_(headway), books_ahead_(books_ahead) {
     if (n_vertices < 0) {
         reject("n_vertices", n_vertices, "is negative");
     }
-    if (period <= 0 || period > longest_period) {
-        reject("period", period, "is not above 0, or too long");
+    if (period && (*period <= 0 || *period > longest)) {
+        reject("period", *period, "is not above 0, or too long");
     }
-    if (headway < 0 || headway > longest_period) {
+    if (headway < 0 || headway > longest) {
         reject("headway", headway, "is negative or too long");
     }
     at_.resize(static_cast<std::size_t>(n_vertices));
 }
 
-std::vector<PeriodicBookings::Booking>::const_iterator PeriodicBookings::first_from(
-    const std::vector<Booking>& row, Tick tick) {
-    return std::lower_bound(row.begin(), row.end(), tick,
-                            [](const Booking& one, Tick from) { return one.start < from; });
-}
-
 Tick PeriodicBookings::fold(Tick tick) const {
+    if (!has_period()) {
+        return tick;
+    }
     const Tick rest = tick % period_;
     return rest < 0 ? rest + period_ : rest;
-}
-
-// What a visit books, its start turned into the first period.
-PeriodicBookings::Booking PeriodicBookings::folded(const Round& round, std::span<const Tick> enter,
-                                                   std::size_t k, RobotId robot) const {
-    const std::size_t n = round.vertex.size();
-    const Tick leave = k + 1 < n ? enter[k + 1] : enter[0] + period_;
-    const Tick start = enter[k] - (books_ahead_ ? round.drive[k] : 0);
-    const Tick begins = fold(start);
-    return {begins, begins + (leave + headway_ - start), robot};
 }
 
 // Bookings of a vertex begin and end in the same order, so only the two next to a new one matter.
@@ -69,36 +64,44 @@ bool PeriodicBookings::is_free(VertexId vertex, const Booking& booking) const {
     if (row.empty()) {
         return true;
     }
-    const auto next = first_from(row, booking.start);
+    const auto next = std::lower_bound(row.begin(), row.end(), Booking{booking.start, 0, nobody});
     const Tick ends_before = next == row.begin() ? row.back().end - period_ : std::prev(next)->end;
     const Tick starts_next = next == row.end() ? row.front().start + period_ : next->start;
     return ends_before <= booking.start && booking.end <= starts_next;
 }
 
-void PeriodicBookings::add(RobotId robot, const Round& round, std::span<const Tick> enter) {
-    require_round(round, static_cast<VertexId>(at_.size()));
-    require_length("enter", enter.size(), round.vertex.size());
-    if (vertices_of_.contains(robot)) {
+void PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
+                           std::optional<Tick> leave) {
+    require_visits(visits, n_vertices(), has_period() ? 2 : 0);
+    const std::size_t n = visits.vertex.size();
+    require_length("enter", enter.size(), n);
+    if (has_period() && vertices_of_.contains(robot)) {
         reject("robot", robot, "is there already");
     }
-    const std::size_t n = enter.size();
+    if (has_period() == leave.has_value()) {
+        reject("leave", leave.value_or(0), "is needed without a period, and only then");
+    }
+    const Tick last_leave = leave ? *leave : enter[0] + period_;
+    std::vector<Booking> bookings;
     for (std::size_t k = 0; k < n; ++k) {
-        if ((k + 1 < n ? enter[k + 1] : enter[0] + period_) <= enter[k]) {
+        const Tick ends = k + 1 < n ? enter[k + 1] : last_leave;
+        if (ends <= enter[k]) {
             reject_entry("enter", k, enter[k], "is not before the next, or not within a period");
         }
-        if (!is_free(round.vertex[k], folded(round, enter, k, robot))) {
+        const Tick start = enter[k] - approach(visits, k);
+        const Tick folded = fold(start);
+        bookings.push_back({folded, folded + (ends + headway_ - start), robot});
+        if (has_period() && !is_free(visits.vertex[k], bookings.back())) {
             reject_entry("enter", k, enter[k], "overlaps the booking of another robot");
         }
     }
     for (std::size_t k = 0; k < n; ++k) {
-        auto& row = at_[static_cast<std::size_t>(round.vertex[k])];
-        const Booking booking = folded(round, enter, k, robot);
-        row.insert(first_from(row, booking.start), booking);
+        auto& row = at_[static_cast<std::size_t>(visits.vertex[k])];
+        row.insert(std::upper_bound(row.begin(), row.end(), bookings[k]), bookings[k]);
     }
     std::vector<VertexId>& vertices = vertices_of_[robot];
-    vertices.assign(round.vertex.begin(), round.vertex.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    vertices.insert(vertices.end(), visits.vertex.begin(), visits.vertex.end());
+    sort_unique(vertices);
 }
 
 void PeriodicBookings::remove(RobotId robot) {
@@ -113,6 +116,21 @@ void PeriodicBookings::remove(RobotId robot) {
     vertices_of_.erase(found);
 }
 
+std::vector<RobotId> PeriodicBookings::users(std::span<const VertexId> vertices, Tick from,
+                                             Tick to) const {
+    std::vector<RobotId> found;
+    for (const VertexId vertex : vertices) {
+        require_id("vertex", vertex, n_vertices());
+        for (const Booking& one : at_[static_cast<std::size_t>(vertex)]) {
+            if (one.start < to && from < one.end) {
+                found.push_back(one.robot);
+            }
+        }
+    }
+    sort_unique(found);
+    return found;
+}
+
 Tick PeriodicBookings::enters(const Gap& here, const Gap& there, Tick soonest, Tick last,
                               Tick approach) const {
     const Tick enter = there.start == -never ? soonest : std::max(soonest, there.start + approach);
@@ -122,118 +140,141 @@ Tick PeriodicBookings::enters(const Gap& here, const Gap& there, Tick soonest, T
     return enter <= last && fits && !swaps ? enter : never;
 }
 
-bool PeriodicBookings::search(const Round& round, Tick phase, std::vector<Tick>& enter,
-                              const StopCondition& is_over) {
-    require_round(round, static_cast<VertexId>(at_.size()));
-    const std::size_t n = round.vertex.size();
-    rest_.assign(n + 1, 0);
-    for (std::size_t k = n; k-- > 0;) {
-        rest_[k] = rest_[k + 1] + round.dwell[k] + round.drive[(k + 1) % n];
+void PeriodicBookings::prepare(const Visits& visits, std::size_t last) {
+    const std::size_t n = visits.vertex.size();
+    rest_.assign(last + 1, 0);
+    for (std::size_t k = last; k-- > 0;) {
+        rest_[k] = rest_[k + 1] + visits.dwell[k] + visits.drive[(k + 1) % n];
     }
-    stays_.resize(std::max(stays_.size(), n + 1));
+    stays_.resize(std::max(stays_.size(), last + 1));
+    reached_ = 0;
+}
+
+bool PeriodicBookings::search(const Visits& visits, Tick phase, std::vector<Tick>& enter,
+                              const StopCondition& is_over) {
+    if (!has_period()) {
+        reject("period", 0, "is needed for visits that repeat");
+    }
+    require_visits(visits, n_vertices(), 2);
+    prepare(visits, visits.vertex.size());
     if (rest_[0] > period_) {
         return false;
     }
-    const Tick approach = books_ahead_ ? round.drive[0] : 0;
     const Tick first = fold(phase);
     bool is_found = false;
-    reached_ = 0;
-    for_each_gap(round.vertex[0], first, first + period_, [&](const Gap& home) {
-        const Tick start = home.start == -never ? first : home.start + approach;
-        is_found = close_from(round, home, start, enter, is_over);
+    for_each_gap(visits.vertex[0], first, first + period_, [&](const Gap& home) {
+        const Tick start = home.start == -never ? first : home.start + approach(visits, 0);
+        is_found = close_from(visits, home, start, enter, is_over);
         return !is_found;
     });
     return is_found;
 }
 
-// Starts as early in a gap of its home as it can be back there a period later.
-bool PeriodicBookings::close_from(const Round& round, const Gap& home, Tick start,
+// Starts at the earliest tick in a gap of its first vertex that it can repeat a period later.
+bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick start,
                                   std::vector<Tick>& enter, const StopCondition& is_over) {
-    const Tick leaves =
-        home.end == never ? start : home.end - headway_ - round.dwell[0] - round.drive[1];
-    while (start <= leaves && !is_over()) {
-        // Home again at the latest when the last possible start comes again.
-        const Tick again = run(round, home, start, (home.end == never ? start : leaves) + period_);
-        if (again >= never) {
+    const std::size_t n = visits.vertex.size();
+    const Tick latest =
+        home.end == never ? start : home.end - headway_ - visits.dwell[0] - visits.drive[1];
+    while (start <= latest && !is_over()) {
+        // The last visit is the first one again, in the same gap a period later.
+        const auto& last = spread(visits, n, {start, home, none}, latest + period_);
+        const auto again = std::find_if(last.begin(), last.end(), [&](const Stay& stay) {
+            return home.end == never || stay.gap.start == home.start + period_;
+        });
+        if (again == last.end()) {
             return false;
         }
-        if (again <= start + period_) {
-            trace(round, closing_, enter);
+        if (again->enter <= start + period_) {
+            trace(n, *again, enter);
+            enter[0] = again->enter - period_;
+            enter.pop_back();
             return true;
         }
-        start = again - period_;
+        start = again->enter - period_;
     }
     return false;
 }
 
-// When a robot that enters its home at `start` is there again, in the same gap a period later;
-// `never` if it cannot be.
-Tick PeriodicBookings::run(const Round& round, const Gap& home, Tick start, Tick latest) {
-    const std::size_t n = round.vertex.size();
-    for (std::size_t k = 0; k <= n; ++k) {
+bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick leave,
+                               std::vector<Tick>& enter) {
+    require_visits(visits, n_vertices(), 1);
+    const std::size_t last = visits.vertex.size() - 1;
+    prepare(visits, last);
+    std::optional<Gap> first;
+    const Tick start = from - approach(visits, 0);
+    for_each_gap(visits.vertex[0], start, start, [&](const Gap& gap) {
+        if (from + headway_ < gap.end) {
+            first = gap;
+        }
+        return !first;
+    });
+    if (!first) {
+        return false;
+    }
+    const auto& stays = spread(visits, last, {from, *first, none}, until);
+    const auto found = std::find_if(stays.begin(), stays.end(), [&](const Stay& stay) {
+        return stay.enter <= until && (stay.gap.end == never || leave + headway_ <= stay.gap.end);
+    });
+    if (found == stays.end()) {
+        return false;
+    }
+    trace(last, *found, enter);
+    return true;
+}
+
+// The earliest enter into each gap of visit `last` from the first stay on; in time for the last
+// visit to begin by `latest`. Visit n is the first visit again.
+const std::vector<PeriodicBookings::Stay>& PeriodicBookings::spread(const Visits& visits,
+                                                                    std::size_t last,
+                                                                    const Stay& first,
+                                                                    Tick latest) {
+    for (std::size_t k = 0; k <= last; ++k) {
         stays_[k].clear();
     }
-    stays_[0].push_back({start, home, nobody});
-    for (std::size_t k = 0; k < n && !stays_[k].empty(); ++k) {
+    stays_[0].push_back(first);
+    for (std::size_t k = 0; k < last && !stays_[k].empty(); ++k) {
         reached_ = std::max(reached_, k);
+        const std::size_t next = (k + 1) % visits.vertex.size();
+        const Tick ahead = approach(visits, next);
         for (std::size_t from = 0; from < stays_[k].size(); ++from) {
-            go_on(round, k, static_cast<std::int32_t>(from), latest);
-        }
-    }
-    closing_ = nobody;
-    for (std::size_t k = 0; k < stays_[n].size(); ++k) {
-        const Stay& stay = stays_[n][k];
-        if (home.end == never || stay.gap.start == home.start + period_) {
-            closing_ = static_cast<std::int32_t>(k);
-            return stay.enter;
-        }
-    }
-    return never;
-}
-
-// Drives from a stay into every gap of the next vertex that it can enter.
-void PeriodicBookings::go_on(const Round& round, std::size_t k, std::int32_t from, Tick latest) {
-    const std::size_t n = round.vertex.size();
-    const Stay here = stays_[k][static_cast<std::size_t>(from)];
-    const std::size_t next = (k + 1) % n;
-    const Tick soonest = here.enter + round.dwell[k] + round.drive[next];
-    const Tick last =
-        std::min(here.gap.end == never ? never : here.gap.end - headway_, latest - rest_[k + 1]);
-    if (soonest > last) {
-        return;
-    }
-    const Tick approach = books_ahead_ ? round.drive[next] : 0;
-    for_each_gap(round.vertex[next], soonest, last - approach, [&](const Gap& gap) {
-        const Tick enter = enters(here.gap, gap, soonest, last, approach);
-        if (enter < never) {
-            arrive(k + 1, {enter, gap, from});
-        }
-        return true;
-    });
-}
-
-void PeriodicBookings::arrive(std::size_t k, const Stay& stay) {
-    for (Stay& known : stays_[k]) {
-        if (known.gap.start == stay.gap.start && known.gap.end == stay.gap.end) {
-            if (stay.enter < known.enter) {
-                known = stay;
+            const Stay& here = stays_[k][from];
+            const Tick soonest = here.enter + visits.dwell[k] + visits.drive[next];
+            const Tick latest_enter = std::min(
+                here.gap.end == never ? never : here.gap.end - headway_, latest - rest_[k + 1]);
+            if (soonest > latest_enter) {
+                continue;
             }
-            return;
+            for_each_gap(visits.vertex[next], soonest, latest_enter - ahead, [&](const Gap& gap) {
+                const Tick enter = enters(here.gap, gap, soonest, latest_enter, ahead);
+                if (enter == never) {
+                    return true;
+                }
+                const Stay stay{enter, gap, static_cast<std::int32_t>(from)};
+                const auto known = std::find_if(
+                    stays_[k + 1].begin(), stays_[k + 1].end(), [&gap](const Stay& other) {
+                        return other.gap.start == gap.start && other.gap.end == gap.end;
+                    });
+                if (known == stays_[k + 1].end()) {
+                    stays_[k + 1].push_back(stay);
+                } else if (enter < known->enter) {
+                    *known = stay;
+                }
+                return true;
+            });
         }
     }
-    stays_[k].push_back(stay);
+    return stays_[last];
 }
 
-void PeriodicBookings::trace(const Round& round, std::int32_t last,
-                             std::vector<Tick>& enter) const {
-    const std::size_t n = round.vertex.size();
-    enter.resize(n);
-    std::int32_t stay = last;
-    for (std::size_t k = n; k > 0; --k) {
-        const Stay& one = stays_[k][static_cast<std::size_t>(stay)];
-        enter[k % n] = k == n ? one.enter - period_ : one.enter;
-        stay = one.from;
+void PeriodicBookings::trace(std::size_t last, const Stay& stay, std::vector<Tick>& enter) const {
+    enter.resize(last + 1);
+    const Stay* one = &stay;
+    for (std::size_t k = last; k > 0; --k) {
+        enter[k] = one->enter;
+        one = &stays_[k - 1][static_cast<std::size_t>(one->from)];
     }
+    enter[0] = one->enter;
 }
 
 }  // namespace rightofway

@@ -11,16 +11,12 @@ constexpr std::int64_t expansions_between_looks = 512;
 
 }  // namespace
 
-bool PeriodicSearch::Open::operator<(const Open& other) const {
-    if (f != other.f) {
-        return f > other.f;
-    }
-    return enter != other.enter ? enter < other.enter : node > other.node;
-}
-
 PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circle)
     : roads_(roads), circle_(circle), at_(static_cast<std::size_t>(circle.n_vertices()), none) {
     require_length("indptr", roads.graph.indptr.size(), at_.size() + 1);
+    if (!circle.has_period()) {
+        reject("period", 0, "is needed for a trip that repeats");
+    }
 }
 
 // What the visit that serves a stage lasts longer by that.
@@ -86,13 +82,12 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
     nodes_.clear();
     open_.clear();
     goal_ = none;
-    reach({start, home, trip_->home, 0, none, 0, none}, rest(trip_->home, 0));
+    start_ = start;
+    reach({start, home, trip_->home, 0, none, 0, none});
     while (!open_.empty()) {
-        std::pop_heap(open_.begin(), open_.end());
-        const Open top = open_.back();
-        open_.pop_back();
+        const OpenList::Entry top = open_.pop();
         const Node& node = nodes_[static_cast<std::size_t>(top.node)];
-        if (top.enter != node.enter) {
+        if (top.key != key(node)) {  // entered earlier since
             continue;
         }
         const bool is_same_gap =
@@ -148,13 +143,13 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
     circle_.for_each_gap(next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
         const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach);
         if (enter < never) {
-            reach({enter, gap, next, stage, from, ticks, none}, left);
+            reach({enter, gap, next, stage, from, ticks, none});
         }
         return true;
     });
 }
 
-void PeriodicSearch::reach(const Node& node, Tick rest) {
+void PeriodicSearch::reach(const Node& node) {
     std::int32_t& head = at_[static_cast<std::size_t>(node.vertex)];
     for (std::int32_t k = head; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
         Node& known = nodes_[static_cast<std::size_t>(k)];
@@ -164,7 +159,7 @@ void PeriodicSearch::reach(const Node& node, Tick rest) {
                 const std::int32_t next = known.next;
                 known = node;
                 known.next = next;
-                push(k, rest);
+                open_.push(key(known), k);
             }
             return;
         }
@@ -175,13 +170,12 @@ void PeriodicSearch::reach(const Node& node, Tick rest) {
     nodes_.push_back(node);
     nodes_.back().next = head;
     head = static_cast<std::int32_t>(nodes_.size()) - 1;
-    push(head, rest);
+    open_.push(key(nodes_.back()), head);
 }
 
-void PeriodicSearch::push(std::int32_t node, Tick rest) {
-    const Tick enter = nodes_[static_cast<std::size_t>(node)].enter;
-    open_.push_back({enter + rest, enter, node});
-    std::push_heap(open_.begin(), open_.end());
+std::uint64_t PeriodicSearch::key(const Node& node) const {
+    const Tick left = rest(node.vertex, node.stage);
+    return OpenList::key(node.enter + left - start_, left);
 }
 
 void PeriodicSearch::trace(PeriodicRoundTrip& found) const {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/open_list.hpp"
 #include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "problem/trip.hpp"
@@ -22,7 +23,7 @@
 
 namespace rightofway {
 
-// The visits of a trip that was found: as a `Round`, and when each is entered.
+// The visits of a trip that was found: as `Visits`, and when each is entered.
 struct PeriodicRoundTrip {
     std::vector<VertexId> vertex;
     std::vector<Tick> dwell;
@@ -54,20 +55,12 @@ class PeriodicSearch {
         std::int32_t drive;
         std::int32_t next;  // another node of the same vertex
     };
-    struct Open {
-        Tick f;
-        Tick enter;
-        std::int32_t node;
-        // For a heap with the least f first; of these, the nearest to the end.
-        bool operator<(const Open& other) const;
-    };
-
     bool close_from(const PeriodicBookings::Gap& home, Tick start, PeriodicRoundTrip& found);
     Tick earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest);
     void expand(std::int32_t from, Tick latest);
     void drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell, Tick latest);
-    void reach(const Node& node, Tick rest);
-    void push(std::int32_t node, Tick rest);
+    void reach(const Node& node);
+    std::uint64_t key(const Node& node) const;
     Tick rest(VertexId vertex, std::int32_t stage) const;
     Tick dwell_of(std::int32_t stage) const;
     std::int32_t last_stage() const { return static_cast<std::int32_t>(trip_->n_stages()) - 1; }
@@ -79,7 +72,8 @@ class PeriodicSearch {
     const StopCondition* is_over_ = nullptr;
     std::vector<Tick> to_go_;  // from the enter of each stage's vertex to being home again
     std::vector<Node> nodes_;
-    std::vector<Open> open_;
+    OpenList open_;  // least time of return first, then the least rest
+    Tick start_ = 0;
     std::vector<std::int32_t> at_;   // the latest node of each vertex
     std::vector<VertexId> touched_;  // which of these there are
     std::int32_t goal_ = -1;

@@ -21,74 +21,104 @@ def compiler() -> str:
 
 class PeriodicBookings:
     """
-    Who has booked which vertex when, on a circle as long as the period.
+    Bookings of vertices with a period or none, and when one more robot can make given visits.
 
     Parameters
     ----------
     n_vertices : int
         The number of vertices, V.
-    period : int
-        All bookings come again after so long. [ticks]
+    period : int or None
+        All bookings come again after this many ticks; None for a line of time. [ticks]
     headway : int
         How long a vertex stays booked after it was left. [ticks]
     books_ahead : bool
-        Whether a vertex is booked from when a robot starts to drive there.
+        Whether a robot books a vertex from when it starts to drive there.
 
     Raises
     ------
     ValueError
         If a number is out of its range.
+
+    References
+    ----------
+    Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environments*, ICRA 2011.
     """
 
-    def __init__(self, n_vertices: int, period: int, headway: int, books_ahead: bool) -> None: ...
-
-    @property
-    def period(self) -> int:
-        """How long the circle is. [ticks]"""
+    def __init__(self, n_vertices: int, period: int | None, headway: int, books_ahead: bool) -> None: ...
 
     @property
     def reached(self) -> int:
-        """Which visit the last search has reached; at the next one it got stuck."""
-
-    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        Book the visits of a robot.
+        The last visit that the latest search could enter; it got stuck at the next.
+        """
+
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> None:
+        """
+        Book consecutive visits of a robot.
 
         Parameters
         ----------
         robot : int
-            Whose they are.
+            The robot.
         vertex : int32[N]
-            Where its visits of one period are; after the last one the first comes again.
+            The vertex of each visit; with a period, all visits of one period.
         dwell : int64[N]
-            How long each lasts at least, without the drive that follows. [ticks]
+            The least duration of each, without the drive that follows. [ticks]
         drive : int64[N]
             The drive into each. [ticks]
         enter : int64[N]
-            When each begins, rising, within one period. [ticks]
+            When each begins, rising; with a period, all within one. [ticks]
+        leave : int or None
+            When the last one ends; None with a period: when the first one comes again. [ticks]
 
         Raises
         ------
         ValueError
-            If the arrays do not fit together, the robot is there already, or a booking overlaps another
-            robot's. Then nothing is booked.
+            If the arrays do not fit together; with a period also if the robot has bookings already, or a
+            booking overlaps another robot's. Then nothing is booked.
+
+        Notes
+        -----
+        Without a period a robot may book more than once, and overlaps are not checked.
         """
 
     def remove(self, robot: int) -> None:
-        """Take back all bookings of a robot; nothing happens if it has none."""
+        """Remove all bookings of a robot; nothing happens if it has none."""
+
+    def users(self, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int = -4611686018427387904, ends: int = 4611686018427387904) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the robots whose bookings of any of these vertices overlap an interval.
+
+        Parameters
+        ----------
+        vertices : int32[N]
+            The vertices.
+        begins, ends : int
+            The half-open interval. With a period, bookings count in the period that they start in. [ticks]
+
+        Returns
+        -------
+        int32[K]
+            Each robot once, rising.
+
+        Raises
+        ------
+        ValueError
+            If there is no such vertex.
+        """
 
     def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
-        Find when a robot can make its visits among the bookings of others.
+        Find when a robot can repeat its visits among the bookings of others.
 
         Parameters
         ----------
         vertex, dwell, drive : int32[N], int64[N], int64[N]
-            As for ``add``.
+            As for ``add``; needs a period.
         phase : int
-            Where on the circle to begin to look. [ticks]
+            The tick from which on starts are tried. [ticks]
         time_limit : float or None
-            After so many seconds the search stops.
+            The search stops after this many seconds.
 
         Returns
         -------
@@ -98,17 +128,47 @@ class PeriodicBookings:
         Raises
         ------
         ValueError
+            If the arrays do not fit together, or there is no period.
+
+        Notes
+        -----
+        Complete for these visits, unless no other robot visits the first vertex: then only this phase is
+        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        """
+
+    def connect(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int, until: int, leave: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
+        """
+        Find the earliest ticks for visits between two given ones.
+
+        Parameters
+        ----------
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            As for ``add``.
+        begins : int
+            When the first visit begins. [ticks]
+        until : int
+            By when the last visit begins. [ticks]
+        leave : int
+            When the last visit ends. [ticks]
+
+        Returns
+        -------
+        int64[N] or None
+            When each visit begins; None if that is impossible. [ticks]
+
+        Raises
+        ------
+        ValueError
             If the arrays do not fit together.
 
         Notes
         -----
-        Complete for these visits, but where nobody else visits the first vertex: then only this phase is
-        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        Complete for these visits; deterministic.
         """
 
-    def find_way(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
+    def find_route(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
         """
-        Find a way for a round trip, and when to take it, among bookings.
+        Find a route for a round trip, and when to take it, among the bookings of others.
 
         Parameters
         ----------
@@ -119,31 +179,31 @@ class PeriodicBookings:
         pace : int32[C]
             What an edge of each length class takes. [ticks]
         home : int
-            Where the trip begins and ends.
+            The vertex at which the trip begins and ends.
         stage_vertex : int32[S]
-            Where the robot has something to do, in order; the last one is its home.
+            The vertex of each stage, in order; the last one is the home.
         stage_work, stage_turn : int64[S], int64[S]
-            How long it works there, and then turns. [ticks]
+            How long the robot works there, and then turns. [ticks]
         stage_tables : list of int32[V]
             For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
         phase : int
-            Where on the circle to begin to look. [ticks]
+            The tick from which on starts are tried. [ticks]
         time_limit : float or None
-            After so many seconds the search stops.
+            The search stops after this many seconds.
 
         Returns
         -------
         tuple of (int32[N], int64[N], int64[N], int64[N]) or None
-            Vertices, dwells, drives and enters of all visits; None if no way was found. [ticks]
+            Vertices, dwells, drives and enters of all visits; None if no route was found. [ticks]
 
         Raises
         ------
         ValueError
-            If the arrays do not fit together, or a stage cannot be reached.
+            If the arrays do not fit together, a stage cannot be reached, or there is no period.
 
         Notes
         -----
-        Complete among all ways, but where nobody else visits the home: then only this phase is tried. No
+        Complete among all routes, unless no other robot visits the home: then only this phase is tried. No
         trip from this phase is home again earlier. Deterministic. The GIL is released; Ctrl-C is obeyed.
         """
 
@@ -1248,103 +1308,6 @@ def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), o
     -----
     Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.
     """
-
-class Seam:
-    """
-    Who has booked which vertex when, around the seam of a circle, on a line of time.
-
-    Parameters
-    ----------
-    n_vertices : int
-        The number of vertices, V.
-    headway : int
-        How long a vertex stays booked after it was left. [ticks]
-    books_ahead : bool
-        Whether a vertex is booked from when a robot starts to drive there.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range.
-    """
-
-    def __init__(self, n_vertices: int, headway: int, books_ahead: bool) -> None: ...
-
-    @property
-    def reached(self) -> int:
-        """Which visit the last search has reached; at the next one it got stuck."""
-
-    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int) -> None:
-        """
-        Book visits of a robot that follow each other.
-
-        Parameters
-        ----------
-        robot : int
-            Whose they are.
-        vertex : int32[N]
-            Where they are.
-        dwell : int64[N]
-            How long each lasts at least, without the drive that follows. [ticks]
-        drive : int64[N]
-            The drive into each. [ticks]
-        enter : int64[N]
-            When each begins, rising. [ticks]
-        leave : int
-            When the last one ends. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together.
-
-        Notes
-        -----
-        Bookings of different robots must not overlap; that is not looked at.
-        """
-
-    def remove(self, robot: int, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
-        """Take back what a robot has booked at these vertices."""
-
-    def connect(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int, until: int, leave: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
-        """
-        Find when a robot can make visits among the bookings, as early as it can.
-
-        Parameters
-        ----------
-        vertex, dwell, drive : int32[N], int64[N], int64[N]
-            As for ``add``.
-        begins : int
-            When the first one begins. [ticks]
-        until : int
-            By when the last one begins. [ticks]
-        leave : int
-            When that ends. [ticks]
-
-        Returns
-        -------
-        int64[N] or None
-            When each begins; None if there is no way. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together.
-
-        Notes
-        -----
-        Complete for these visits; deterministic.
-        """
-
-    def users(self, vertex: int, begins: int, ends: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """
-        Return who has booked a vertex between two ticks, each once.
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex.
-        """
 
 class Congestion:
     """

@@ -18,7 +18,7 @@ from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, Task
 from tests.builders.fleets import random_fleet
 from tests.laws.test_windows import shift_of
-from tests.oracles import circle as oracle
+from tests.oracles import periodic_bookings as oracle
 
 law = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rotations=False)]

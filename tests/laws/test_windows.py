@@ -18,7 +18,7 @@ from rightofway.cyclic.windows import windows
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline, planning_headway
 from tests.builders.fleets import random_fleet
-from tests.oracles import circle as oracle
+from tests.oracles import periodic_bookings as oracle
 
 law = settings(max_examples=30, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rotations=False)]

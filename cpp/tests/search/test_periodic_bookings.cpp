@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Trip {
 
     explicit Trip(std::vector<VertexId> vertices)
         : vertex(std::move(vertices)), dwell(vertex.size(), 0), drive(vertex.size(), 1) {}
-    Round round() const { return {vertex, dwell, drive}; }
+    Visits visits() const { return {vertex, dwell, drive}; }
 };
 
 bool no_deadline() { return false; }
@@ -26,7 +27,7 @@ TEST_CASE("alone, a robot makes its round at the phase it is given") {
     PeriodicBookings circle(4, 10, 0, false);
     const Trip trip({0, 1, 2, 1});
     Ticks enter;
-    CHECK(circle.search(trip.round(), 3, enter, no_deadline));
+    CHECK(circle.search(trip.visits(), 3, enter, no_deadline));
     CHECK(enter == Ticks{-3, 4, 5, 6});  // home again at 7, and stays there until 13
 }
 
@@ -34,52 +35,52 @@ TEST_CASE("a round longer than the period has no place") {
     PeriodicBookings circle(4, 3, 0, false);
     const Trip trip({0, 1, 2, 1});
     Ticks enter;
-    CHECK_FALSE(circle.search(trip.round(), 0, enter, no_deadline));
+    CHECK_FALSE(circle.search(trip.visits(), 0, enter, no_deadline));
 }
 
 TEST_CASE("the next one waits for the gap that lets it in and out again") {
     PeriodicBookings circle(6, 8, 0, false);
     const Trip one({0, 2, 4, 2});  // in the door 2 from 1 to 2 and from 3 to 4
-    circle.add(0, one.round(), Ticks{-4, 1, 2, 3});
+    circle.add(0, one.visits(), Ticks{-4, 1, 2, 3});
     Trip other({1, 2, 5, 2});
     Ticks enter;
-    REQUIRE(circle.search(other.round(), 0, enter, no_deadline));
-    circle.add(1, other.round(), enter);
+    REQUIRE(circle.search(other.visits(), 0, enter, no_deadline));
+    circle.add(1, other.visits(), enter);
     CHECK(enter == Ticks{-3, 2, 3, 4});
 }
 
 TEST_CASE("what is booked across the seam is booked on both sides of it") {
     PeriodicBookings circle(4, 6, 0, false);
     const Trip one({0, 2});
-    circle.add(0, one.round(), Ticks{2, 5});  // in 2 from 5 to 8: over the seam until 2
+    circle.add(0, one.visits(), Ticks{2, 5});  // in 2 from 5 to 8: over the seam until 2
     const Trip other({1, 2});
     Ticks enter;
-    REQUIRE(circle.search(other.round(), 0, enter, no_deadline));
+    REQUIRE(circle.search(other.visits(), 0, enter, no_deadline));
     CHECK(enter == Ticks{-3, 2});  // from 2 to 3
 }
 
 TEST_CASE("from a home that others pass, the search finds the start that meets itself") {
     PeriodicBookings circle(4, 10, 0, false);
     const Trip passes({0, 1});  // in 1 from 4 to 6
-    circle.add(0, passes.round(), Ticks{-4, 4});
+    circle.add(0, passes.visits(), Ticks{-4, 4});
     Trip lives({1, 2});
     lives.dwell = {0, 6};  // away for 1 + 6 + 1: home for 2 ticks at least
     Ticks enter;
-    REQUIRE(circle.search(lives.round(), 0, enter, no_deadline));
+    REQUIRE(circle.search(lives.visits(), 0, enter, no_deadline));
     // It is home from 6 on, leaves at 7 for 2, and comes back 7 ticks later: then it waits.
-    circle.add(1, lives.round(), enter);
+    circle.add(1, lives.visits(), enter);
     lives.dwell = {0, 9};
     circle.remove(1);
-    CHECK_FALSE(circle.search(lives.round(), 0, enter, no_deadline));
+    CHECK_FALSE(circle.search(lives.visits(), 0, enter, no_deadline));
 }
 
 TEST_CASE("a swap is no way through") {
     PeriodicBookings circle(4, 4, 0, false);
     const Trip one({0, 1});  // in 1 for one tick in four, in 0 for the rest
-    circle.add(0, one.round(), Ticks{-2, 1});
+    circle.add(0, one.visits(), Ticks{-2, 1});
     const Trip against({1, 0});  // would have to be in 0 exactly while the other is in 1
     Ticks enter;
-    CHECK_FALSE(circle.search(against.round(), 0, enter, no_deadline));
+    CHECK_FALSE(circle.search(against.visits(), 0, enter, no_deadline));
     CHECK(circle.reached() == 0);
 }
 
@@ -88,29 +89,103 @@ TEST_CASE("headway and booking ahead keep robots apart") {
     Trip other({1, 2});
     Ticks enter;
     PeriodicBookings headway(3, 6, 2, false);
-    headway.add(0, one.round(), Ticks{-5, 0});  // in 2 from 0 to 1, booked until 3
-    REQUIRE(headway.search(other.round(), 0, enter, no_deadline));
+    headway.add(0, one.visits(), Ticks{-5, 0});  // in 2 from 0 to 1, booked until 3
+    REQUIRE(headway.search(other.visits(), 0, enter, no_deadline));
     CHECK(enter[1] == 3);  // left at 4, booked until 6: that is 1
     PeriodicBookings both(3, 4, 0, true);
-    both.add(0, one.round(), Ticks{-3, 0});  // booked from -1 to 1
-    REQUIRE(both.search(other.round(), 0, enter, no_deadline));
+    both.add(0, one.visits(), Ticks{-3, 0});  // booked from -1 to 1
+    REQUIRE(both.search(other.visits(), 0, enter, no_deadline));
     CHECK(enter[1] == 2);
 }
 
 TEST_CASE("what overlaps, or is no round, is refused and books nothing") {
     PeriodicBookings circle(4, 6, 0, false);
     const Trip one({0, 2});
-    circle.add(0, one.round(), Ticks{-3, 2});
+    circle.add(0, one.visits(), Ticks{-3, 2});
     const Trip other({1, 2});
-    CHECK_THROWS_WITH_AS(circle.add(1, other.round(), Ticks{-3, 2}),
+    CHECK_THROWS_WITH_AS(circle.add(1, other.visits(), Ticks{-3, 2}),
                          "enter[1]: 2 overlaps the booking of another robot",
                          std::invalid_argument);
-    CHECK_THROWS_AS(circle.add(0, one.round(), Ticks{-3, 2}), std::invalid_argument);
-    CHECK_THROWS_AS(circle.add(1, other.round(), Ticks{2, 2}), std::invalid_argument);
+    CHECK_THROWS_AS(circle.add(0, one.visits(), Ticks{-3, 2}), std::invalid_argument);
+    CHECK_THROWS_AS(circle.add(1, other.visits(), Ticks{2, 2}), std::invalid_argument);
     circle.remove(0);
     circle.remove(0);
-    circle.add(1, other.round(), Ticks{-3, 2});
+    circle.add(1, other.visits(), Ticks{-3, 2});
     CHECK_THROWS_AS(PeriodicBookings(4, 0, 0, false), std::invalid_argument);
+}
+
+// Home 0, a corridor 1, a stop 2, and home again; one tick each, and one to turn at the stop.
+struct ThereAndBack {
+    std::vector<VertexId> vertex{0, 1, 2, 1, 0};
+    Ticks dwell{0, 0, 1, 0, 0};
+    Ticks drive{1, 1, 1, 1, 1};
+
+    Visits visits() const { return {vertex, dwell, drive}; }
+};
+
+// One visit of another robot.
+void book(PeriodicBookings& line, RobotId robot, VertexId vertex, Tick enter, Tick leave) {
+    const std::vector<VertexId> vertices{vertex};
+    const Ticks zero{0};
+    const Ticks one{1};
+    const Ticks enters{enter};
+    line.add(robot, {vertices, zero, one}, enters, leave);
+}
+
+TEST_CASE("without a period and others, visits begin as early as they can") {
+    PeriodicBookings line(3, std::nullopt, 0, false);
+    const ThereAndBack trip;
+    Ticks enter;
+    CHECK(line.connect(trip.visits(), 10, 20, 22, enter));
+    CHECK(enter == Ticks{10, 11, 12, 14, 15});
+}
+
+TEST_CASE("a robot waits where it can until others have left, and fails where it comes too late") {
+    PeriodicBookings line(3, std::nullopt, 0, false);
+    const ThereAndBack trip;
+    Ticks enter;
+    book(line, 7, 1, 13, 17);
+    CHECK(line.connect(trip.visits(), 10, 20, 22, enter));
+    CHECK(enter == Ticks{10, 11, 12, 17, 18});
+    CHECK_FALSE(line.connect(trip.visits(), 10, 17, 22, enter));
+    CHECK(line.reached() == 2);
+    CHECK(line.users(std::vector<VertexId>{1}, 0, 100) == std::vector<RobotId>{7});
+    line.remove(7);
+    CHECK(line.connect(trip.visits(), 10, 17, 22, enter));
+}
+
+TEST_CASE("the last visit lasts until its leave") {
+    PeriodicBookings line(3, std::nullopt, 0, false);
+    const ThereAndBack trip;
+    Ticks enter;
+    book(line, 7, 0, 16, 19);
+    CHECK(line.connect(trip.visits(), 10, 20, 22, enter));
+    CHECK(enter.back() == 19);
+    book(line, 8, 0, 20, 21);
+    CHECK_FALSE(line.connect(trip.visits(), 10, 20, 22, enter));
+}
+
+TEST_CASE("two robots do not exchange two vertices on a line of time") {
+    PeriodicBookings line(3, std::nullopt, 0, false);
+    const std::vector<VertexId> back{1, 0};
+    const Ticks zero{0, 0};
+    const Ticks one{1, 1};
+    const Ticks enters{9, 12};
+    line.add(7, {back, zero, one}, enters, 13);
+    const std::vector<VertexId> there{0, 1};
+    Ticks enter;
+    CHECK_FALSE(line.connect({there, zero, one}, 10, 12, 14, enter));
+    CHECK_FALSE(line.connect({there, zero, one}, 10, 14, 15, enter));  // 7 comes before it is gone
+}
+
+TEST_CASE("a line of time refuses what does not fit together, and has no closed tracks") {
+    PeriodicBookings line(3, std::nullopt, 0, false);
+    CHECK_THROWS_WITH(book(line, 7, 3, 1, 2), "vertex[0]: 3 is not in 0..2");
+    CHECK_THROWS_WITH(book(line, 7, 1, 2, 2),
+                      "enter[0]: 2 is not before the next, or not within a period");
+    Ticks enter;
+    CHECK_THROWS_WITH(line.search(ThereAndBack().visits(), 0, enter, no_deadline),
+                      "period: 0 is needed for visits that repeat");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ from rightofway.cyclic.result import GroupRun
 from rightofway.cyclic.visit_times import VisitTimes
 from rightofway.model import Lap, VertexId
 from rightofway.precedence import CyclicSchedule
-from rightofway.search import Seam
+from rightofway.search import PeriodicBookings
 
 __all__ = ["Stretch", "closed", "stretches"]
 
@@ -199,7 +199,9 @@ class _Closing:
         self._period = stretch.period
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
-        self._seam = Seam(shift.n_vertices, headway=shift.headway, books_ahead=shift.books_ahead)
+        self._seam = PeriodicBookings(
+            shift.n_vertices, None, headway=shift.headway, books_ahead=shift.books_ahead
+        )
         rows = zip(run.group, run.history, _homes(run), strict=True)
         self._parts = [
             _Part(
@@ -273,13 +275,14 @@ class _Closing:
     def _find(self, place: int, tries: Iterator[tuple[_Part, int]]) -> set[int] | None:
         """Find a robot its way through the seam; if it finds none, return who was in its way."""
         before, near = self._parts[place], set[int]()
-        self._seam.remove(place, before.lap)  # what it keeps is never in its own way
+        self._seam.remove(place)  # what it keeps is never in its own way
         for part, more in tries:
             found = self._seam.connect(part.lap, more, part.begins, part.until, part.leave)
             if found is not None:
                 self._put(place, replace(part, through=found))
                 return None
-            near |= self._waiting(*self._seam.stuck(part.lap, part.begins, part.leave))
+            vertex = self._seam.stuck_at(part.lap)
+            near |= self._waiting(vertex, self._seam.users([vertex], part.begins, part.leave))
         self._put(place, before)
         return near - {place}
 
@@ -295,7 +298,7 @@ class _Closing:
     def _put(self, place: int, part: _Part) -> None:
         """Book a robot anew."""
         self._parts[place] = part
-        self._seam.remove(place, part.lap)
+        self._seam.remove(place)
         self._keep(place, part)
         self._book_through(place, part)
 
@@ -309,16 +312,18 @@ class _Closing:
         for visits, later in ((before, 0), (after, self._period)):
             if visits:
                 enter = part.past.enters(range(visits.start, visits.stop + 1)) + later
-                self._seam.add(place, part.lap, visits, enter[:-1], int(enter[-1]))
+                self._seam.add_visits(place, part.lap, visits, enter[:-1], int(enter[-1]))
 
     def _book_through(self, place: int, part: _Part) -> None:
         """Book its way through the seam; if that is not known yet, both times that it is home."""
         home = np.array([part.begins, part.until])
         if part.through is not None:
             visits = range(len(part.through))
-            self._seam.add(place, part.lap, visits, part.through, part.leave)
+            self._seam.add_visits(place, part.lap, visits, part.through, part.leave)
         elif part.begins + part.lap.least(0) < part.until:
-            self._seam.add(place, part.lap, range(1), home[:1], part.begins + part.lap.least(0))
-            self._seam.add(place, part.lap, range(1), home[1:], part.leave)
+            self._seam.add_visits(
+                place, part.lap, range(1), home[:1], part.begins + part.lap.least(0)
+            )
+            self._seam.add_visits(place, part.lap, range(1), home[1:], part.leave)
         else:
-            self._seam.add(place, part.lap, range(1), home[:1], part.leave)
+            self._seam.add_visits(place, part.lap, range(1), home[:1], part.leave)

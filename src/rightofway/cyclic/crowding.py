@@ -34,7 +34,7 @@ def _step(shift: CyclicProblem, circle: PeriodicBookings, works: list[Work]) -> 
     count = works[place].count + (shift.draw.randrange(SOMETIMES) > 0)
     if count * shift.alone[place] > circle.period:
         return
-    near = sorted(circle.along(works[place].lap) - {place})
+    near = sorted(circle.users(works[place].lap.vertices) - {place})
     others = shift.draw.sample(near, min(len(near), shift.draw.choice((0, 1, 1, 2))))
     before = {one: works[one] for one in (place, *others)}
     for one in before:

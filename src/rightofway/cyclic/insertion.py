@@ -80,7 +80,8 @@ def _in_the_way(
     """Return a robot to take off, so that another finds its place; None if nobody is left."""
     lap = shift.draw.choice(shift.ways[place])
     circle.search(lap, 1, shift.draw.randrange(int(circle.period)))
-    near = sorted(circle.in_the_way(lap) & works.keys()) or sorted(circle.along(lap))
+    near = sorted(circle.users([circle.stuck_at(lap)]) & works.keys())
+    near = near or sorted(circle.users(lap.vertices))
     return shift.draw.choice(near) if near else None
 
 

@@ -220,7 +220,7 @@ class CyclicProblem:
             return None
         phase = self.draw.randrange(int(circle.period))
         seconds = self.deadline.seconds_left()
-        found = circle.find_way(self.tours[place], phase, time_limit=seconds)
+        found = circle.find_route(self.tours[place], phase, time_limit=seconds)
         if found is None:
             return None
         return Work(found[0], 1, found[1]) if count == 1 else self._on(circle, found[0], count)

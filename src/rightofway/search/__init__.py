@@ -6,9 +6,7 @@ from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch
 from rightofway.search.lacam import plan_by_lacam
 from rightofway.search.native import compiler
-from rightofway.search.periodic_bookings import PeriodicBookings
-from rightofway.search.round_trip import RoundTrip
-from rightofway.search.seam import Seam
+from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip
 from rightofway.search.sipp import earliest_track
 from rightofway.search.untimed_lacam import untimed_lacam
 
@@ -22,7 +20,6 @@ __all__ = [
     "Path",
     "PeriodicBookings",
     "RoundTrip",
-    "Seam",
     "compiler",
     "earliest_track",
     "plan_by_lacam",

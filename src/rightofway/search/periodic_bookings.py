@@ -1,42 +1,118 @@
-"""Bookings on a circle as long as the period, and the next robot's way round it."""
+"""Bookings with a period or none, and when one more robot can make its laps among them.
+
+References
+----------
+Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environments*, ICRA 2011.
+"""
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
+from itertools import takewhile
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Tick, VertexId
-from rightofway.search.round_trip import RoundTrip
+from rightofway.model import NEVER, Itinerary, Lap, Roadmap, Stage, Tick, VertexId
+from rightofway.search.distances import Distances
 
-__all__ = ["PeriodicBookings"]
+__all__ = ["PeriodicBookings", "RoundTrip"]
 
-_Round = tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
+_Visits = tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RoundTrip:
+    """What a robot has to do in one lap, whose route is not chosen yet.
+
+    Attributes
+    ----------
+    roadmap
+        The graph to drive on.
+    pace
+        Ticks for an edge of each length class; int32.
+    stages
+        The stages in order; the last one is home, with the turn there between two laps.
+    tables
+        For each stage the least ticks from every vertex [ticks], -1 where the robot must not go;
+        int32[V].
+    """
+
+    roadmap: Roadmap
+    pace: NDArray[np.int32]
+    stages: tuple[Stage, ...]
+    tables: tuple[NDArray[np.int32], ...]
+
+    @property
+    def home(self) -> VertexId:
+        """The vertex at which it begins and ends."""
+        return self.stages[-1].vertex
+
+    @classmethod
+    def of(
+        cls, itinerary: Itinerary, distances: Distances, *, forbidden: Collection[int] = ()
+    ) -> Self:
+        """Return the round trip of a robot.
+
+        Parameters
+        ----------
+        itinerary
+            The stages of one lap; the last one is at home.
+        distances
+            The tables that guide the search.
+        forbidden
+            Vertices that the robot must not visit.
+        """
+        stages = _with_one_home(itinerary.stages)
+        tables = tuple(distances.to(stage.vertex, itinerary.edge_ticks) for stage in stages)
+        if forbidden:
+            tables = tuple(map(np.copy, tables))
+            for table in tables:
+                table[list(forbidden)] = -1
+        return cls(
+            roadmap=distances.roadmap,
+            pace=np.array(itinerary.edge_ticks, np.int32),
+            stages=stages,
+            tables=tables,
+        )
+
+
+def _with_one_home(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """Return the stages with those at home at the end merged into one."""
+    home = stages[-1].vertex
+    at_home = list(takewhile(lambda stage: stage.vertex == home, reversed(stages)))
+    once = Stage(
+        vertex=home,
+        work=Tick(sum(stage.work for stage in at_home)),
+        turn=Tick(sum(stage.turn for stage in at_home)),
+    )
+    return (*stages[: len(stages) - len(at_home)], once)
 
 
 class PeriodicBookings:
-    """Robots that repeat their laps in one period, and where there is room for one more.
+    """Bookings of robots that repeat their laps, on a circle of time; or on a line of time.
 
     Parameters
     ----------
     n_vertices
         How many vertices the roadmap has.
     period
-        After how many ticks everything comes again.
+        Ticks after which all bookings come again; None for a line of time.
     headway
         Ticks that a vertex stays booked after it was left.
     books_ahead
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     """
 
-    def __init__(self, n_vertices: int, period: Tick, *, headway: Tick, books_ahead: bool) -> None:
-        self.period = period
-        self._kernel = _core.PeriodicBookings(n_vertices, int(period), int(headway), books_ahead)
-        self._users: defaultdict[int, set[int]] = defaultdict(set)
-        self._laps: dict[int, Lap] = {}
+    def __init__(
+        self, n_vertices: int, period: Tick | None, *, headway: Tick, books_ahead: bool
+    ) -> None:
+        self.period = NEVER if period is None else period
+        self._kernel = _core.PeriodicBookings(n_vertices, period, int(headway), books_ahead)
 
     def add(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> None:
         """Book the visits of a robot's laps in one period.
@@ -44,52 +120,66 @@ class PeriodicBookings:
         Raises
         ------
         ValueError
-            If it is there already, or a booking overlaps another robot's.
+            If the robot has bookings already, or a booking overlaps another robot's.
         """
-        self._kernel.add(robot, *_round(lap, count), enter)
-        self._laps[robot] = lap
-        for vertex in lap.vertices:
-            self._users[vertex].add(robot)
+        self._kernel.add(robot, *_visits(lap, count), enter)
+
+    def add_visits(
+        self, robot: int, lap: Lap, visits: range, enter: NDArray[np.int64], leave: int
+    ) -> None:
+        """Book some visits of a robot on a line of time.
+
+        Parameters
+        ----------
+        robot, lap
+            The robot, and what it repeats.
+        visits
+            Which visits, numbered from those of its first lap on.
+        enter, leave
+            When each begins, and when the last one ends [ticks].
+        """
+        place = np.arange(visits.start, visits.stop) % len(lap)
+        vertex, dwell, drive = _visits(lap, 1)
+        begins = np.ascontiguousarray(enter)
+        self._kernel.add(robot, vertex[place], dwell[place], drive[place], begins, int(leave))
 
     def remove(self, robot: int) -> None:
-        """Take back all that a robot has booked."""
+        """Remove all bookings of a robot."""
         self._kernel.remove(robot)
-        for vertex in self._laps.pop(robot).vertices:
-            self._users[vertex].discard(robot)
 
     def search(
         self, lap: Lap, count: int, phase: int, *, time_limit: float | None = None
     ) -> NDArray[np.int64] | None:
-        """Return when a robot can begin each visit of so many laps in one period, or None.
+        """Return when a robot can begin each visit of its laps in one period, or None.
 
         Notes
         -----
-        Complete for this lap, but from a home that nobody else visits: then it stays there until
-        the phase, and None says nothing about others.
+        Complete for this lap, unless no other robot visits its home: then the robot stays there
+        until the phase, and None says nothing about other phases.
         """
-        enter = self._kernel.search(*_round(lap, count), phase, time_limit)
+        enter = self._kernel.search(*_visits(lap, count), phase, time_limit)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
 
-    def find_way(
-        self, tour: RoundTrip, phase: int, *, time_limit: float | None = None
+    def find_route(
+        self, trip: RoundTrip, phase: int, *, time_limit: float | None = None
     ) -> tuple[Lap, NDArray[np.int64]] | None:
-        """Return a way for one lap in a period, and when each visit can begin, or None.
+        """Return one lap in a period on any route, and when each visit can begin, or None.
 
         Notes
         -----
-        Complete among all ways, but as `search` from a home that nobody else visits. From this
-        phase, no way is home again earlier.
+        Complete among all routes, with the exception of `search`. From this phase, no route is
+        home again earlier.
         """
-        found = self._kernel.find_way(
-            tour.roadmap.indptr,
-            tour.roadmap.heads,
-            tour.roadmap.length_class,
-            tour.pace,
-            int(tour.home),
-            np.array([stage.vertex for stage in tour.stages], np.int32),
-            np.array([stage.work for stage in tour.stages], np.int64),
-            np.array([stage.turn for stage in tour.stages], np.int64),
-            list(tour.tables),
+        found = self._kernel.find_route(
+            trip.roadmap.indptr,
+            trip.roadmap.heads,
+            trip.roadmap.length_class,
+            trip.pace,
+            int(trip.home),
+            np.array([stage.vertex for stage in trip.stages], np.int32),
+            np.array([stage.work for stage in trip.stages], np.int64),
+            np.array([stage.turn for stage in trip.stages], np.int64),
+            list(trip.tables),
             phase,
             time_limit,
         )
@@ -103,19 +193,44 @@ class PeriodicBookings:
         )
         return lap, enter - enter[0] // int(self.period) * int(self.period)
 
-    def in_the_way(self, lap: Lap) -> set[int]:
-        """Return the robots that visit the place where the last search, for this lap, got stuck."""
-        return self._users[lap.vertices[(self._kernel.reached + 1) % len(lap)]]
+    def connect(
+        self, lap: Lap, count: int, begins: int, until: int, leave: int
+    ) -> NDArray[np.int64] | None:
+        """Return when the visits of some laps can begin, with the visit home after them, or None.
 
-    def along(self, lap: Lap) -> set[int]:
-        """Return the robots that visit any place of a lap."""
-        return set().union(*(self._users[vertex] for vertex in lap.vertices))
+        Parameters
+        ----------
+        lap, count
+            The lap, and how many of it.
+        begins
+            When the robot comes home before them [ticks].
+        until, leave
+            By when it has to be home again, and until when it stays there then [ticks].
+        """
+        return self._kernel.connect(*_visits_home(lap, count), int(begins), int(until), int(leave))
+
+    def stuck_at(self, lap: Lap) -> VertexId:
+        """Return the vertex that the last search, for this lap, could not enter."""
+        return lap.vertices[(self._kernel.reached + 1) % len(lap)]
+
+    def users(
+        self, vertices: Sequence[VertexId], begins: int = -NEVER, until: int = NEVER
+    ) -> set[int]:
+        """Return the robots that have booked any of these vertices between two ticks."""
+        return set(self._kernel.users(np.array(vertices, np.int32), begins, until).tolist())
 
 
 @lru_cache(maxsize=1 << 14)
-def _round(lap: Lap, count: int) -> _Round:
+def _visits(lap: Lap, count: int) -> _Visits:
     return (
         np.array(lap.vertices * count, np.int32),
         np.array(lap.dwell * count, np.int64),
         np.array(lap.drive * count, np.int64),
     )
+
+
+@lru_cache(maxsize=1 << 14)
+def _visits_home(lap: Lap, count: int) -> _Visits:
+    vertex, dwell, drive = _visits(lap, 1)
+    place = np.append(np.arange(len(lap) * count) % len(lap), 0)
+    return vertex[place], dwell[place], drive[place]

@@ -1,9 +1,10 @@
-"""A robot's way round the circle, tick by tick; and whether a timetable keeps every rule."""
+"""Visits among bookings, by trying every tick; and whether a schedule keeps every rule."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 from rightofway.model import Itinerary, Lap, Roadmap, edge_ticks
 from rightofway.precedence import CyclicSchedule
@@ -82,7 +83,7 @@ def _moves(timetable: CyclicSchedule, robot: int) -> list[tuple[int, int, int]]:
     ]
 
 
-def can_go_round(lap: Lap, others: CyclicSchedule, *, headway: int, books_ahead: bool) -> bool:
+def can_close(lap: Lap, others: CyclicSchedule, *, headway: int, books_ahead: bool) -> bool:
     """Tell whether one lap fits in among others, by trying all starts and all waits, tick by tick.
 
     The robot's state is (visit, ticks since it entered it, up to what it needs there); it must be
@@ -117,7 +118,7 @@ def _taken(
     return free, comes
 
 
-def has_a_way(
+def has_a_route(
     itinerary: Itinerary,
     roadmap: Roadmap,
     others: CyclicSchedule,
@@ -204,3 +205,84 @@ def _closes(
                     later.add(leave)
         at = later
     return start + period in at
+
+
+class Visit(NamedTuple):
+    """A robot is at a vertex."""
+
+    robot: int
+    vertex: int
+    enter: int
+    leave: int
+
+
+class Booked(NamedTuple):
+    """A vertex is a robot's for ``[start, end)``."""
+
+    robot: int
+    vertex: int
+    start: int
+    end: int
+
+
+def _is_free(booked: Sequence[Booked], vertex: int, start: int, end: int) -> bool:
+    return all(one.vertex != vertex or one.end <= start or end <= one.start for one in booked)
+
+
+def earliest(
+    lap: Lap,
+    count: int,
+    booked: Sequence[Booked],
+    *,
+    begins: int,
+    until: int,
+    leave: int,
+    headway: int,
+    books_ahead: bool,
+) -> int | None:
+    """Return when a robot can be home again, by a search over all ticks; None if it cannot."""
+    n, steps = len(lap), len(lap) * count
+    at = {begins}  # all ticks at which it can enter the present visit
+    for step in range(steps + 1):
+        here = step % n
+        approach = lap.drive[here] if books_ahead else 0
+        vertex = lap.vertices[here]
+        if step == steps:
+            fits = [
+                tick
+                for tick in at
+                if tick <= until and _is_free(booked, vertex, tick - approach, leave + headway)
+            ]
+            return min(fits, default=None)
+        following = (step + 1) % n
+        least = lap.dwell[here] + lap.drive[following]
+        then = set()
+        for tick in at:
+            for out in range(tick + least, until + 1):
+                if not _is_free(booked, vertex, tick - approach, out + headway):
+                    break
+                then.add(out)
+        at = then
+    raise AssertionError("the last visit returns")
+
+
+def fits(
+    lap: Lap,
+    enter: Sequence[int],
+    booked: Sequence[Booked],
+    leave: int,
+    *,
+    headway: int,
+    books_ahead: bool,
+) -> bool:
+    """Tell whether visits are as long as they have to be, and nobody is in the way."""
+    n = len(lap)
+    for visit, tick in enumerate(enter):
+        here = visit % n
+        approach = lap.drive[here] if books_ahead else 0
+        end = enter[visit + 1] if visit + 1 < len(enter) else leave
+        if visit + 1 < len(enter) and end - tick < lap.dwell[here] + lap.drive[(visit + 1) % n]:
+            return False
+        if not _is_free(booked, lap.vertices[here], tick - approach, end + headway):
+            return False
+    return True

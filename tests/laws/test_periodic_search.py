@@ -1,4 +1,4 @@
-"""A way on the circle is found exactly where there is one, and it keeps all rules."""
+"""A route on the circle is found exactly where there is one, and it keeps all rules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.periodic import timetable_of
-from tests.oracles import circle as oracle
+from tests.oracles import periodic_bookings as oracle
 
 law = settings(max_examples=60, derandomize=True, deadline=None)
 RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(rotations=False)]
@@ -63,27 +63,27 @@ def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
 
 @law
 @given(st.integers(0, 10**6), st.integers(2, 4), st.sampled_from(RULES))
-def test_a_way_is_found_exactly_where_there_is_one(seed: int, robots: int, rules: Rules) -> None:
+def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rules: Rules) -> None:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
     size = 3 if robots == 2 else 4
     scenario = random_fleet(seed, size=size, robots=robots, rules=rules)
     assume(all(robot.stops[0].at != robot.home for robot in scenario.robots))
     circle, others, laps = crowd(scenario, draw)
     itinerary = scenario.problem.itineraries[0]
-    tour = RoundTrip.of(itinerary, Distances(scenario.roadmap))
+    trip = RoundTrip.of(itinerary, Distances(scenario.roadmap))
     headway, ahead = int(planning_headway(scenario)), scenario.rules.books_ahead
     passed = any(itinerary.home in other.vertices for other in others.laps)
     period = int(circle.period)
-    ways = []
+    routes = []
     for phase in [draw.randrange(period)] if passed else range(period):
-        found, usual = circle.find_way(tour, phase), circle.search(laps[0], 1, phase)
+        found, usual = circle.find_route(trip, phase), circle.search(laps[0], 1, phase)
         if found is not None:
-            ways.append(found)
+            routes.append(found)
         if usual is not None:
             assert found is not None
             if not passed:
                 assert (found[1][0] - phase - 1) % period <= (usual[0] - phase - 1) % period
-    for lap, enter in ways:
+    for lap, enter in routes:
         assert does_its_work(scenario, itinerary, lap)
         whole = replace(
             others,
@@ -95,16 +95,16 @@ def test_a_way_is_found_exactly_where_there_is_one(seed: int, robots: int, rules
         assert oracle.faults(whole, headway=headway, books_ahead=ahead) == []
         circle.add(0, lap, 1, enter)
         circle.remove(0)
-    assert bool(ways) == oracle.has_a_way(
+    assert bool(routes) == oracle.has_a_route(
         itinerary, scenario.roadmap, others, headway=headway, books_ahead=ahead
     )
 
 
-def test_it_does_not_enter_what_is_forbidden() -> None:
+def test_a_route_does_not_enter_forbidden_vertices() -> None:
     scenario = grid_fleet(["...", "...", "..."], [("N0", "N8")])
     itinerary, distances = scenario.problem.itineraries[0], Distances(scenario.roadmap)
     circle = PeriodicBookings(9, Tick(20), headway=Tick(0), books_ahead=False)
     forbidden = {1, 5, 4}
-    found = circle.find_way(RoundTrip.of(itinerary, distances, forbidden=forbidden), 0)
+    found = circle.find_route(RoundTrip.of(itinerary, distances, forbidden=forbidden), 0)
     assert found is not None
     assert found[0].vertices == (0, 3, 6, 7, 8, 7, 6, 3)
