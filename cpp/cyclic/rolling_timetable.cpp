@@ -6,7 +6,10 @@
 namespace rightofway {
 
 RollingTimetable::RollingTimetable(const CyclicRoutes& routes)
-    : routes_(routes), lines_(routes.n_robots()), before_(routes.n_robots()) {
+    : RaiseSearch(CyclicVisit{nobody, 0}),
+      routes_(routes),
+      lines_(routes.n_robots()),
+      before_(routes.n_robots()) {
     const Tick zero = 0;
     for (RobotId r = 0; r < routes.n_robots(); ++r) {
         put(r, 0, std::span(&zero, 1));
@@ -133,7 +136,8 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, Owner owner) {
     const Tick delta = enter(source) + routes_.gap_before(b) - enter(b);
     if (delta > 0 && !spread(b, delta, source)) {
         explain(source);
-        forget_trials();
+        explain_owners();
+        forget_raises();
         return false;
     }
     link(a, b, owner);
@@ -143,65 +147,7 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, Owner owner) {
     return true;
 }
 
-// Tries the raise on all visits that could lead to the source; false as soon as it is reached.
-bool RollingTimetable::spread(CyclicVisit b, Tick delta, CyclicVisit source) {
-    latest_ = enter(source);
-    raise_by(b, delta, {nobody, 0});
-    while (!open_.empty()) {
-        std::pop_heap(open_.begin(), open_.end(), is_later);
-        const Raise top = open_.back();
-        open_.pop_back();
-        if (top.delta < trial(top.visit).raise) {
-            continue;  // raised further since
-        }
-        raise_successors(top.visit);
-        if (trial(source).raise > 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void RollingTimetable::raise_successors(CyclicVisit visit) {
-    if (visit.number < end(visit.robot)) {
-        raise_along(visit, visit.next(), routes_.least(visit));
-    }
-    for (std::int32_t k = node(visit.before()).rights; k != none; k = arcs_[k].next) {
-        raise_along(visit, arcs_[k].second, routes_.gap_before(arcs_[k].second));
-    }
-}
-
-void RollingTimetable::raise_along(CyclicVisit from, CyclicVisit to, Tick length) {
-    const Tick slack = enter(to) - enter(from) - length;
-    const Tick delta = trial(from).raise - slack;
-    if (delta > trial(to).raise) {
-        raise_by(to, delta, from);
-    }
-}
-
-void RollingTimetable::raise_by(CyclicVisit visit, Tick delta, CyclicVisit cause) {
-    Trial& own = trial(visit);
-    if (own.raise == 0) {
-        settled_.push_back(visit);
-    }
-    own = {delta, cause};
-    if (enter(visit) <= latest_) {
-        open_.push_back({delta, visit});
-        std::push_heap(open_.begin(), open_.end(), is_later);
-    }
-}
-
-// Largest raise first; equal raises by visit, so that the order is total.
-bool RollingTimetable::is_later(const Raise& left, const Raise& right) {
-    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
-}
-
-// The causes lead from the source back to b.
-void RollingTimetable::explain(CyclicVisit source) {
-    for (CyclicVisit x = source; x.robot != nobody; x = trial(x).cause) {
-        cycle_.push_back(x);
-    }
-    std::reverse(cycle_.begin(), cycle_.end());
+void RollingTimetable::explain_owners() {
     for (std::size_t k = 1; k < cycle_.size(); ++k) {
         if (cycle_[k - 1].robot != cycle_[k].robot) {
             cycle_owners_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].owner);
@@ -209,17 +155,9 @@ void RollingTimetable::explain(CyclicVisit source) {
     }
 }
 
-void RollingTimetable::forget_trials() {
-    for (const CyclicVisit x : settled_) {
-        trial(x).raise = 0;
-    }
-    settled_.clear();
-    open_.clear();
-}
-
 // What was tried is done; what comes after it is raised now. No raise leads back to what was tried.
 void RollingTimetable::accept() {
-    for (const CyclicVisit x : settled_) {
+    for (const CyclicVisit x : raised_) {
         const Tick delta = trial(x).raise;
         trial(x).raise = 0;
         if (enter(x) > latest_) {
@@ -230,22 +168,18 @@ void RollingTimetable::accept() {
         runs_.push_back({x.robot, x.number, x.number + 1, delta});
         changed_.push_back({x.robot, x.number});
     }
-    settled_.clear();
+    raised_.clear();
     run_on();
 }
 
 void RollingTimetable::push(Tick delta, CyclicVisit visit) {
     pushes_.push_back({delta, visit, enter(visit) + delta});
-    std::push_heap(pushes_.begin(), pushes_.end(), is_smaller);
-}
-
-bool RollingTimetable::is_smaller(const Push& left, const Push& right) {
-    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
+    std::push_heap(pushes_.begin(), pushes_.end());
 }
 
 void RollingTimetable::run_on() {
     while (!pushes_.empty()) {
-        std::pop_heap(pushes_.begin(), pushes_.end(), is_smaller);
+        std::pop_heap(pushes_.begin(), pushes_.end());
         const Push top = pushes_.back();
         pushes_.pop_back();
         const Tick delta = top.enter - enter(top.visit);

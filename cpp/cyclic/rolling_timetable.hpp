@@ -4,13 +4,9 @@
 // it leaves the view. Visits below `frozen` have begun by the cut; nothing delays them any more.
 // The view moves on with the cut; what is in it already is kept, not made anew.
 //
-// A right of way raises times as in `Timetable`: the largest raise first, each visit once, so a
-// cycle of positive length shows when the raise comes back to its source, and the cycle found is
-// the same one. Only visits entered no later than the source can lead there. All that comes after
-// them is raised for good at once, in runs along a route with one delta for all its visits.
-//
-// Reference: S. Cotton and O. Maler, Fast and flexible difference constraint propagation for
-// DPLL(T), SAT 2006.
+// A right of way raises visits as in `Timetable` (raise_search.hpp), up to the enter of its source.
+// Later visits cannot lead back to the source: they are raised for good at once, in runs along a
+// route with one delta for all its visits.
 #pragma once
 
 #include <algorithm>
@@ -22,10 +18,11 @@
 #include "core/prefetch.hpp"
 #include "core/types.hpp"
 #include "cyclic/cyclic_routes.hpp"
+#include "precedence/raise_search.hpp"
 
 namespace rightofway {
 
-class RollingTimetable {
+class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
   public:
     using Owner = std::int64_t;  // what a right of way was given for; later ones are larger
     struct Mark {
@@ -83,6 +80,8 @@ class RollingTimetable {
     std::vector<Changed>& changed() { return changed_; }
 
   private:
+    friend RaiseSearch<RollingTimetable, CyclicVisit>;
+
     struct Node {
         Tick enter;
         std::int32_t rights;  // the latest right of way of this visit over others
@@ -104,14 +103,14 @@ class RollingTimetable {
         std::int32_t next;
         Owner owner;
     };
-    struct Raise {
-        Tick delta;
-        CyclicVisit visit;
-    };
     struct Push {
         Tick delta;
         CyclicVisit visit;
         Tick enter;  // at least
+        // For a heap with the largest delta first.
+        bool operator<(const Push& other) const {
+            return delta != other.delta ? delta < other.delta : visit > other.visit;
+        }
     };
     struct Run {
         RobotId robot;
@@ -135,18 +134,22 @@ class RollingTimetable {
     void forget_rights(Line& line, std::int32_t below);
     void run_freely(RobotId robot, std::int32_t from);
     void tell_changes();
-    bool spread(CyclicVisit b, Tick delta, CyclicVisit source);
-    void raise_successors(CyclicVisit visit);
-    void raise_along(CyclicVisit from, CyclicVisit to, Tick length);
-    void raise_by(CyclicVisit visit, Tick delta, CyclicVisit cause);
-    void explain(CyclicVisit source);
-    void forget_trials();
+    Tick& raise(CyclicVisit visit) { return trial(visit).raise; }
+    CyclicVisit& cause(CyclicVisit visit) { return trial(visit).cause; }
+    template <class Use>
+    void for_each_arc(CyclicVisit visit, Use&& use) const {
+        if (visit.number < end(visit.robot)) {
+            use(visit.next(), routes_.least(visit));
+        }
+        for (std::int32_t k = node(visit.before()).rights; k != none; k = arcs_[k].next) {
+            use(arcs_[k].second, routes_.gap_before(arcs_[k].second));
+        }
+    }
+    void explain_owners();
     void accept();
     void push(Tick delta, CyclicVisit visit);
     void run_on();
     void run_from(CyclicVisit visit, Tick delta);
-    static bool is_later(const Raise& left, const Raise& right);
-    static bool is_smaller(const Push& left, const Push& right);
 
     const CyclicRoutes& routes_;
     Tick begins_ = 0;
@@ -157,13 +160,9 @@ class RollingTimetable {
     std::vector<Run> runs_;
     std::vector<CyclicVisit> given_;  // the first visits of rights of way, in order
     std::vector<Changed> changed_;
-    std::vector<CyclicVisit> cycle_;
     std::vector<Owner> cycle_owners_;
 
     // What a change works on; reused, so that no step allocates.
-    Tick latest_ = 0;
-    std::vector<Raise> open_;                // a heap
-    std::vector<CyclicVisit> settled_;       // touched by a trial
     std::vector<Push> pushes_;               // a heap
     std::vector<std::vector<Tick>> before_;  // per robot
 };

@@ -124,8 +124,8 @@ void Prioritized::raise_prices() {
 }
 
 void Prioritized::evict(RobotId robot) {
-    TimedTrack none;
-    plan_.exchange(robot, none);
+    TimedTrack no_track;
+    plan_.exchange(robot, no_track);
     const Tick dearer = track_prices_.dearer * first_hold(robot);
     prices_[static_cast<std::size_t>(robot)] +=
         static_cast<Tick>(level_ * static_cast<double>(dearer));

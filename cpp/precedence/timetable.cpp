@@ -7,7 +7,8 @@
 namespace rightofway {
 
 Timetable::Timetable(const Routes& routes)
-    : routes_(routes),
+    : RaiseSearch(none),
+      routes_(routes),
       enter_(routes.n_visits(), 0),
       rights_(routes.n_visits()),
       raise_(routes.n_visits(), 0),
@@ -23,7 +24,7 @@ void Timetable::run_freely() {
 }
 
 bool Timetable::precede(VisitId a, VisitId b) {
-    changed_.clear();
+    raised_.clear();
     if (rights_.find(a, b) != none) {
         return true;
     }
@@ -37,10 +38,13 @@ bool Timetable::precede(VisitId a, VisitId b) {
         return false;
     }
     const Tick delta = enter_[source] + routes_.gap_before(b) - enter_[b];
-    if (delta > 0 && !spread(b, delta, source)) {
-        explain(source);
-        forget_raises();
-        return false;
+    if (delta > 0) {
+        if (!spread(b, delta, source)) {
+            explain(source);
+            forget_raises();
+            return false;
+        }
+        spread_on(source);
     }
     journal_.push_back({rights_.give(a, b), true, trail_.size()});
     accept();
@@ -48,7 +52,7 @@ bool Timetable::precede(VisitId a, VisitId b) {
 }
 
 bool Timetable::keep_order(std::span<const Tick> when) {
-    changed_.clear();
+    raised_.clear();
     cycle_.clear();
     const std::vector<Tick> before = enter_;
     const bool is_possible = give_in_order(when) && sweep(when);
@@ -60,7 +64,7 @@ bool Timetable::keep_order(std::span<const Tick> when) {
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         if (enter_[x] != before[x]) {
             trail_.push_back({x, before[x]});
-            changed_.push_back(x);
+            raised_.push_back(x);
         }
     }
     return true;
@@ -127,7 +131,7 @@ bool Timetable::raise_to_held(VisitId visit) {
 }
 
 bool Timetable::take_back(VisitId a, VisitId b) {
-    changed_.clear();
+    raised_.clear();
     const std::int32_t right = rights_.find(a, b);
     if (right == none) {
         return false;
@@ -150,94 +154,6 @@ bool Timetable::closes_swap(VisitId a, VisitId b) const {
     return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != none;
 }
 
-// Raises b and all that follows from it; false as soon as the raise reaches the source. No arc
-// leads back in time, so only visits entered no later than the source can lead to it. They come
-// first, and all others wait until it is known that there is no cycle: a refusal stays cheap.
-bool Timetable::spread(VisitId b, Tick delta, VisitId source) {
-    latest_ = enter_[source];
-    raise_by(b, delta, none);
-    if (!settle(source)) {
-        return false;
-    }
-    latest_ = never;
-    open_.swap(deferred_);
-    std::make_heap(open_.begin(), open_.end(), is_later);
-    return settle(source);
-}
-
-bool Timetable::settle(VisitId source) {
-    while (!open_.empty()) {
-        std::pop_heap(open_.begin(), open_.end(), is_later);
-        const Raise top = open_.back();
-        open_.pop_back();
-        if (top.delta < raise_[top.visit]) {
-            continue;  // raised further since
-        }
-        raise_successors(top.visit);
-        if (raise_[source] > 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void Timetable::raise_successors(VisitId visit) {
-    if (!routes_.is_last(visit)) {
-        raise_along(visit, visit + 1, routes_.least(visit));
-    }
-    if (routes_.is_first(visit)) {
-        return;
-    }
-    rights_.for_each_second(visit - 1, [this, visit](VisitId second) {
-        raise_along(visit, second, routes_.gap_before(second));
-    });
-}
-
-void Timetable::raise_along(VisitId from, VisitId to, Tick length) {
-    const Tick slack = enter_[to] - enter_[from] - length;
-    const Tick delta = raise_[from] - slack;
-    if (delta > raise_[to]) {
-        raise_by(to, delta, from);
-    }
-}
-
-void Timetable::raise_by(VisitId visit, Tick delta, VisitId cause) {
-    if (raise_[visit] == 0) {
-        changed_.push_back(visit);
-    }
-    raise_[visit] = delta;
-    cause_[visit] = cause;
-    if (enter_[visit] > latest_) {
-        deferred_.push_back({delta, visit});
-        return;
-    }
-    open_.push_back({delta, visit});
-    std::push_heap(open_.begin(), open_.end(), is_later);
-}
-
-// Largest raise first; equal raises by visit, so that the order is total.
-bool Timetable::is_later(const Raise& left, const Raise& right) {
-    return left.delta != right.delta ? left.delta < right.delta : left.visit > right.visit;
-}
-
-// The causes lead from the source back to b.
-void Timetable::explain(VisitId source) {
-    cycle_.clear();
-    for (VisitId x = source; x != none; x = cause_[x]) {
-        cycle_.push_back(x);
-    }
-    std::reverse(cycle_.begin(), cycle_.end());
-}
-
-void Timetable::forget_raises() {
-    for (const VisitId x : changed_) {
-        raise_[x] = 0;
-    }
-    changed_.clear();
-    open_.clear();
-    deferred_.clear();
-}
-
 // Lets b, and all that it held, fall. Visits of one instant may hold each other (a rotation), so
 // they fall together.
 void Timetable::lower(VisitId b) {
@@ -248,7 +164,7 @@ void Timetable::lower(VisitId b) {
         for (const VisitId x : instant_) {
             is_in_instant_[x] = 0;
             if (raise_[x] < 0) {
-                changed_.push_back(x);
+                raised_.push_back(x);
                 let_followers_fall(x);
             }
         }
@@ -319,20 +235,15 @@ Tick Timetable::held_to(VisitId visit) const {
 
 // Those that a visit held at its old time, and that come later.
 void Timetable::let_followers_fall(VisitId visit) {
-    const auto let_fall_if_held = [this, visit](VisitId next, Tick length) {
+    for_each_arc(visit, [this, visit](VisitId next, Tick length) {
         if (length > 0 && enter_[next] == enter_[visit] + length) {
             let_fall(next);
         }
-    };
-    if (!routes_.is_last(visit)) {
-        let_fall_if_held(visit + 1, routes_.least(visit));
-    }
-    rights_.for_each_second(
-        visit - 1, [&](VisitId second) { let_fall_if_held(second, routes_.gap_before(second)); });
+    });
 }
 
 void Timetable::accept() {
-    for (const VisitId x : changed_) {
+    for (const VisitId x : raised_) {
         trail_.push_back({x, enter_[x]});
         enter_[x] += raise_[x];
         raise_[x] = 0;
@@ -340,7 +251,7 @@ void Timetable::accept() {
 }
 
 void Timetable::rollback(std::size_t n_changes) {
-    changed_.clear();
+    raised_.clear();
     if (n_changes >= journal_.size()) {
         return;
     }
@@ -395,10 +306,10 @@ void Timetable::restore_enters(std::size_t trail_length) {
         enter_[old.visit] = old.enter;
         if (raise_[old.visit] == 0) {  // the first time we meet it
             raise_[old.visit] = 1;
-            changed_.push_back(old.visit);
+            raised_.push_back(old.visit);
         }
     }
-    for (const VisitId x : changed_) {
+    for (const VisitId x : raised_) {
         raise_[x] = 0;
     }
 }

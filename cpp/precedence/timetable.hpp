@@ -4,17 +4,10 @@
 // to its next; "a goes before b" is an arc from the visit after a (its enter is a's leave) to b.
 // Enter is the least solution of enter[q] >= enter[p] + length(p, q).
 //
-// A new arc into b raises b by some delta. Because the old times satisfy every old arc, a raise
-// only shrinks along a path, by the slack of each arc. So visits are settled by the largest raise
-// first, each of them once: Dijkstra's algorithm on raises instead of distances. And the new arc
-// u -> b closes a cycle of positive length, a deadlock, exactly if the raise of b reaches u. All
-// this happens on the side; times change only when the arc is accepted.
+// A new arc raises visits (raise_search.hpp); times change only when the arc is accepted.
 //
 // When an arc is taken back, the visits that it held fall to what else holds them, in the order of
 // their old times: no arc leads back in time, so whatever holds a visit has fallen before.
-//
-// Reference: S. Cotton and O. Maler, Fast and flexible difference constraint propagation for
-// DPLL(T), SAT 2006.
 #pragma once
 
 #include <cstddef>
@@ -23,12 +16,13 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "precedence/raise_search.hpp"
 #include "precedence/rights_of_way.hpp"
 #include "precedence/routes.hpp"
 
 namespace rightofway {
 
-class Timetable {
+class Timetable : private RaiseSearch<Timetable, VisitId> {
   public:
     // The routes are borrowed and must outlive this. At first every robot runs freely from tick 0.
     explicit Timetable(const Routes& routes);
@@ -76,13 +70,11 @@ class Timetable {
     void rollback(std::size_t n_changes);
 
     // The visits whose enter the last change or rollback changed, each once.
-    std::span<const VisitId> changed() const { return changed_; }
+    std::span<const VisitId> changed() const { return raised_; }
 
   private:
-    struct Raise {
-        Tick delta;
-        VisitId visit;
-    };
+    friend RaiseSearch<Timetable, VisitId>;
+
     struct OldEnter {
         VisitId visit;
         Tick enter;
@@ -97,12 +89,18 @@ class Timetable {
     bool give_in_order(std::span<const Tick> when);
     bool sweep(std::span<const Tick> when);
     bool raise_to_held(VisitId visit);
-    bool spread(VisitId b, Tick delta, VisitId source);
-    bool settle(VisitId source);
-    void raise_successors(VisitId visit);
-    void raise_along(VisitId from, VisitId to, Tick length);
-    void raise_by(VisitId visit, Tick delta, VisitId cause);
-    void explain(VisitId source);
+    Tick& raise(VisitId visit) { return raise_[visit]; }
+    VisitId& cause(VisitId visit) { return cause_[visit]; }
+    template <class Use>
+    void for_each_arc(VisitId visit, Use&& use) const {
+        if (!routes_.is_last(visit)) {
+            use(visit + 1, routes_.least(visit));
+        }
+        if (!routes_.is_first(visit)) {
+            rights_.for_each_second(
+                visit - 1, [&](VisitId second) { use(second, routes_.gap_before(second)); });
+        }
+    }
     VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
     void lower(VisitId b);
     void gather_instant();
@@ -112,9 +110,7 @@ class Timetable {
     Tick held_to(VisitId visit) const;
     void accept();
     void run_freely();
-    void forget_raises();
     void restore_enters(std::size_t trail_length);
-    static bool is_later(const Raise& left, const Raise& right);
 
     const Routes& routes_;
     std::vector<Tick> enter_;
@@ -123,16 +119,11 @@ class Timetable {
     std::vector<OldEnter> trail_;  // every enter that was ever overwritten
 
     // What a change works on; reused, so that no step allocates.
-    std::vector<Tick> raise_;      // per visit, 0 if untouched; below 0 where a visit falls
-    std::vector<VisitId> cause_;   // per raised visit: whose raise raised it
-    std::vector<Raise> open_;      // a heap
-    std::vector<Raise> deferred_;  // visits entered after latest_
-    Tick latest_ = never;
+    std::vector<Tick> raise_;       // per visit, 0 if untouched; below 0 where a visit falls
+    std::vector<VisitId> cause_;    // per raised visit: whose raise raised it
     std::vector<VisitId> falling_;  // a heap
     std::vector<VisitId> instant_;  // those that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;
-    std::vector<VisitId> changed_;
-    std::vector<VisitId> cycle_;
 };
 
 }  // namespace rightofway

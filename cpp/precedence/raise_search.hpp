@@ -1,0 +1,127 @@
+// What a new arc raises in a graph of longest paths, and whether it closes a cycle.
+//
+// S. Cotton and O. Maler, Fast and flexible difference constraint propagation for DPLL(T), SAT
+// 2006.
+//
+// Every visit is a node whose value is its enter, the least solution of
+// enter[q] >= enter[p] + length(p, q). A new arc into b raises b by some delta. The old times
+// satisfy every old arc, so a raise only shrinks along a path, by the slack of each arc. Visits are
+// therefore settled by the largest raise first, each once: Dijkstra's algorithm on raises. The new
+// arc u -> b closes a cycle of positive length, a deadlock, exactly if the raise of b reaches u.
+// Times do not change here: the derived class accepts the raises, or forgets them.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace rightofway {
+
+// The derived class has, for the present times and the raises on trial:
+//   Tick enter(Visit) const;
+//   Tick& raise(Visit);             0 if the visit is not raised
+//   Visit& cause(Visit);            the visit whose raise raised it, or no_cause
+//   void for_each_arc(Visit, use);  use(Visit to, Tick length) for each arc from a visit
+template <class Derived, class Visit>
+class RaiseSearch {
+  protected:
+    explicit RaiseSearch(Visit no_cause) : no_cause_(no_cause) {}
+
+    // Raises b and what follows from it; false as soon as the raise reaches the source of the new
+    // arc. No arc leads back in time, so only visits entered no later than the source can lead to
+    // it. They come first; raises of later visits are noted but not followed.
+    bool spread(Visit b, Tick delta, Visit source) {
+        latest_ = self().enter(source);
+        raise_by(b, delta, no_cause_);
+        return settle(source);
+    }
+
+    // Follows the raises of later visits, after a spread that did not reach the source.
+    void spread_on(Visit source) {
+        for (const Visit visit : raised_) {
+            if (self().enter(visit) > latest_) {
+                open(self().raise(visit), visit);
+            }
+        }
+        latest_ = never;
+        settle(source);
+    }
+
+    // The cycle that a refused arc would have closed, from b to the source: along the causes.
+    void explain(Visit source) {
+        cycle_.clear();
+        for (Visit visit = source; visit != no_cause_; visit = self().cause(visit)) {
+            cycle_.push_back(visit);
+        }
+        std::reverse(cycle_.begin(), cycle_.end());
+    }
+
+    void forget_raises() {
+        for (const Visit visit : raised_) {
+            self().raise(visit) = 0;
+        }
+        raised_.clear();
+        open_.clear();
+    }
+
+    Tick latest_ = never;
+    std::vector<Visit> raised_;  // each once
+    std::vector<Visit> cycle_;
+
+  private:
+    struct Raise {
+        Tick delta;
+        Visit visit;
+        // For a heap with the largest raise first; equal ones by visit, so that the order is total.
+        bool operator<(const Raise& other) const {
+            return delta != other.delta ? delta < other.delta : visit > other.visit;
+        }
+    };
+
+    Derived& self() { return static_cast<Derived&>(*this); }
+
+    bool settle(Visit source) {
+        while (!open_.empty()) {
+            std::pop_heap(open_.begin(), open_.end());
+            const Raise top = open_.back();
+            open_.pop_back();
+            if (top.delta < self().raise(top.visit)) {
+                continue;  // raised further since
+            }
+            self().for_each_arc(top.visit, [&](Visit to, Tick length) {
+                const Tick slack = self().enter(to) - self().enter(top.visit) - length;
+                const Tick delta = self().raise(top.visit) - slack;
+                if (delta > self().raise(to)) {
+                    raise_by(to, delta, top.visit);
+                }
+            });
+            if (self().raise(source) > 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    void raise_by(Visit visit, Tick delta, Visit cause) {
+        if (self().raise(visit) == 0) {
+            raised_.push_back(visit);
+        }
+        self().raise(visit) = delta;
+        self().cause(visit) = cause;
+        if (self().enter(visit) <= latest_) {
+            open(delta, visit);
+        }
+    }
+
+    void open(Tick delta, Visit visit) {
+        open_.push_back({delta, visit});
+        std::push_heap(open_.begin(), open_.end());
+    }
+
+    Visit no_cause_;
+    std::vector<Raise> open_;  // a heap
+};
+
+}  // namespace rightofway
