@@ -4,7 +4,14 @@ from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, s
 from rightofway.model.lap import Lap, lap_of
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
-from rightofway.model.roadmap import Edge, Grid, Roadmap, roadmap_of_edges, roadmap_of_grid
+from rightofway.model.roadmap import (
+    Edge,
+    Grid,
+    Roadmap,
+    roadmap_of_edges,
+    roadmap_of_grid,
+    straight_length,
+)
 from rightofway.model.robot import Robot, Stop, TripEnd, Turn
 from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
@@ -54,4 +61,5 @@ __all__ = [
     "route_of",
     "route_through",
     "steps_per_unit",
+    "straight_length",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -11,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.model.units import VertexId
+from rightofway.model.units import DIGITS, VertexId
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Edge", "Grid", "Roadmap", "roadmap_of_edges", "roadmap_of_grid"]
+__all__ = ["Edge", "Grid", "Roadmap", "roadmap_of_edges", "roadmap_of_grid", "straight_length"]
 
 FREE = frozenset(".GS")
 """Grid characters that a robot may stand on; every other one is blocked."""
@@ -325,3 +326,28 @@ def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) 
     if (edge.tail, edge.head) in seen:
         return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
     return None
+
+
+def straight_length(tail: tuple[Fraction, Fraction], head: tuple[Fraction, Fraction]) -> Fraction:
+    """Return the straight distance between two positions, if it is a fraction.
+
+    Raises
+    ------
+    InputError
+        If it is none, or one of too many digits.
+
+    Examples
+    --------
+    >>> zero, three, four = Fraction(0), Fraction(3, 10), Fraction(4, 10)
+    >>> straight_length((zero, zero), (three, four))
+    Fraction(1, 2)
+    """
+    square = (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
+    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    if length == 0 and square == 0:
+        raise InputError.at("", "has no length, its ends are at one position (give a length)")
+    if length**2 != square or max(length.numerator, length.denominator) > 10**DIGITS:
+        about = f"about {math.sqrt(square):.4g}"
+        message = f"the straight distance, {about}, is no fraction that can be kept (give a length)"
+        raise InputError.at("", message)
+    return length

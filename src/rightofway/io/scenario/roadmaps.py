@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError
 from rightofway.io.faults import Faults
-from rightofway.io.text.exact import DIGITS
 from rightofway.io.words import nearest
-from rightofway.model import Edge, Roadmap, roadmap_of_edges
+from rightofway.model import Edge, Roadmap, roadmap_of_edges, straight_length
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import EdgeDocument, RoadmapDocument
 
-__all__ = ["drawn_roadmap", "straight_length"]
+__all__ = ["drawn_roadmap"]
 
 Positions = Mapping[str, tuple[Fraction, Fraction]]
 
@@ -65,28 +62,3 @@ def _check_ends(edge: EdgeDocument, positions: Positions) -> None:
     if edge.tail == edge.head:
         faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
     faults.stop()
-
-
-def straight_length(tail: tuple[Fraction, Fraction], head: tuple[Fraction, Fraction]) -> Fraction:
-    """Return the straight distance between two positions, if it is a fraction.
-
-    Raises
-    ------
-    InputError
-        If it is none, or one of too many digits.
-
-    Examples
-    --------
-    >>> zero, three, four = Fraction(0), Fraction(3, 10), Fraction(4, 10)
-    >>> straight_length((zero, zero), (three, four))
-    Fraction(1, 2)
-    """
-    square = (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
-    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if length == 0 and square == 0:
-        raise InputError.at("", "has no length, its ends are at one position (give a length)")
-    if length**2 != square or max(length.numerator, length.denominator) > 10**DIGITS:
-        about = f"about {math.sqrt(square):.4g}"
-        message = f"the straight distance, {about}, is no fraction that can be kept (give a length)"
-        raise InputError.at("", message)
-    return length
