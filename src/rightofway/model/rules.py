@@ -6,7 +6,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from rightofway.model.robot import TripEnd, Turn
+from rightofway.errors import shown
+from rightofway.model.robot import (
+    TripEnd,
+    Turn,
+    coerced,
+    count,
+    number,
+    optional,
+    turning,
+    word_of,
+)
 
 __all__ = ["Occupancy", "Rules"]
 
@@ -33,6 +43,11 @@ class Rules:
         How often each robot makes its round trip.
     rotations
         Whether three or more robots may move round a circle all at one instant.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
     """
 
     occupancy: Occupancy = "one"
@@ -42,7 +57,25 @@ class Rules:
     laps: int = 1
     rotations: bool = True
 
+    def __post_init__(self) -> None:
+        coerced(
+            self,
+            "rules",
+            occupancy=word_of(Occupancy),
+            headway=number,
+            turn=optional(turning),
+            ends=word_of(TripEnd),
+            laps=count,
+            rotations=_truth,
+        )
+
     @property
     def books_ahead(self) -> bool:
         """Whether a robot books a vertex from when it starts to drive there."""
         return self.occupancy == "both"
+
+
+def _truth(value: object) -> bool:
+    if isinstance(value, bool):
+        return value
+    raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.problem import Problem, problem_of
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Turn
@@ -45,12 +45,36 @@ class Scenario:
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        faults = [*_rule_faults(self), *_fleet_faults(self)]
+        faults = list(_kind_faults(self))
+        if not faults:
+            object.__setattr__(self, "robots", tuple(self.robots))
+            faults = [*_rule_faults(self), *_fleet_faults(self)]
         if faults:
             raise InputError(faults)
         object.__setattr__(
             self, "problem", problem_of(self.roadmap, self.robots, self.rules, self.clock)
         )
+
+    def __repr__(self) -> str:
+        count = len(self.robots)
+        fleet = "1 robot" if count == 1 else f"{count} robots"
+        return f"Scenario({fleet} on {self.roadmap!r}, tick {self.problem.clock.tick})"
+
+
+def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
+    """Yield what is not even of the right kind."""
+    roadmap, robots, rules = scenario.roadmap, scenario.robots, scenario.rules
+    if not isinstance(roadmap, Roadmap):
+        remedy = "give a Roadmap, or build the fleet with FleetBuilder"
+        yield InputFault("roadmap", f"{shown(roadmap)} is no roadmap ({remedy})")
+    if not isinstance(robots, list | tuple):
+        yield InputFault("robots", f"{shown(robots)} is no fleet (give a list of Robot)")
+        return
+    for index, robot in enumerate(robots):
+        if not isinstance(robot, Robot):
+            yield InputFault(f"robots[{index}]", f"{shown(robot)} is no robot (give a Robot)")
+    if not isinstance(rules, Rules):
+        yield InputFault("rules", f"{shown(rules)} are no rules (give Rules)")
 
 
 def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
