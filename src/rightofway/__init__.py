@@ -8,63 +8,124 @@
     plan = rightofway.solve(scenario)
     print(rightofway.check(plan))
 
-Readers, writers and pages are imported when they are first used. ``check`` and ``solve`` are
-imported here, because the functions must win over the modules of the same names.
+Functions named ``load…`` read a file, functions named ``write_…`` write one. Readers, writers and
+pages are imported when they are first used. ``check`` and ``solve`` are imported here, because the
+functions must win over the modules of the same names.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from rightofway.check import Fault, Report, check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
-from rightofway.model import Plan, Roadmap, Robot, Rules, Scenario, Stop
+from rightofway.fleet_builder import FleetBuilder
+from rightofway.model import (
+    Decision,
+    ExecutionTrace,
+    Plan,
+    PlannerRun,
+    Reroute,
+    Roadmap,
+    Robot,
+    RobotPlan,
+    Rules,
+    Scenario,
+    SteadyState,
+    Stop,
+    Track,
+)
+from rightofway.planners import (
+    AutoOptions,
+    LacamOptions,
+    LnsOptions,
+    LocalSearchOptions,
+    PlannerOptions,
+    PrioritizedOptions,
+    PriorityOptions,
+    PrioritySearchOptions,
+    RandomPriorityOptions,
+    TwoLevelOptions,
+)
 from rightofway.solve import improve, solve
 
-if TYPE_CHECKING:
-    from rightofway.cyclic import CyclicResult, plan_of, run_laps
+if _TYPE_CHECKING:
+    from rightofway.cyclic import (
+        CyclicResult,
+        GroupTimetable,
+        best_timetable,
+        plan_of,
+        run_laps,
+        run_of,
+    )
     from rightofway.execution import Outcome, simulate
-    from rightofway.io import load, load_plan, save_plan
-    from rightofway.metrics import Metrics, measure, waits
+    from rightofway.io import load, load_plan, write_plan, write_scenario
+    from rightofway.metrics import Metrics, Wait, measure, waits
     from rightofway.viz import write_gif, write_page, write_png
 
 __version__ = "0.1.0"
 
 _LATER = {
     "CyclicResult": "cyclic",
+    "GroupTimetable": "cyclic",
     "Metrics": "metrics",
     "Outcome": "execution",
+    "Wait": "metrics",
+    "best_timetable": "cyclic",
     "load": "io",
     "load_plan": "io",
     "measure": "metrics",
     "plan_of": "cyclic",
     "run_laps": "cyclic",
-    "save_plan": "io",
+    "run_of": "cyclic",
     "simulate": "execution",
     "waits": "metrics",
     "write_gif": "viz",
     "write_page": "viz",
+    "write_plan": "io",
     "write_png": "viz",
+    "write_scenario": "io",
 }
 
 __all__ = [
+    "AutoOptions",
     "CyclicResult",
+    "Decision",
+    "ExecutionTrace",
     "Fault",
+    "FleetBuilder",
     "GaveUp",
+    "GroupTimetable",
     "InputError",
     "InvalidPlan",
+    "LacamOptions",
+    "LnsOptions",
+    "LocalSearchOptions",
     "Metrics",
     "NoPlanExists",
     "Outcome",
     "Plan",
+    "PlannerOptions",
+    "PlannerRun",
+    "PrioritizedOptions",
+    "PriorityOptions",
+    "PrioritySearchOptions",
+    "RandomPriorityOptions",
     "Report",
+    "Reroute",
     "RightOfWayError",
     "Roadmap",
     "Robot",
+    "RobotPlan",
     "Rules",
     "Scenario",
+    "SteadyState",
     "Stop",
+    "Track",
+    "TwoLevelOptions",
+    "Wait",
+    "best_timetable",
     "check",
     "improve",
     "load",
@@ -72,33 +133,26 @@ __all__ = [
     "measure",
     "plan_of",
     "run_laps",
-    "save_plan",
+    "run_of",
     "simulate",
     "solve",
     "waits",
     "write_gif",
     "write_page",
+    "write_plan",
     "write_png",
+    "write_scenario",
 ]
 
 
-def _page_in_a_notebook(plan: Plan) -> str:
-    from rightofway.viz import frame_of
-
-    return frame_of(plan)
-
-
-# Notebooks look for this on the plan, but the model knows nothing of pages.
-Plan._repr_html_ = _page_in_a_notebook  # type: ignore[attr-defined]
-
-
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    value: object = getattr(_import_module(f"{__name__}.{_LATER[name]}"), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    dunders = (name for name in globals() if name.startswith("__") and name.endswith("__"))
+    return sorted({*dunders, *__all__})

@@ -5,16 +5,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any
 
 from rightofway.check import check
-from rightofway.errors import InputError, InvalidPlan
+from rightofway.errors import InputError, InvalidPlan, shown
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
     Deadline,
     Draft,
+    PlannerOptions,
     PlannerSpec,
     Task,
     find,
@@ -23,6 +25,9 @@ from rightofway.planners import (
 
 __all__ = ["improve", "solve"]
 
+LARGEST_SEED = 2**32 - 1
+"""Planners draw from this many streams."""
+
 
 def solve(
     scenario: Scenario,
@@ -30,8 +35,9 @@ def solve(
     time_limit: float | None = 10,
     seed: int = 0,
     *,
-    options: Mapping[str, Any] | None = None,
+    options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    **named: Any,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
 
@@ -44,11 +50,15 @@ def solve(
     time_limit
         When to stop [s]; None for no limit.
     seed
-        For planners that draw at random. The same input and seed give the same plan.
+        For planners that draw at random, from 0 to 2**32 - 1. The same input and seed give the
+        same plan.
     options
-        What the planner is told; see its page.
+        What the planner is told: its own options, like ``LnsOptions(iterations=100)``, or names
+        with values.
     report
         Takes sentences on the progress.
+    named
+        Options one by one, like ``iterations=100``, instead of ``options``.
 
     Returns
     -------
@@ -58,14 +68,19 @@ def solve(
     Raises
     ------
     InputError
-        For an unknown planner or option.
+        For an unknown planner or option, or a value that does not fit.
     NoPlanExists
         If it is proven that there is no plan.
     GaveUp
         If none was found in time, or by the means of the planner.
     """
+    if not isinstance(scenario, Scenario):
+        remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
+        raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
     spec = find(planner)
-    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    given = _given(
+        spec, time_limit=time_limit, seed=seed, options=options, named=named, report=report
+    )
     return _run(spec, scenario, given)
 
 
@@ -75,8 +90,9 @@ def improve(
     time_limit: float | None = 10,
     seed: int = 0,
     *,
-    options: Mapping[str, Any] | None = None,
+    options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    **named: Any,
 ) -> Plan:
     """Make a plan better, whoever made it, and have the result judged.
 
@@ -86,7 +102,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report
+    time_limit, seed, options, report, named
         As for `solve`.
 
     Returns
@@ -99,13 +115,18 @@ def improve(
     InputError
         If the plan has faults, for a planner that cannot start from one, or an unknown option.
     """
+    if not isinstance(plan, Plan):
+        message = f"{shown(plan)} is no plan (load a file with rightofway.load_plan)"
+        raise InputError.at("plan", message)
     judged, spec = check(plan), find(planner)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    given = _given(
+        spec, time_limit=time_limit, seed=seed, options=options, named=named, report=report
+    )
     return _run(spec, plan.scenario, given, start=plan.tracks)
 
 
@@ -115,8 +136,28 @@ class _Given:
 
     time_limit: float | None
     seed: int
-    options: Mapping[str, Any] | None
+    options: dict[str, str | int]
     report: Callable[[str], None] | None
+
+
+def _given(
+    spec: PlannerSpec,
+    *,
+    time_limit: float | None,
+    seed: int,
+    options: PlannerOptions | Mapping[str, Any] | None,
+    named: dict[str, Any],
+    report: Callable[[str], None] | None,
+) -> _Given:
+    """Check what the caller says besides the problem."""
+    if not isinstance(seed, Integral) or not 0 <= seed <= LARGEST_SEED:
+        remedy = f"give a whole number from 0 to {LARGEST_SEED}"
+        raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
+    if options is not None and named:
+        message = f"are given twice, with {', '.join(named)} beside (give one of both)"
+        raise InputError.at("options", message)
+    settled = spec.settle(named if options is None else options)
+    return _Given(time_limit=time_limit, seed=int(seed), options=settled, report=report)
 
 
 class _Clock:
@@ -141,7 +182,7 @@ def _run(
     clock = _Clock()
     task = Task(
         scenario=scenario,
-        options=spec.settle(given.options or {}),
+        options=given.options,
         seed=given.seed,
         deadline=Deadline.after(given.time_limit),
         report=given.report or (lambda _: None),

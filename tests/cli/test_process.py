@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from rightofway.io import save_scenario
+from rightofway.io import write_scenario
 from rightofway.model import Rules
 from tests.builders.fleets import random_fleet
 from tests.cli.conftest import Cli
@@ -83,7 +83,7 @@ def test_an_interrupt_ends_with_130_and_one_line(tmp_path: Path) -> None:
 def test_an_interrupt_while_a_plan_gets_better_hands_out_the_best_so_far(tmp_path: Path) -> None:
     """So many robots that nothing left to gain cannot end it first, on any machine."""
     problem = random_fleet(1, size=40, robots=200, rules=Rules(occupancy="both"))
-    save_scenario(problem, tmp_path / "fleet.yaml")
+    write_scenario(problem, tmp_path / "fleet.yaml")
     ended, out, err = interrupted(tmp_path, "fleet.yaml", "--time-limit", "inf", after=5)
     assert (ended, err) == (0, "wrote plan.json\n")
     assert "interrupted: improved by" in " ".join(out.split())

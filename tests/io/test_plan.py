@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, load_plan, plan_of, save_plan
+from rightofway.io import dump_plan, load_plan, plan_of, write_plan
 from rightofway.model import (
     Decision,
     Plan,
@@ -108,24 +108,24 @@ TEXT = """\
 
 def test_a_plan_file_is_readable_and_always_the_same(tmp_path: Path) -> None:
     path = tmp_path / "door.json"
-    save_plan(door_plan(), path)
+    write_plan(door_plan(), path)
     text = path.read_text(encoding="utf-8")
     metrics = json.loads(text)["metrics"]
     # 10 + 9 ticks; alone each would need 9.
     assert (metrics["flowtime"], metrics["makespan"], metrics["lower_bound"]) == (19, 10, 18)
     assert text == TEXT.replace("{METRICS}", json.dumps(metrics))
-    save_plan(door_plan(), path)
+    write_plan(door_plan(), path)
     assert path.read_text(encoding="utf-8") == text
 
 
 def test_a_plan_is_read_back_without_the_seconds(tmp_path: Path) -> None:
     plan = door_plan()
-    save_plan(plan, tmp_path / "door.json")
+    write_plan(plan, tmp_path / "door.json")
     loaded = load_plan(tmp_path / "door.json")
     assert (loaded.scenario, loaded.tracks) == (plan.scenario, plan.tracks)
     assert loaded.run.seconds is None
     assert plan_of(dump_plan(plan, seconds=True)) == plan
-    save_plan(plan, tmp_path / "door.json", seconds=True)
+    write_plan(plan, tmp_path / "door.json", seconds=True)
     assert load_plan(tmp_path / "door.json") == plan
 
 
@@ -172,7 +172,7 @@ def test_a_track_off_the_roadmap_cannot_be_written(tmp_path: Path) -> None:
     for vertex in (-1, 7):
         tracks = (Track.of([0, vertex], [0, 1]), plan.tracks[1])
         with pytest.raises(InputError, match=r"robots\[0\]\.vertices: a vertex is not on the road"):
-            save_plan(Plan(scenario=plan.scenario, tracks=tracks, run=plan.run), tmp_path / "a")
+            write_plan(Plan(scenario=plan.scenario, tracks=tracks, run=plan.run), tmp_path / "a")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, load, read, save_scenario, scenario_of
+from rightofway.io import dump_scenario, load, read, scenario_of, write_scenario
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
 
@@ -259,14 +259,14 @@ rules: {occupancy: one, headway: 1/2, return: home, laps: 1, rotations: true}
 
 def test_yaml_is_written_as_people_would(tmp_path: Path) -> None:
     scenario = fleet_of_all_kinds()
-    save_scenario(scenario, tmp_path / "a.yaml")
+    write_scenario(scenario, tmp_path / "a.yaml")
     assert (tmp_path / "a.yaml").read_text(encoding="utf-8") == YAML
     assert load(tmp_path / "a.yaml") == scenario
 
 
 def test_json_has_a_row_or_a_robot_on_a_line(tmp_path: Path) -> None:
     scenario = fleet_of_all_kinds()
-    save_scenario(scenario, tmp_path / "a.json")
+    write_scenario(scenario, tmp_path / "a.json")
     text = (tmp_path / "a.json").read_text(encoding="utf-8")
     assert '\n      "@.@",\n' in text
     assert '\n    {"name": "R1", "home": "N0", "target": "N6", "work": 0, "speed": "1/3", ' in text
@@ -277,4 +277,4 @@ def test_json_has_a_row_or_a_robot_on_a_line(tmp_path: Path) -> None:
 
 def test_another_suffix_is_no_scenario(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"the suffix '\.txt' is no scenario's"):
-        save_scenario(fleet_of_all_kinds(), tmp_path / "a.txt")
+        write_scenario(fleet_of_all_kinds(), tmp_path / "a.txt")

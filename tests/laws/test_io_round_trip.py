@@ -14,9 +14,9 @@ from rightofway.io import (
     load,
     load_plan,
     plan_of,
-    save_plan,
-    save_scenario,
     scenario_of,
+    write_plan,
+    write_scenario,
 )
 from rightofway.io.text.exact import exact, written
 from rightofway.model import (
@@ -169,7 +169,7 @@ def test_scenario_documents(scenario: Scenario) -> None:
 def test_scenario_files(scenario: Scenario, name: str) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, name)
-        save_scenario(scenario, path)
+        write_scenario(scenario, path)
         assert load(path) == scenario
 
 
@@ -179,8 +179,8 @@ def test_plans(plan: Plan) -> None:
     assert plan_of(dump_plan(plan, seconds=True)) == plan
     with tempfile.TemporaryDirectory() as folder:
         one, other = Path(folder, "one.json"), Path(folder, "other.json")
-        save_plan(plan, one, seconds=True)
+        write_plan(plan, one, seconds=True)
         loaded = load_plan(one)
         assert loaded == plan
-        save_plan(loaded, other, seconds=True)
+        write_plan(loaded, other, seconds=True)
         assert one.read_bytes() == other.read_bytes()

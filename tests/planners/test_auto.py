@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from rightofway.io import load_plan, save_plan
+from rightofway.io import load_plan, write_plan
 from rightofway.metrics import measure
 from rightofway.model import Rules
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -38,7 +38,7 @@ def test_it_tells_when_its_first_plan_was_there(tmp_path: Path) -> None:
     assert plan.run.first_plan_seconds is not None
     assert plan.run.seconds is not None
     assert 0 < plan.run.first_plan_seconds < plan.run.seconds
-    save_plan(plan, tmp_path / "plan.json")
+    write_plan(plan, tmp_path / "plan.json")
     assert load_plan(tmp_path / "plan.json").run.first_plan_seconds is None
 
 

@@ -32,13 +32,13 @@ def convert(source: str, target: str) -> None:
     The map goes into a .yaml or .json, so that it needs no other file. What a .scen cannot say
     (speeds, work, turning, ways home) is named.
     """
-    from rightofway.io import save_scenario
+    from rightofway.io import write_scenario
 
     scenario = read_scenario(source)
     if Path(target).suffix.lower() == ".scen":
         _write_pair(scenario, Path(target))
     else:
-        save_scenario(scenario, target)
+        write_scenario(scenario, target)
         say(f"wrote {target}")
 
 

@@ -149,12 +149,12 @@ def _refuse_two_results(output: str | None, *, log: bool, table: bool, as_json: 
 
 def write(found: Plan, output: str | None, page: str | None = None) -> None:
     """Write a plan, and a page that plays it, where they are asked for."""
-    from rightofway.io import plan_text, save_plan
+    from rightofway.io import plan_text, write_plan
 
     if output == "-":
         put(plan_text(found).rstrip("\n"))
     elif output:
-        save_plan(found, output)
+        write_plan(found, output)
         say(f"wrote {output}")
     if page:
         from rightofway.viz import write_page

@@ -2,7 +2,7 @@
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.lap import Lap, lap_of
-from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, Track
+from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.roadmap import (
     Edge,
@@ -38,6 +38,7 @@ __all__ = [
     "Reroute",
     "Roadmap",
     "Robot",
+    "RobotPlan",
     "Route",
     "Rules",
     "Scenario",

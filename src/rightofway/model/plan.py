@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, nearest, shown
+from rightofway.model.robot import Robot
 from rightofway.model.scenario import Scenario
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
 
-__all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "Track"]
+if TYPE_CHECKING:
+    from rightofway.metrics import Wait
+
+__all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "RobotPlan", "Track"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -51,6 +56,11 @@ class Track:
 
     def __len__(self) -> int:
         return len(self.vertices)
+
+    def __repr__(self) -> str:
+        count = "1 visit" if len(self) == 1 else f"{len(self)} visits"
+        ends = f"{self.vertices[0]} to {self.vertices[-1]}"
+        return f"Track({count}, vertex {ends}, tick {self.enter[0]} to {self.enter[-1]})"
 
     @classmethod
     def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
@@ -153,8 +163,40 @@ class PlannerRun:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RobotPlan:
+    """What a plan lets one robot do: ``plan["R1"]``.
+
+    Attributes
+    ----------
+    robot
+        The robot.
+    track
+        Where it is, when, by vertex number.
+    vertices
+        The names of the vertices that it visits, in order.
+    enter
+        When each visit begins [ticks].
+    completion
+        When it has done its work and is at its last vertex [ticks].
+    waits
+        Where it waits, how long and for which robot, in order.
+    """
+
+    robot: Robot
+    track: Track
+    vertices: tuple[str, ...]
+    enter: tuple[Tick, ...]
+    completion: Tick
+    waits: tuple[Wait, ...]
+
+    def __repr__(self) -> str:
+        way = f"{len(self.vertices)} visits from {self.vertices[0]} to {self.vertices[-1]}"
+        return f"RobotPlan({self.robot.name!r}, {way}, completed at tick {self.completion})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
-    """Routes and times for all robots of a scenario.
+    """Routes and times for all robots of a scenario; ``plan["R1"]`` is the part of one robot.
 
     Attributes
     ----------
@@ -165,7 +207,7 @@ class Plan:
     run
         How it came about.
     steady
-        From when on it repeats itself, where somebody knows; for the eye, nobody judges it.
+        From when on the plan repeats itself, where that is known; shown, not judged.
 
     Raises
     ------
@@ -174,15 +216,18 @@ class Plan:
 
     Notes
     -----
-    A plan is what somebody claims; whether it keeps the rules is for `rightofway.check` to say.
+    A plan is a claim; `rightofway.check` finds out whether it keeps the rules. Figures of a plan
+    that breaks them are what its tracks claim.
     """
 
     scenario: Scenario
     tracks: tuple[Track, ...]
     run: PlannerRun
     steady: tuple[SteadyState, ...] = ()
+    _measured: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "tracks", tuple(self.tracks))
         robots, tracks = len(self.scenario.robots), len(self.tracks)
         if robots != tracks:
             raise InputError.at(
@@ -190,3 +235,132 @@ class Plan:
             )
         names = [robot.name for robot in self.scenario.robots]
         refuse_unknown_robots(self.steady, names, list(map(len, self.tracks)))
+
+    def __repr__(self) -> str:
+        count = len(self.tracks)
+        robots = "1 robot" if count == 1 else f"{count} robots"
+        until = max(int(track.enter[-1]) for track in self.tracks)
+        return f"Plan({robots} by {self.run.name}, tick 0 to {until})"
+
+    def _repr_html_(self) -> str:
+        """Return the page of the plan in a frame, for notebooks."""
+        from rightofway.viz import frame_of
+
+        return frame_of(self)
+
+    @property
+    def completions(self) -> tuple[Tick, ...]:
+        """When each robot has done its work and is at its last vertex [ticks]."""
+        return self._once("completions_of", self.scenario, self.tracks)
+
+    @property
+    def flowtime(self) -> Tick:
+        """The sum of the completion times [ticks]."""
+        return Tick(sum(self.completions))
+
+    @property
+    def makespan(self) -> Tick:
+        """The latest completion time [ticks]."""
+        return max(self.completions)
+
+    @property
+    def lower_bound(self) -> Tick:
+        """The sum of the completion times of robots that are alone: no plan is below it [ticks].
+
+        Raises
+        ------
+        NoPlanExists
+            If no way leads from one place of a robot's trip to the next.
+        """
+        return Tick(sum(self._once("alone_completions", self.scenario)))
+
+    @property
+    def waits(self) -> tuple[Wait, ...]:
+        """Every wait of every robot, by tick, then by robot."""
+        return self._once("waits", self)
+
+    def _once(self, figure: str, *arguments: Any) -> tuple[Any, ...]:
+        """Return what a function of `rightofway.metrics` answers; ask it only once."""
+        if figure not in self._measured:
+            from rightofway import metrics
+
+            self._measured[figure] = getattr(metrics, figure)(*arguments)
+        answer: tuple[Any, ...] = self._measured[figure]
+        return answer
+
+    def __getitem__(self, name: str) -> RobotPlan:
+        """Return the part of one robot.
+
+        Raises
+        ------
+        InputError
+            If no robot has that name; with the nearest one.
+        """
+        names = [robot.name for robot in self.scenario.robots]
+        if name not in names:
+            near = nearest(name, names)
+            hint = f"did you mean {near!r}?" if near else f"robots are {', '.join(names[:4])}, …"
+            raise InputError.at("robots", f"no robot is named {shown(name)} ({hint})")
+        robot = names.index(name)
+        track, vertex = self.tracks[robot], self.scenario.roadmap.name
+        return RobotPlan(
+            robot=self.scenario.robots[robot],
+            track=track,
+            vertices=tuple(map(vertex, track.vertices.tolist())),
+            enter=tuple(track.enter.tolist()),
+            completion=self.completions[robot],
+            waits=tuple(wait for wait in self.waits if wait.robot == robot),
+        )
+
+    def to_dataframe(self, library: str | None = None) -> Any:
+        """Return the visits of all robots as a table.
+
+        Parameters
+        ----------
+        library
+            ``pandas``, ``polars`` or ``pyarrow``; by default the first of these that is installed.
+
+        Returns
+        -------
+        pandas.DataFrame, polars.DataFrame or pyarrow.Table
+            A row for each visit, by robot and in order: ``robot`` and ``vertex`` (names), ``visit``
+            (its number, from 0), ``enter`` and ``leave`` [ticks]; no ``leave`` for a last visit.
+
+        Raises
+        ------
+        InputError
+            If the library is not installed, or another one is named.
+        """
+        wanted = FRAME_LIBRARIES if library is None else (library,)
+        if library is not None and library not in FRAME_LIBRARIES:
+            known = ", ".join(FRAME_LIBRARIES)
+            raise InputError.at("library", f"{shown(library)} is unknown (give one of {known})")
+        for name in wanted:
+            try:
+                module = import_module(name)
+            except ImportError:
+                continue
+            return getattr(module, "table" if name == "pyarrow" else "DataFrame")(self._columns())
+        which = "none of " + ", ".join(wanted) if library is None else library
+        raise InputError.at("library", f"{which} is installed (run: pip install {wanted[0]})")
+
+    def _columns(self) -> dict[str, list[Any]]:
+        name, parts = (
+            self.scenario.roadmap.name,
+            zip(self.scenario.robots, self.tracks, strict=True),
+        )
+        columns: dict[str, list[Any]] = {
+            key: [] for key in ("robot", "visit", "vertex", "enter", "leave")
+        }
+        for robot, track in parts:
+            enter = track.enter.tolist()
+            columns["robot"] += [robot.name] * len(track)
+            columns["visit"] += range(len(track))
+            columns["vertex"] += map(name, track.vertices.tolist())
+            columns["enter"] += enter
+            columns["leave"] += [*enter[1:], None]
+        return columns
+
+
+FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
+"""Packages that a table can be made with, the first choice first."""

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
-from rightofway.model.units import DIGITS, VertexId
+from rightofway.errors import InputError, shown
+from rightofway.model.units import DIGITS, Number, VertexId, exact
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -111,6 +111,11 @@ class Roadmap:
     def __hash__(self) -> int:
         return hash((self.n_vertices, self.n_edges, self.lengths))
 
+    def __repr__(self) -> str:
+        grid = self.grid
+        cut = f", grid of {grid.columns} x {grid.rows} cells" if grid else ""
+        return f"Roadmap({self.n_vertices} vertices, {self.n_edges} edges{cut})"
+
     @property
     def n_vertices(self) -> int:
         """Number of vertices."""
@@ -192,7 +197,7 @@ def _same_grid(one: Grid | None, other: Grid | None) -> bool:
     ) and np.array_equal(one.cells, other.cells)
 
 
-def roadmap_of_grid(lines: Sequence[str], *, cell_size: Fraction = Fraction(1)) -> Roadmap:
+def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
     """Make the roadmap of a grid: a vertex for each free cell, edges to the four next to it.
 
     Parameters
@@ -205,9 +210,10 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Fraction = Fraction(1)) 
     Raises
     ------
     InputError
-        For an empty or ragged grid, or one without a free cell.
+        For an empty or ragged grid, one without a free cell, or a cell size that is not positive.
     """
     _check_lines(lines)
+    size = _positive(cell_size, "cell_size")
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
         raise InputError.at("", f"no free cell in {free.size} (free cells are . G S)")
@@ -223,16 +229,25 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Fraction = Fraction(1)) 
         indptr=np.concatenate(([0], np.cumsum(present.sum(axis=1)))).astype(np.int32),
         heads=neighbours[present],
         length_class=np.zeros(int(present.sum()), np.int32),
-        lengths=(Fraction(cell_size),),
-        positions=np.column_stack((x, y)).astype(np.float64) * float(cell_size),
-        grid=Grid(
-            rows=rows, columns=columns, cell_size=Fraction(cell_size), cells=cells,
-            vertex_at=vertex_at,
-        ),
-    )  # fmt: skip
+        lengths=(size,),
+        positions=np.column_stack((x, y)).astype(np.float64) * float(size),
+        grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
+    )
+
+
+def _positive(value: Number, place: str) -> Fraction:
+    try:
+        number = value if type(value) is Fraction else exact(value)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+    if number <= 0:
+        raise InputError.at(place, f"{shown(value)} is not positive (give a length above 0)")
+    return number
 
 
 def _check_lines(lines: Sequence[str]) -> None:
+    if isinstance(lines, str) or not all(isinstance(line, str) for line in lines):
+        raise InputError.at("", f"{shown(lines)} is no list of rows (give a list of text)")
     if not lines or not lines[0]:
         raise InputError.at("", "the grid is empty (give at least one row of one cell)")
     width = len(lines[0])

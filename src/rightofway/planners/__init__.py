@@ -1,28 +1,46 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
-from rightofway.planners.registry import (
-    DEFAULT,
-    IMPROVER,
+from rightofway.planners.options import (
+    AutoOptions,
     Choice,
     Count,
+    LacamOptions,
+    Least,
+    LnsOptions,
+    LocalSearchOptions,
     Option,
-    PlannerSpec,
-    find,
-    registered,
+    PlannerOptions,
+    PrioritizedOptions,
+    PriorityOptions,
+    PrioritySearchOptions,
+    RandomPriorityOptions,
+    TwoLevelOptions,
 )
+from rightofway.planners.registry import DEFAULT, IMPROVER, PlannerSpec, find, registered
 from rightofway.planners.task import Deadline, Draft, Planner, Task, planning_headway
 
 __all__ = [
     "DEFAULT",
     "IMPROVER",
+    "AutoOptions",
     "Choice",
     "Count",
     "Deadline",
     "Draft",
+    "LacamOptions",
+    "Least",
+    "LnsOptions",
+    "LocalSearchOptions",
     "Option",
     "Planner",
+    "PlannerOptions",
     "PlannerSpec",
+    "PrioritizedOptions",
+    "PriorityOptions",
+    "PrioritySearchOptions",
+    "RandomPriorityOptions",
     "Task",
+    "TwoLevelOptions",
     "find",
     "planning_headway",
     "registered",

@@ -13,7 +13,7 @@ from rightofway.io.text.exact import written
 from rightofway.io.text.json_layout import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 
-__all__ = ["dump_plan", "plan_text", "save_plan"]
+__all__ = ["dump_plan", "plan_text", "write_plan"]
 
 
 def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
@@ -44,7 +44,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     }
 
 
-def save_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
+def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     """Write a plan as JSON.
 
     Parameters

@@ -12,7 +12,7 @@ from rightofway.io.text.exact import written
 from rightofway.io.text.json_layout import json_text
 from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
 
-__all__ = ["dump_scenario", "save_scenario"]
+__all__ = ["dump_scenario", "write_scenario"]
 
 
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
@@ -32,7 +32,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def save_scenario(scenario: Scenario, path: Path | str) -> None:
+def write_scenario(scenario: Scenario, path: Path | str) -> None:
     """Write a scenario as YAML or JSON, by the suffix of the path.
 
     Raises
