@@ -1,5 +1,9 @@
 """The package as it is imported."""
 
+import inspect
+import re
+from typing import Any
+
 import pytest
 
 import rightofway
@@ -11,6 +15,33 @@ def test_every_public_name_can_be_imported() -> None:
     for name in rightofway.__all__:
         assert getattr(rightofway, name) is not None
         assert name in dir(rightofway)
+
+
+def test_nothing_but_the_public_names_is_listed() -> None:
+    listed = [name for name in dir(rightofway) if not name.startswith("__")]
+    assert listed == rightofway.__all__
+
+
+FUNCTIONS = [
+    getattr(rightofway, name)
+    for name in rightofway.__all__
+    if inspect.isfunction(getattr(rightofway, name))
+]
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+def test_whatever_a_public_function_takes_or_returns_is_public(function: Any) -> None:
+    """Names in the annotations that are classes of this package can be imported from its top."""
+    written = " ".join(map(str, function.__annotations__.values()))
+    module = inspect.getmodule(function)
+    names = {name for name in re.findall(r"\b[A-Z]\w+", written) if is_own(module, name)}
+    assert names <= set(rightofway.__all__)
+
+
+def is_own(module: Any, name: str) -> bool:
+    """Tell whether a name in a module is a class of this package."""
+    found = getattr(module, name, None)
+    return inspect.isclass(found) and found.__module__.startswith("rightofway.")
 
 
 def test_what_is_not_there_is_said_as_usual() -> None:

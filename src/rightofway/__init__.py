@@ -62,15 +62,18 @@ if _TYPE_CHECKING:
     from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, write_plan, write_scenario
     from rightofway.metrics import Metrics, Wait, measure, waits
-    from rightofway.viz import write_gif, write_page, write_png
+    from rightofway.viz import Film, write_gif, write_page, write_png
+    from rightofway.viz.palette import Theme
 
 __version__ = "0.1.0"
 
 _LATER = {
     "CyclicResult": "cyclic",
+    "Film": "viz",
     "GroupTimetable": "cyclic",
     "Metrics": "metrics",
     "Outcome": "execution",
+    "Theme": "viz.palette",
     "Wait": "metrics",
     "best_timetable": "cyclic",
     "load": "io",
@@ -94,6 +97,7 @@ __all__ = [
     "Decision",
     "ExecutionTrace",
     "Fault",
+    "Film",
     "FleetBuilder",
     "GaveUp",
     "GroupTimetable",
@@ -122,6 +126,7 @@ __all__ = [
     "Scenario",
     "SteadyState",
     "Stop",
+    "Theme",
     "Track",
     "TwoLevelOptions",
     "Wait",

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Self
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, nearest, shown
 from rightofway.model import (
     Edge,
     Roadmap,
@@ -149,8 +149,9 @@ class FleetBuilder:
         self._refuse_fixed_map(place)
         for name in (tail, head):
             if name not in self._positions:
-                known = f"vertices are {', '.join(list(self._positions)[:4])}, …"
-                raise InputError.at(place, f"no vertex is named {shown(name)} ({known})")
+                near = nearest(name, self._positions)
+                hint = f"did you mean {near!r}?" if near else "add it first"
+                raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
         ends = (self._positions[tail], self._positions[head])
         if length is None:
             exactly = _within(place, straight_length, *ends)

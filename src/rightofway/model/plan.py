@@ -299,7 +299,7 @@ class Plan:
         names = [robot.name for robot in self.scenario.robots]
         if name not in names:
             near = nearest(name, names)
-            hint = f"did you mean {near!r}?" if near else f"robots are {', '.join(names[:4])}, …"
+            hint = f"did you mean {near!r}?" if near else f"the first is {names[0]!r}"
             raise InputError.at("robots", f"no robot is named {shown(name)} ({hint})")
         robot = names.index(name)
         track, vertex = self.tracks[robot], self.scenario.roadmap.name
@@ -341,8 +341,8 @@ class Plan:
             except ImportError:
                 continue
             return getattr(module, "table" if name == "pyarrow" else "DataFrame")(self._columns())
-        which = "none of " + ", ".join(wanted) if library is None else library
-        raise InputError.at("library", f"{which} is installed (run: pip install {wanted[0]})")
+        which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
+        raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")
 
     def _columns(self) -> dict[str, list[Any]]:
         name, parts = (

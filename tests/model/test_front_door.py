@@ -1,0 +1,311 @@
+"""The front door: what users write in Python is kept exactly, or refused in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import networkx as nx  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+
+import rightofway
+from rightofway import FleetBuilder, InputError, LnsOptions, Robot, Rules, Scenario, Stop
+from rightofway.model import roadmap_of_grid
+
+DOOR = ["...", "@.@", "..."]
+
+robot: Any = Robot
+stop: Any = Stop
+rules: Any = Rules
+scenario_of: Any = Scenario
+solve: Any = rightofway.solve
+improve: Any = rightofway.improve
+
+
+def door(**changes: Any) -> FleetBuilder:
+    return FleetBuilder(grid=DOOR, **changes)
+
+
+def pair() -> Scenario:
+    fleet = door().add_robot("R1", home="N0", target="N6", speed="1/2")
+    return fleet.add_robot("R2", home=(0, 2), target="N8", work=0.5).scenario()
+
+
+HALVES = [0.5, "0.5", "1/2", ".5", "5e-1", Decimal("0.5"), Fraction(1, 2), np.float64(0.5)]
+
+
+@pytest.mark.parametrize("half", HALVES, ids=repr)
+def test_a_number_is_kept_exactly_however_it_is_written(half: Any) -> None:
+    made = robot(name="R1", home=0, stops=[stop(at=3, work=half)], speed=half, turn=half)
+    assert (made.speed, made.turn, made.stops[0].work) == (Fraction(1, 2),) * 3
+    assert rules(headway=half, turn=half).headway == Fraction(1, 2)
+    assert roadmap_of_grid(DOOR, cell_size=half).lengths == (Fraction(1, 2),)
+
+
+def test_a_float_counts_as_the_decimal_that_it_prints_as() -> None:
+    assert robot(name="R1", home=0, stops=(), speed=0.1).speed == Fraction(1, 10)
+
+
+def test_lists_are_kept_as_tuples_so_that_the_fleet_can_be_measured_and_written(
+    tmp_path: Path,
+) -> None:
+    robots = [robot(name="R1", home=0, stops=[stop(at=4)])]
+    plan = solve(scenario_of(roadmap=roadmap_of_grid(DOOR), robots=robots))
+    assert plan.scenario.robots == tuple(robots)
+    assert rightofway.measure(plan).flowtime == plan.flowtime
+    rightofway.write_plan(plan, tmp_path / "plan.json")
+    assert rightofway.load_plan(tmp_path / "plan.json").tracks == plan.tracks
+
+
+WRONG: dict[str, tuple[Callable[[], object], str]] = {
+    "speed is a word": (
+        lambda: robot(name="R1", home=0, stops=(), speed="fast"),
+        r"robot 'R1': speed: 'fast' is not a number \(write it like 3, 0.5 or 1/3\)",
+    ),
+    "speed is no number": (
+        lambda: robot(name="R1", home=0, stops=(), speed=None),
+        "robot 'R1': speed: nothing is not a number",
+    ),
+    "speed is not a number": (
+        lambda: robot(name="R1", home=0, stops=(), speed=float("nan")),
+        "robot 'R1': speed: nan is not a number",
+    ),
+    "speed divides by zero": (
+        lambda: robot(name="R1", home=0, stops=(), speed="1/0"),
+        "robot 'R1': speed: '1/0' divides by zero",
+    ),
+    "home is a name": (
+        lambda: robot(name="R1", home="N0", stops=()),
+        r"robot 'R1': home: 'N0' is no vertex number \(give roadmap.vertex\(name\), or build",
+    ),
+    "turn is a word": (
+        lambda: robot(name="R1", home=0, stops=(), turn="x"),
+        "robot 'R1': turn: 'x' is not a number .*; 'cell' is possible too",
+    ),
+    "laps is no whole number": (
+        lambda: robot(name="R1", home=0, stops=(), laps=1.5),
+        r"robot 'R1': laps: 1.5 is no whole number \(give 1 or more\)",
+    ),
+    "ends is unknown": (
+        lambda: robot(name="R1", home=0, stops=(), ends="away"),
+        r"robot 'R1': ends: 'away' is unknown \(give home or none\)",
+    ),
+    "name is no text": (
+        lambda: robot(name=1, home=0, stops=()),
+        r"robot 1: name: 1 is no name \(give text\)",
+    ),
+    "stops are numbers": (
+        lambda: robot(name="R1", home=0, stops=[3]),
+        r"robot 'R1': stops: \[3\] are no stops \(give a list of Stop",
+    ),
+    "a stop is at a name": (lambda: stop(at="N6"), "stop: at: 'N6' is no vertex number"),
+    "work is a word": (lambda: stop(at=3, work="long"), "stop: work: 'long' is not a number"),
+    "headway is a word": (
+        lambda: rules(headway="far"),
+        "rules: headway: 'far' is not a number",
+    ),
+    "occupancy is unknown": (
+        lambda: rules(occupancy="two"),
+        r"rules: occupancy: 'two' is unknown \(give one or both\)",
+    ),
+    "rotations is a word": (
+        lambda: rules(rotations="yes"),
+        "rules: rotations: 'yes' is neither true nor false",
+    ),
+    "the roadmap is text": (
+        lambda: scenario_of(roadmap="door.map", robots=[]),
+        "roadmap: 'door.map' is no roadmap",
+    ),
+    "a robot is a name": (
+        lambda: scenario_of(roadmap=roadmap_of_grid(DOOR), robots=["R1"]),
+        r"robots\[0\]: 'R1' is no robot \(give a Robot\)",
+    ),
+    "the fleet is one robot": (
+        lambda: scenario_of(
+            roadmap=roadmap_of_grid(DOOR), robots=robot(name="R1", home=0, stops=())
+        ),
+        "robots: .* is no fleet",
+    ),
+    "speed is 0": (
+        lambda: door().add_robot("R1", home="N0", target="N6", speed=0).scenario(),
+        r"robots\[0\].speed: 0 is not positive",
+    ),
+    "the grid is ragged": (lambda: FleetBuilder(grid=["...", "."]), r"grid\[1\]: 1 cells, but"),
+    "the cells have no size": (
+        lambda: door(cell_size=0),
+        "grid.cell_size: 0 is not positive",
+    ),
+    "two maps": (
+        lambda: door(map_file="door.map"),
+        r"grid and map_file are given \(give one map\)",
+    ),
+    "no map": (lambda: FleetBuilder().scenario(), "the fleet has no map"),
+    "no map file": (lambda: FleetBuilder(map_file="no.map"), "no.map: there is no such file"),
+    "no graph": (lambda: FleetBuilder(graph=[(0, 1)]), "graph: .* is no graph"),
+    "a rule is unknown": (
+        lambda: door(headways=1),
+        r"headways: is unknown to FleetBuilder \(rules are occupancy, headway,",
+    ),
+    "a home in a wall": (
+        lambda: door().add_robot("R1", home="N3", target="N6"),
+        "robot 'R1': home: N3, row 1, column 0, is blocked by a wall",
+    ),
+    "a target outside": (
+        lambda: door().add_robot("R1", home="N0", target=(3, 0)),
+        r"robot 'R1': target: \[3, 0\] is outside the map \(rows are 0 to 2",
+    ),
+    "a stop that is no place": (
+        lambda: door().add_robot("R1", home="N0", stops=["N1", 2.5]),
+        r"robot 'R1': stops\[1\]: 2.5 is no place \(give N<k> or \(row, column\)\)",
+    ),
+    "nowhere to go": (
+        lambda: door().add_robot("R1", home="N0"),
+        r"robot 'R1': has nowhere to go \(give either target or stops\)",
+    ),
+    "a vertex on a grid": (lambda: door().add_vertex("A", 0, 0), "vertex 'A': the map is complete"),
+    "a vertex twice": (
+        lambda: FleetBuilder().add_vertex("A", 0, 0).add_vertex("A", 1, 0),
+        "vertex 'A': is there already",
+    ),
+    "a vertex at a word": (
+        lambda: FleetBuilder().add_vertex("A", 0, "up"),
+        "vertex 'A'.y: 'up' is not a number",
+    ),
+    "an edge to nowhere": (
+        lambda: FleetBuilder().add_vertex("A", 0, 0).add_edge("A", "B"),
+        "edge 'A' to 'B': no vertex is named 'B'",
+    ),
+    "an edge of no length": (
+        lambda: FleetBuilder().add_vertex("A", 0, 0).add_vertex("B", 1, 0).add_edge("A", "B", 0),
+        "edge 'A' to 'B': length: 0 is not positive",
+    ),
+    "a diagonal without a length": (
+        lambda: FleetBuilder().add_vertex("A", 0, 0).add_vertex("B", 1, 1).add_edge("A", "B"),
+        "edge 'A' to 'B': the straight distance, about 1.414, is no fraction .*give a length",
+    ),
+    "a file name is solved": (
+        lambda: solve("door.yaml"),
+        "scenario: 'door.yaml' is no scenario .load a file with rightofway.load",
+    ),
+    "a file name is improved": (lambda: improve("plan.json"), "plan: 'plan.json' is no plan"),
+    "an unknown planner": (
+        lambda: solve(pair(), "two_level"),
+        r"planner: 'two_level' is unknown to rightofway \(did you mean 'two-level'\?",
+    ),
+    "an unknown option": (
+        lambda: solve(pair(), "lns", iteration=3),
+        "option iteration: 'iteration' is unknown to lns .did you mean 'iterations'",
+    ),
+    "an unknown option in a mapping": (
+        lambda: solve(pair(), "lns", options={"swap": "leave"}),
+        r"option swap: 'swap' is unknown to lns \(known: iterations\)",
+    ),
+    "a wrong value of an option": (
+        lambda: solve(pair(), "lns", iterations=-1),
+        "option iterations: '-1' is not a whole number of 0 or more",
+    ),
+    "options of another planner": (
+        lambda: solve(pair(), options=LnsOptions()),
+        r"options: LnsOptions\(iterations=0\) are no options of auto \(give AutoOptions",
+    ),
+    "an unknown field of options": (
+        lambda: LnsOptions(iteration=3),  # type: ignore[call-arg]
+        "option iteration: 'iteration' is unknown to LnsOptions .did you mean 'iterations'",
+    ),
+    "options given twice": (
+        lambda: solve(pair(), "lns", options=LnsOptions(), iterations=3),
+        "options: are given twice, with iterations beside",
+    ),
+    "a negative seed": (lambda: solve(pair(), seed=-1), "seed: -1 is no seed"),
+    "a seed that is a word": (lambda: solve(pair(), seed="x"), "seed: 'x' is no seed"),
+}
+
+
+@pytest.mark.parametrize(("call", "message"), WRONG.values(), ids=WRONG)
+def test_a_wrong_call_is_refused_with_its_place_value_and_remedy(
+    call: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        call()
+
+
+def test_every_wrong_value_of_a_robot_is_reported_at_once() -> None:
+    with pytest.raises(InputError) as refused:
+        robot(name="R1", home="N0", stops=[], speed="x", turn="y")
+    assert [fault.place for fault in refused.value.faults] == ["home", "speed", "turn"]
+
+
+def test_a_fleet_from_a_grid_is_that_of_the_file() -> None:
+    """`examples/door.yaml` has the same robots; a place is a name or (row, column)."""
+    written = rightofway.load(Path(__file__).parents[2] / "examples" / "door.yaml")
+    fleet = FleetBuilder(grid=list(written.roadmap.grid.lines()))  # type: ignore[union-attr]
+    for each in written.robots:
+        row, column = written.roadmap.grid.cell(each.home)  # type: ignore[union-attr]
+        target, work = each.stops[0].at, each.stops[0].work
+        name = written.roadmap.name(target)
+        fleet.add_robot(each.name, home=(row, column), target=name, work=work, speed=each.speed)
+    assert fleet.scenario() == written
+
+
+def test_a_map_file_gives_the_same_map_as_its_rows(tmp_path: Path) -> None:
+    file = tmp_path / "door.map"
+    file.write_text("type octile\nheight 3\nwidth 3\nmap\n" + "\n".join(DOOR) + "\n")
+    assert FleetBuilder(map_file=file).roadmap() == roadmap_of_grid(DOOR)
+
+
+def test_stops_have_work_times_of_their_own() -> None:
+    fleet = door().add_robot("R1", home="N0", stops=["N6", ((2, 2), "1/2"), (1, 1)])
+    stops = fleet.scenario().robots[0].stops
+    assert [stop.at for stop in stops] == [4, 6, 3]
+    assert [stop.work for stop in stops] == [0, Fraction(1, 2), 0]
+
+
+def test_rules_are_given_by_name() -> None:
+    fleet = door(headway="1/4", occupancy="both").add_robot("R1", home="N0", target="N6")
+    assert fleet.scenario().rules == rules(headway="1/4", occupancy="both")
+
+
+def test_edges_have_their_straight_length_and_lead_both_ways_unless_told_otherwise() -> None:
+    """A 3-4-5 triangle: the diagonal is 5 long, the one-way is as long as it says."""
+    fleet = FleetBuilder().add_vertex("dock", 0, 0).add_vertex("press", 3, 4)
+    fleet.add_vertex("store", 3, 0)
+    fleet.add_edge("dock", "press").add_edge("press", "store", "9/2", both_ways=False)
+    roadmap = fleet.roadmap()
+    dock, press, store = map(roadmap.vertex, ("dock", "press", "store"))
+    assert roadmap.lengths == (Fraction(9, 2), Fraction(5))
+    assert roadmap.edge(dock, press) is not None
+    assert roadmap.edge(press, dock) is not None
+    assert roadmap.edge(press, store) is not None
+    assert roadmap.edge(store, press) is None
+
+
+def test_a_graph_of_networkx_is_a_map_and_its_nodes_are_places() -> None:
+    fleet = FleetBuilder(graph=nx.grid_2d_graph(3, 3))
+    scenario = fleet.add_robot("R1", home=(0, 0), target=(2, 2)).scenario()
+    assert scenario.roadmap.n_vertices == 9
+    assert scenario.roadmap.n_edges == 24
+    assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "(2, 2)"
+    assert solve(scenario).makespan == 8  # four edges of length 1 there, four back
+
+
+def test_a_directed_graph_keeps_its_directions_and_lengths() -> None:
+    """Lengths come from `length`, then `weight`; without positions an edge is 1 long."""
+    graph = nx.DiGraph()
+    graph.add_edge("A", "B", length="1/3")
+    graph.add_edge("B", "C", weight=2)
+    graph.add_edge("C", "A")
+    roadmap = FleetBuilder(graph=graph).roadmap()
+    assert roadmap.n_edges == 3
+    assert roadmap.lengths == (Fraction(1, 3), Fraction(1), Fraction(2))
+
+
+def test_positions_of_a_graph_give_the_lengths_of_its_edges() -> None:
+    graph = nx.Graph()
+    graph.add_node("A", pos=(0, 0))
+    graph.add_node("B", x=0.3, y=0.4)
+    graph.add_edge("A", "B")
+    assert FleetBuilder(graph=graph).roadmap().lengths == (Fraction(1, 2),)
