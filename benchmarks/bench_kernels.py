@@ -8,7 +8,7 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from rightofway.model import Scenario
-from rightofway.planners.joint import timetable_of
+from rightofway.planners.lacam import timetable_of
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Bookings, Distances, earliest_track, untimed_lacam

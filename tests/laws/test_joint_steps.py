@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.model import Plan, PlannerRun, Rules, Scenario
-from rightofway.planners.joint import timetable_of
+from rightofway.planners.lacam import timetable_of
 from rightofway.search import untimed_lacam
 from tests.builders.fleets import grid_fleet
 from tests.oracles.joint import can_get_through, is_step

@@ -1,4 +1,4 @@
-"""What all rules of giving way share."""
+"""What all rules for conflicts share."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from rightofway.model import Rules
 from rightofway.planners import Task
-from rightofway.planners.conflict_resolution import Fleet
+from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.planners.routing import shortest_routes
 from rightofway.planners.two_level import by_two_levels
 from rightofway.search import Distances
@@ -18,9 +18,10 @@ def test_a_deadlock_is_explained_by_its_circle() -> None:
     trips = [("N0", "N1"), ("N1", "N3"), ("N3", "N2"), ("N2", "N0")]
     rules = Rules(occupancy="both", ends="none", turn=Fraction(0))
     scenario = grid_fleet(["..", ".."], trips, rules=rules)
-    fleet = Fleet(Task(scenario=scenario), shortest_routes(scenario, Distances(scenario.roadmap)))
-    fleet.settle_all(by_two_levels)
-    [why] = fleet.aside.values()
+    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    plan = PartialPlan(Task(scenario=scenario), routes)
+    plan.resolve_all(by_two_levels)
+    [why] = plan.deferred.values()
     apart, _, circle = why.partition(": in a circle, ")
     assert apart.startswith("waiting cannot keep ")
     names = circle.removesuffix(" would each wait for the next").split(", ")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rightofway.cyclic.route import CyclicRoute
 from rightofway.model import Route, Tick, VertexId
 from rightofway.planners import Task
-from rightofway.planners.conflict_resolution import Fleet
+from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
 
 __all__ = ["Cut", "Ground", "Numbered", "TooShort", "Window"]
@@ -102,7 +102,7 @@ class _Graph(PrecedenceGraph):
         return [] if self._too_late else super().deadlocking_rights()
 
 
-class Window(Fleet):
+class Window(PartialPlan):
     """A fleet that goes on from a cut.
 
     Parameters

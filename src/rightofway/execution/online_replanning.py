@@ -21,7 +21,7 @@ from rightofway.execution.commitment import Commitment, commitment_of
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.splice import joined
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, VertexId
-from rightofway.planners.joint import timetable_in_order
+from rightofway.planners.lacam import timetable_in_order
 from rightofway.precedence import ActionDependencyGraph
 from rightofway.solve import improve
 

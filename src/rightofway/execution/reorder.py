@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.forecast import Forecast
-from rightofway.planners.local_search import Search
+from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task
 from rightofway.precedence import ActionDependencyGraph, order_of
 
@@ -34,7 +34,7 @@ def switched(outlook: Forecast) -> ActionDependencyGraph | None:
     """
     floor, task = outlook.floor, Task(scenario=outlook.floor.scenario)
     mark = outlook.graph.checkpoint()
-    Search(task, outlook.graph, lambda visit: not outlook.begun[visit]).descend()
+    LocalSearch(task, outlook.graph, lambda visit: not outlook.begun[visit]).descend()
     before = order_of(floor.vertex, outlook.times())
     if np.array_equal(before, floor.before) or not _allows(outlook, before):
         outlook.graph.rollback(mark)

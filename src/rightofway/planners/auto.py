@@ -1,13 +1,14 @@
 """The default: an answer at once, then a better one until time is up.
 
-A small fleet is planned by two-level, which explains itself; large ones by whichever of planning
-all together and one after another comes out better. Large neighbourhood search improves on the
-best of these. Where it finds nothing better than two-level did, the plan of two-level is handed
-out, with its decisions.
+A small fleet is planned by two-level, whose decisions are explained; a large one by LaCAM and by
+prioritized planning, whichever plan is better. Large neighbourhood search improves the best of
+these. Where it finds nothing better than two-level did, the plan of two-level is returned, with its
+decisions.
 """
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
@@ -20,10 +21,10 @@ from rightofway.planners.two_level import two_level
 __all__ = ["auto"]
 
 FEW = 60
-"""A fleet is small with so many robots."""
+"""A fleet is small with at most this many robots."""
 
 SHARE = 0.3
-"""The part of the time that two-level may take."""
+"""The part of the time for two-level."""
 
 
 def auto(task: Task) -> Draft:
@@ -32,7 +33,7 @@ def auto(task: Task) -> Draft:
     Parameters
     ----------
     task
-        Options: with ``swaps=leave`` it is `two_level` as published; ``iterations`` as for `lns`.
+        Options: `AutoOptions`; with ``swaps=leave`` it is `two_level` as published.
 
     Raises
     ------
@@ -43,22 +44,16 @@ def auto(task: Task) -> Draft:
     """
     if task.options["swaps"] == "leave":
         return two_level(task)
-    explained = _explained(task) if len(task.scenario.robots) <= FEW else None
+    explained = None
+    if len(task.scenario.robots) <= FEW:
+        options = {"swaps": "resolve", "routes": "clear"}
+        hurried = replace(task, options=options, deadline=task.deadline.sooner(SHARE))
+        with suppress(GaveUp):
+            explained = two_level(hurried)
+            task.has_plan()
     if explained is None:
         return lns(task)
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
-    if after < before:
-        return better
-    return replace(explained, status=better.status)
-
-
-def _explained(task: Task) -> Draft | None:
-    options = {"swaps": "resolve", "routes": "clear"}
-    try:
-        draft = two_level(replace(task, options=options, deadline=task.deadline.sooner(SHARE)))
-    except GaveUp:
-        return None
-    task.has_plan()
-    return draft
+    return better if after < before else replace(explained, status=better.status)

@@ -1,11 +1,10 @@
-"""Robots on fixed routes, until nobody meets any more: one right of way after the other.
+"""Conflicts between robots on fixed routes, resolved one right of way after the other.
 
-Which of two robots waits is up to a rule; everything around it is here. The pair that meets first
-is settled first. Where no waiting keeps two robots apart, one of them is set aside and, when all
-others have their times, sent another way (`rerouting`). Where that does not work out, or takes
-more than its share of the time, the whole fleet is planned together (`joint`). So whatever the
-rule, a planner that is made of this is complete: given time it finds a plan or proves that there
-is none.
+A *rule* decides which of two robots waits; this module does the rest. The earliest conflict is
+resolved first. Where no waiting keeps two robots apart, one of them is deferred: it is rerouted
+when all others have their times (`rerouting`). Where that fails, or takes more than its share of
+the time, the whole fleet is planned by `lacam`. So a planner made of this is complete whatever its
+rule: given time it finds a plan or proves that there is none.
 """
 
 from __future__ import annotations
@@ -16,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Reroute, Route, Scenario, Tick
-from rightofway.planners.joint import plan_jointly
+from rightofway.model import Decision, Reroute, Route, Tick
+from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.rerouting import reroute
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import (
@@ -30,25 +29,33 @@ from rightofway.precedence import (
 )
 from rightofway.search import Distances
 
-__all__ = ["Fleet", "Right", "Rule", "Settlement", "one_by_one", "plan_by_rule", "rights_if_waits"]
+__all__ = [
+    "PartialPlan",
+    "Resolution",
+    "Right",
+    "Rule",
+    "plan_by_rule",
+    "plan_on_routes",
+    "rights_if_waits",
+]
 
 SHARE = 0.8
-"""The part of the time that giving way gets; the rest is for planning all together."""
+"""The part of the time for rights of way; the rest is for planning the whole fleet."""
 
 Right = tuple[int, int]
 """Two visits of the graph, of which the first goes first."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Settlement:
-    """How two robots that meet are kept apart."""
+class Resolution:
+    """How a conflict of two robots is resolved."""
 
     decisions: tuple[Decision, ...]
     rights: tuple[Right, ...]
 
 
-class Fleet:
-    """The robots on their routes while rights of way are being given.
+class PartialPlan:
+    """A fleet on its routes, with the rights of way that are decided so far.
 
     Parameters
     ----------
@@ -57,19 +64,19 @@ class Fleet:
     routes
         One for each robot.
     sees_swaps
-        Whether a swap is a meeting, and segments are decided at once; the published method does
+        Whether a swap is a conflict, and segments are decided at once; the published method does
         neither.
     graph
-        What is decided before; nothing where it is not given.
+        The rights of way decided before; none if it is not given.
 
     Attributes
     ----------
     graph
-        What is decided so far.
+        The rights of way.
     settled
         Per robot whether a decision holds for it; uint8, as masks are for the graph.
-    aside
-        Robots that were set aside, and why.
+    deferred
+        Robots that are rerouted at the end, and why.
     decisions
         All decisions in the order they were taken.
     """
@@ -86,7 +93,7 @@ class Fleet:
         self.routes = routes
         self.sees_swaps = sees_swaps
         self.settled = np.zeros(len(routes), np.uint8)
-        self.aside: dict[int, str] = {}
+        self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
         self.graph = graph or PrecedenceGraph(
             routes,
@@ -95,71 +102,63 @@ class Fleet:
             forbid_swaps=sees_swaps,
         )
 
-    def settle_all(self, rule: Rule) -> None:
-        """Settle the pair that meets first, until nobody meets."""
+    def resolve_all(self, rule: Rule) -> None:
+        """Resolve the earliest conflict until none is left; defer where the rule cannot."""
         while (meeting := self.graph.next_meeting()) is not None:
             self.task.deadline.check("giving right of way")
-            settlement = rule(self, meeting)
-            if settlement is None:
-                self.set_aside(meeting)
-            else:
-                self.adopt(settlement, meeting.robots)
+            resolution = rule(self, meeting)
+            if resolution is None:
+                self.defer(meeting)
+                continue
+            self.graph.give_all(resolution.rights)
+            self.decisions += resolution.decisions
+            self.settled[list(meeting.robots)] = 1
 
     def segment_of(self, meeting: Meeting) -> Segment:
-        """Return where only one of the two can be at a time."""
+        """Return the vertices that only one of the two robots can be in at a time."""
         (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
         if self.sees_swaps:
             return shared_segment(self.routes[i], visit_i, self.routes[j], visit_j)
         return crossing(self.routes[i], visit_i, visit_j)
 
-    def adopt(self, settlement: Settlement, robots: tuple[int, int]) -> None:
-        """Give the rights of way of a settlement for good."""
-        self.graph.give_all(settlement.rights)
-        self.decisions += settlement.decisions
-        self.settled[list(robots)] = 1
-
-    def set_aside(self, meeting: Meeting) -> None:
+    def defer(self, meeting: Meeting) -> None:
         """Take out one of two robots that no waiting keeps apart; the others keep their rights."""
         why = self.explain_deadlock(meeting)
         if not self.sees_swaps:
             raise GaveUp(f"{why} (the published method is stuck here; try swaps=resolve)")
         everyone = np.ones(len(self.routes), np.uint8)
         robot = max(meeting.robots, key=lambda one: (self.graph.conflicts_of(one, everyone), one))
-        self.aside[robot] = why
+        self.deferred[robot] = why
         self.settled[robot] = 0
         self.graph.withdraw(robot)
 
     def explain_deadlock(self, meeting: Meeting) -> str:
-        """Say who cannot be kept apart, and who waits for whom if one of them waits."""
-        names = [self.task.scenario.robots[robot].name for robot in meeting.robots]
-        place = self.task.scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
+        """Name the two robots, and the cycle of robots that one of them would close by waiting."""
+        scenario, segment = self.task.scenario, self.segment_of(meeting)
+        names = [scenario.robots[robot].name for robot in meeting.robots]
+        place = scenario.roadmap.name(self.graph.vertex(meeting.visits[0]))
         why = f"waiting cannot keep {names[0]} and {names[1]} apart at {place}"
-        circle = self.circle_if_waits(meeting)
-        if len(circle) < 3:  # noqa: PLR2004 (the two themselves)
-            return why
-        return f"{why}: in a circle, {', '.join(circle)} would each wait for the next"
-
-    def circle_if_waits(self, meeting: Meeting) -> list[str]:
-        """Return the robots that would be deadlocked if one of the two waited; none if it could."""
-        segment, mark = self.segment_of(meeting), self.graph.checkpoint()
+        mark = self.graph.checkpoint()
         for waits in (0, 1):
             possible = self.graph.give_all(rights_if_waits(self.graph, meeting, segment, waits))
             self.graph.rollback(mark)
-            robots = [] if possible else self.graph.deadlocked()
-            if robots:
-                return [self.task.scenario.robots[robot].name for robot in robots]
-        return []
+            cycle = [] if possible else self.graph.deadlocked()
+            if len(cycle) > 2:  # noqa: PLR2004 (more than the two themselves)
+                others = ", ".join(scenario.robots[robot].name for robot in cycle)
+                return f"{why}: in a circle, {others} would each wait for the next"
+            if cycle:
+                break
+        return why
 
     def decide(self, meeting: Meeting, segment: Segment, waits: int, delay: Tick) -> Decision:
-        """Write down for the user that one of two robots waits; the rule adds its reasons."""
-        i, j = meeting.robots
+        """Record that one of two robots (0: i, 1: j) waits; rules add their reasons."""
         first_visit = segment.i_first if waits == 0 else segment.j_first
         ahead = segment.vertices
         return Decision(
             tick=meeting.tick,
             kind=segment.kind,
             vertices=ahead[::-1] if waits == 0 and segment.kind == "head-on" else ahead,
-            robots=(i, j),
+            robots=meeting.robots,
             waits=meeting.robots[waits],
             waits_at=self.routes[meeting.robots[waits]].vertices[first_visit - 1],
             ticks=delay,
@@ -168,8 +167,8 @@ class Fleet:
         )
 
 
-Rule = Callable[[Fleet, Meeting], Settlement | None]
-"""Says how two robots that meet are kept apart; None if no waiting does."""
+Rule = Callable[[PartialPlan, Meeting], Resolution | None]
+"""Decides which of two robots waits; None if no waiting keeps them apart."""
 
 
 def rights_if_waits(
@@ -183,7 +182,7 @@ def rights_if_waits(
 
 
 def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule: Rule) -> Draft:
-    """Plan a fleet by giving way, and where that gets stuck by other means.
+    """Plan a fleet by rights of way, and where time is short for that by `lacam`.
 
     Parameters
     ----------
@@ -194,7 +193,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
     routes
         One for each robot.
     rule
-        Who waits.
+        Decides which robot waits.
 
     Raises
     ------
@@ -205,46 +204,49 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
     """
     try:
         hurried = replace(task, deadline=task.deadline.sooner(SHARE))
-        return one_by_one(hurried, distances, Fleet(hurried, routes), rule)
+        return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
     except GaveUp:
-        return all_together(task, "time was short, so all were planned together")
+        return _plan_together(task, "time was short, so all were planned together")
 
 
-def one_by_one(task: Task, distances: Distances, fleet: Fleet, rule: Rule) -> Draft:
-    """Give rights of way, then send those another way whom no waiting helps."""
-    fleet.settle_all(rule)
-    tracks = {r: t for r, t in enumerate(fleet.graph.tracks()) if r not in fleet.aside}
-    rerouted = reroute(task, distances, tracks, list(fleet.aside))
+def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
+    """Resolve all conflicts, then reroute the robots that were deferred.
+
+    Raises
+    ------
+    NoPlanExists, GaveUp
+        As `plan_by_rule`.
+    """
+    plan.resolve_all(rule)
+    tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
+    rerouted = reroute(task, distances, tracks, list(plan.deferred))
     if rerouted is None:
         because = "one robot at a time finds no way, so all were planned together"
-        return all_together(task, because)
+        return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
-    if rerouted:  # whoever waited for a robot that goes another way need not wait any more
+    status = "waits only"
+    if rerouted:  # shift the visits of robots that waited for a robot on its former route
         ordered = graph_of(task.scenario, ordered).tracks()
+        names = [task.scenario.robots[robot].name for robot in rerouted]
+        status = f"re-routed {', '.join(names)}"
     return Draft(
         tracks=tuple(ordered),
-        status=_status(task.scenario, rerouted),
-        decisions=tuple(one for one in fleet.decisions if not set(one.robots) & set(rerouted)),
+        status=status,
+        decisions=tuple(one for one in plan.decisions if not set(one.robots) & set(rerouted)),
         reroutes=tuple(
-            Reroute(robot=robot, because=fleet.aside.get(robot, "stood in the way of another one"))
+            Reroute(
+                robot=robot, because=plan.deferred.get(robot, "stood in the way of another one")
+            )
             for robot in rerouted
         ),
-        keeps_swaps=not fleet.sees_swaps,
+        keeps_swaps=not plan.sees_swaps,
     )
 
 
-def all_together(task: Task, because: str) -> Draft:
-    """Plan the whole fleet anew."""
+def _plan_together(task: Task, because: str) -> Draft:
+    robots = range(len(task.scenario.robots))
     return Draft(
-        tracks=tuple(plan_jointly(task)[0]),
+        tracks=tuple(plan_fleet(task)[0]),
         status="re-routed all robots together",
-        reroutes=tuple(
-            Reroute(robot=robot, because=because) for robot in range(len(task.scenario.robots))
-        ),
+        reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )
-
-
-def _status(scenario: Scenario, rerouted: Sequence[int]) -> str:
-    if not rerouted:
-        return "waits only"
-    return "re-routed " + ", ".join(scenario.robots[robot].name for robot in rerouted)

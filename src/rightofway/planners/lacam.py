@@ -1,27 +1,55 @@
-"""All robots together, instant by instant: LaCAM for robots with clocks.
+"""LaCAM: the whole fleet at once, a search over where all robots are.
+
+The timed search goes from instant to instant with each robot's own speed and work. Where it ends
+without a plan, the untimed search brings all robots through their trips in some order of moves.
+That order gives each robot a route, and each vertex an order of visits: rights of way, whose
+earliest timetable is a plan for any speeds, work times and headways.
 
 References
 ----------
 Okumura, *LaCAM: Search-based algorithm for quick multi-agent pathfinding*, AAAI 2023.
 Okumura, Machida, Défago & Tamura, *Priority inheritance with backtracking for iterative multi-agent
 path finding*, Artificial Intelligence 310, 2022.
+
+Notes
+-----
+Complete: the untimed search finds an order of moves or proves that there is none. Deterministic, as
+long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
 
 from __future__ import annotations
 
-from rightofway.planners.joint import plan_jointly
-from rightofway.planners.task import Draft, Task
+from collections.abc import Sequence
 
-__all__ = ["lacam"]
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import NoPlanExists
+from rightofway.model import Scenario, Track, VertexId, route_through
+from rightofway.planners.routing import refuse_shared_ends, refuse_the_impossible
+from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.precedence import PrecedenceGraph
+from rightofway.search import Distances, plan_by_lacam, untimed_lacam
+
+__all__ = ["lacam", "plan_fleet", "timetable_in_order", "timetable_of"]
+
+SHARE_OF_TIME = 0.9
+"""The part of the time for the timed search."""
+
+MANY = 5000
+"""The untimed search takes far longer than the timed one for more robots: it gets no time."""
+
+LEAST_EFFORT, EFFORT_PER_PLACE = 2_000_000, 8
+"""The timed search stops after so many choices per robot and vertex, but not before the least."""
 
 
 def lacam(task: Task) -> Draft:
-    """Plan with clocks; where that does not come to an end, find an order of moves without.
+    """Plan the whole fleet at once.
 
     Parameters
     ----------
     task
-        Options: ``paths`` is ``spread`` or ``shortest``.
+        Options: `LacamOptions`.
 
     Raises
     ------
@@ -30,5 +58,86 @@ def lacam(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    tracks, status = plan_jointly(task, spreads=task.options["paths"] == "spread")
+    tracks, status = plan_fleet(task, spreads=task.options["paths"] == "spread")
     return Draft(tracks=tuple(tracks), status=status)
+
+
+def plan_fleet(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
+    """Return a track for each robot, and how they were found.
+
+    Parameters
+    ----------
+    task
+        The problem.
+    spreads
+        Whether robots prefer paths that were spread before the search.
+
+    Raises
+    ------
+    NoPlanExists, GaveUp
+        As `lacam`.
+    """
+    scenario = task.scenario
+    refuse_shared_ends(scenario)
+    robots, share = len(scenario.robots), SHARE_OF_TIME
+    try:
+        tracks = plan_by_lacam(
+            scenario,
+            headway=planning_headway(scenario),
+            seed=task.seed,
+            most_effort=max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices),
+            time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
+            spreads=spreads,
+        )
+    except NoPlanExists:
+        refuse_the_impossible(scenario, Distances(scenario.roadmap))
+        raise
+    if tracks is not None:
+        task.has_plan()
+        return tracks, "instant by instant"
+    task.report("no end by instants: planning the order of moves without clocks")
+    steps = untimed_lacam(scenario, seed=task.seed, time_limit=task.deadline.seconds_left())
+    tracks = timetable_of(scenario, steps)
+    task.has_plan()
+    return tracks, "order of moves first"
+
+
+def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
+    """Return the earliest tracks along the routes of some steps that keep their order.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    steps
+        The vertex of every robot after each step, shape (T, R), as from `untimed_lacam`.
+    """
+    arrivals = [[0, *(np.flatnonzero(np.diff(places)) + 1).tolist()] for places in steps.T]
+    visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
+    return timetable_in_order(scenario, visited, arrivals)
+
+
+def timetable_in_order(
+    scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
+) -> list[Track]:
+    """Return the earliest tracks along some routes that keep an order of arrivals.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    visited
+        The vertices that each robot visits, in order.
+    arrivals
+        When each visit begins, by any clock; of two visits at one vertex the earlier stays first.
+        No visit begins when another one at that vertex ends, unless bookings allow a rotation.
+    """
+    routes = [
+        route_through(scenario.roadmap, itinerary, vertices)
+        for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
+    ]
+    graph = PrecedenceGraph(
+        routes, headway=planning_headway(scenario), books_ahead=scenario.rules.books_ahead
+    )
+    graph.keep_order(arrivals)
+    return graph.tracks()

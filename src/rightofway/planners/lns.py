@@ -1,6 +1,6 @@
-"""Anytime improvement: a few robots at a time give up their tracks and are planned anew.
+"""Large neighbourhood search: the tracks of a few robots at a time are replanned, anytime.
 
-Where that is stuck, a few plans of the fleet are crossed with each other.
+Where no neighbourhood gains any more, a small population of plans of the fleet is crossed.
 
 References
 ----------
@@ -18,11 +18,12 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 from rightofway.errors import GaveUp
 from rightofway.metrics import flowtime_of
 from rightofway.model import Track
-from rightofway.planners.joint import plan_jointly
+from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
@@ -31,13 +32,13 @@ from rightofway.search import FleetSearch
 __all__ = ["improved", "lns"]
 
 SHARE = 0.9
-"""The part of the time that planning all together may take."""
+"""The part of the time for LaCAM, which makes a first plan."""
 
 PATIENCE = 1000
-"""After so many neighbourhoods per robot without a gain it ends."""
+"""The search ends after this many neighbourhoods per robot without a gain."""
 
 BETWEEN_REPORTS = 0.5
-"""Seconds from one sentence on progress to the next."""
+"""Time from one sentence on progress to the next [s]."""
 
 UNLIMITED = 2**62
 
@@ -48,8 +49,7 @@ def lns(task: Task) -> Draft:
     Parameters
     ----------
     task
-        Options: ``iterations`` ends it after so many neighbourhoods; 0 does not. With a plan in
-        ``start``, that one is improved.
+        Options: `LnsOptions`. With a plan in ``start``, that one is improved.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def lns(task: Task) -> Draft:
 
 
 def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
-    """Improve the best of several first plans, of one that is there already and of our own.
+    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized.
 
     Raises
     ------
@@ -81,31 +81,56 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 
 
 def _together(task: Task) -> Draft | None:
-    """Plan all robots together; that is quick, and no worse than nothing.
-
-    Fleets too large to be planned in turn may take all the time.
-    """
+    """Plan by LaCAM; fleets too large for prioritized planning may take all the time."""
     share = SHARE if len(task.scenario.robots) <= MOST_ROBOTS else 1
     try:
-        tracks, _ = plan_jointly(replace(task, deadline=task.deadline.sooner(share)))
+        tracks, _ = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
     except GaveUp:
         return None
     return Draft(tracks=tuple(tracks), status="all together")
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
+    """Improve a plan until time, iterations or gains are used up, or nothing can be better.
+
+    An interrupt ends it too: there is a plan to return.
+    """
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
-    improvement = _Improvement(task, search)
-    improvement.run()
-    if search.flowtime < improvement.first:
-        search.retime()  # who waited for robots that come earlier now need not wait so long
-    found = search.tracks()
-    if spaced is not first.tracks and flowtime_of(task.scenario, found) > flowtime_of(
-        task.scenario, first.tracks
-    ):
-        found = first.tracks  # the headway of planning costs more than was won
-    return Draft(tracks=found, status=improvement.status(first.status))
+    bound, before = int(search.alone().sum()), search.flowtime
+    patience = PATIENCE * len(task.scenario.robots)
+    iterations = task.options["iterations"] or UNLIMITED
+    done, ended = 0, ""
+    try:
+        while search.flowtime != bound and done < iterations:
+            began, done_before = time.perf_counter(), done
+            done += search.improve(
+                iterations - done,
+                patience=patience,
+                time_limit=task.deadline.seconds_left(),
+                pause=BETWEEN_REPORTS,
+            )
+            rate = (done - done_before) / (time.perf_counter() - began)
+            gap = f"{search.flowtime / bound - 1:.2%} above the bound"
+            task.report(f"flowtime {search.flowtime}, {gap}, {rate:.0f} tries/s")
+            if search.idle >= patience or task.deadline.seconds_left() == 0:
+                break
+    except KeyboardInterrupt:
+        ended = "interrupted: "
+    if search.flowtime < before:
+        # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
+        # order at each vertex.
+        search.retime()
+    if search.flowtime == bound:
+        status = f"optimal: every robot as fast as alone (first plan: {first.status})"
+    elif search.flowtime == before:
+        status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
+    else:
+        status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
+    found, flowtime = search.tracks(), partial(flowtime_of, task.scenario)
+    if spaced is not first.tracks and flowtime(found) > flowtime(first.tracks):
+        found = first.tracks  # the headway of planning costs more than the search gained
+    return Draft(tracks=found, status=status)
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
@@ -114,56 +139,3 @@ def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
     if headway == task.scenario.problem.headway:
         return tracks
     return graph_of(task.scenario, tracks, headway=headway).tracks()
-
-
-class _Improvement:
-    """Improving the tracks of a search, and telling how it goes."""
-
-    def __init__(self, task: Task, search: FleetSearch) -> None:
-        self.task, self.search = task, search
-        self.bound = int(search.alone().sum())
-        self.patience = PATIENCE * len(task.scenario.robots)
-        self.first, self.done = search.flowtime, 0
-        self.was_interrupted = False
-
-    @property
-    def is_optimal(self) -> bool:
-        return self.search.flowtime == self.bound
-
-    def run(self) -> None:
-        """Improve until time, iterations or gains are used up, or nothing can be better.
-
-        An interrupt ends it too: there is a plan to hand out.
-        """
-        try:
-            self._run()
-        except KeyboardInterrupt:
-            self.was_interrupted = True
-
-    def _run(self) -> None:
-        iterations = self.task.options["iterations"] or UNLIMITED
-        while not self.is_optimal and self.done < iterations:
-            began, before = time.perf_counter(), self.done
-            left = self.task.deadline.seconds_left()
-            self.done += self.search.improve(
-                iterations - self.done,
-                patience=self.patience,
-                time_limit=left,
-                pause=BETWEEN_REPORTS,
-            )
-            rate = (self.done - before) / (time.perf_counter() - began)
-            self.task.report(f"flowtime {self.search.flowtime}, {self._gap()}, {rate:.0f} tries/s")
-            if self.search.idle >= self.patience or self.task.deadline.seconds_left() == 0:
-                return
-
-    def status(self, origin: str) -> str:
-        """Say what was done."""
-        if self.is_optimal:
-            return f"optimal: every robot as fast as alone (first plan: {origin})"
-        ended = "interrupted: " if self.was_interrupted else ""
-        if self.search.flowtime == self.first:
-            return f"{ended}{origin}; {self.done} neighbourhoods found nothing better"
-        return f"{ended}improved by {self.done} neighbourhoods (first plan: {origin})"
-
-    def _gap(self) -> str:
-        return f"{self.search.flowtime / self.bound - 1:.2%} above the bound"

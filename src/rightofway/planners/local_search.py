@@ -1,10 +1,10 @@
-"""Local search on fixed routes: take the right of way from those who delay others.
+"""Local search on fixed routes: flips of rights of way that make robots late.
 
-A plan is routes and rights of way. Whatever a robot loses, it loses on its critical path: the
-rights of way that its completion time is due to. One of these is flipped, for the whole segment
-that both robots share; whoever meets then is kept apart by the choice that costs least; and the
-result is kept if the flowtime is less. Where no flip helps any more, a few robots go first, or
-last, wherever they meet anybody, and the search goes on from there, for so many rounds.
+A plan is routes and rights of way. What a robot loses, it loses on its critical path: the rights of
+way that its completion time depends on. The search flips one of these, for the whole segment that
+both robots share, resolves the conflicts that follow by the choice that costs least, and keeps the
+result if the flowtime is less. Where no flip helps any more, a few robots get the right of way, or
+lose it, wherever they have a conflict, and the search goes on from there, round after round.
 
 References
 ----------
@@ -14,8 +14,8 @@ Lourenço, Martin & Stützle, *Iterated local search*, Handbook of Metaheuristic
 
 Notes
 -----
-Never worse than the plan it starts from. Anytime; deterministic for a seed where the rounds come to
-an end in time. Not optimal.
+Never worse than the plan that it starts from. Anytime; deterministic for a seed where the rounds
+end in time. Not optimal.
 """
 
 from __future__ import annotations
@@ -32,25 +32,20 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
 
-__all__ = ["Search", "local_search"]
+__all__ = ["LocalSearch", "local_search"]
 
 MOST_FAVOURS = 3
-"""How many robots at most are to go first or last in a round."""
+"""How many robots are favoured or disfavoured in a round, at most."""
 
 MOST_MEETINGS = 100
-"""How many meetings one change may lead to, per robot of the fleet, before it is given up."""
+"""How many conflicts one change may lead to, per robot of the fleet, before it is undone."""
 
 
-class _Favour(NamedTuple):
-    """A robot that is to go first, or last, wherever it meets another."""
+class _Preference(NamedTuple):
+    """A robot that is to go first, or last, wherever it has a conflict."""
 
     robot: int
     goes_first: bool
-
-    def is_against(self, meeting: Meeting, waits: int) -> bool:
-        """Tell whether one of two robots (0: i, 1: j) had better not wait."""
-        concerned = self.robot in meeting.robots
-        return concerned and (meeting.robots[waits] == self.robot) == self.goes_first
 
 
 def local_search(task: Task) -> Draft:
@@ -59,8 +54,8 @@ def local_search(task: Task) -> Draft:
     Parameters
     ----------
     task
-        Options: ``rounds`` after the first descent; ``routes`` for `two_level`, which makes the
-        plan to start from where none is given.
+        Options: `LocalSearchOptions`; `two_level` makes the plan to start from where none is
+        given.
 
     Raises
     ------
@@ -71,28 +66,28 @@ def local_search(task: Task) -> Draft:
     task.has_plan()
     before = graph_of(task.scenario, first.tracks)
     graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
-    Search(task, graph).run(rounds=int(task.options["rounds"]))
-    if graph.flowtime() > before.flowtime():  # the headway of planning may cost more than it won
+    LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
+    if graph.flowtime() > before.flowtime():  # the headway of planning costs more than flips gain
         graph = before
-    said = f"flips took the flowtime from {before.flowtime()} to {graph.flowtime()} ticks"
+    gain = f"flips took the flowtime from {before.flowtime()} to {graph.flowtime()} ticks"
     return Draft(
         tracks=tuple(graph.tracks()),
-        status=f"{first.status}; {said}" if first.status else said,
+        status=f"{first.status}; {gain}" if first.status else gain,
         reroutes=first.reroutes,
     )
 
 
-class Search:
-    """A graph without meetings, and flips that keep it so.
+class LocalSearch:
+    """A graph without conflicts, and flips that keep it so.
 
     Parameters
     ----------
     task
         The problem.
     graph
-        Without meetings.
+        Without conflicts.
     may_wait
-        Tells of a visit whether another may be let go before it; it may not if it has begun.
+        Whether a visit may be delayed for another one; a visit that has begun may not.
     """
 
     def __init__(
@@ -105,32 +100,28 @@ class Search:
         self.graph = graph
         self.may_wait = may_wait
         self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
-        self.alone = [_alone(graph, robot) for robot in range(len(graph.routes))]
+        self.alone = [sum(map(route.least, range(len(route)))) for route in graph.routes]
 
     def run(self, rounds: int) -> None:
-        """Descend, then favour robots and descend again; stop early where no robot is late."""
+        """Descend, then change some robots' luck and descend again, until no robot is late."""
         try:
             self.descend()
             for _ in range(rounds):
                 if self.graph.flowtime() == sum(self.alone):
                     return
-                self.round()
+                mark, before = self.graph.checkpoint(), self.graph.flowtime()
+                try:
+                    for _ in range(self.draw.randint(1, MOST_FAVOURS)):
+                        self.perturb()
+                    self.descend()
+                finally:
+                    if self.graph.flowtime() > before:
+                        self.graph.rollback(mark)
         except GaveUp:
             return
 
-    def round(self) -> None:
-        """Favour some robots, descend, and go back if that made it worse."""
-        mark, before = self.graph.checkpoint(), self.graph.flowtime()
-        try:
-            for _ in range(self.draw.randint(1, MOST_FAVOURS)):
-                self.favour()
-            self.descend()
-        finally:
-            if self.graph.flowtime() > before:
-                self.graph.rollback(mark)
-
-    def favour(self) -> None:
-        """Take two robots of which one delays the other; turn one's luck wherever it meets."""
+    def perturb(self) -> None:
+        """Take two robots of which one delays the other; favour or disfavour one everywhere."""
         graph, critical = self.graph, list(self.critical_rights())
         if not critical:
             return
@@ -139,7 +130,7 @@ class Search:
         mark = graph.checkpoint()
         for a, b in graph.rights_of(robot):
             graph.take_back(a, b)
-        if not self.settle(favour=_Favour(robot, goes_first=robot == second)):
+        if not self.resolve(preference=_Preference(robot, goes_first=robot == second)):
             graph.rollback(mark)
 
     def descend(self) -> None:
@@ -160,12 +151,12 @@ class Search:
         yield from dict.fromkeys(rights)
 
     def flip(self, first: int, second: int) -> bool:
-        """Give the other robot the right of way in a whole segment, and settle who meets then.
+        """Flip a right of way in its whole segment, and resolve the conflicts that follow.
 
         False, with nothing changed, if that is impossible or the flowtime does not get less.
         """
         mark, before = self.graph.checkpoint(), self.graph.flowtime()
-        if self.reverse(first, second) and self.settle(below=before):
+        if self.reverse(first, second) and self.resolve(below=before):
             return True
         self.graph.rollback(mark)
         return False
@@ -187,35 +178,32 @@ class Search:
         """Give several rights of way; false, with nothing changed, if that is impossible."""
         return all(self.may_wait(second) for _, second in rights) and self.graph.give_all(rights)
 
-    def settle(self, *, below: Tick | None = None, favour: _Favour | None = None) -> bool:
-        """Keep apart whoever meets; false if that is impossible or the flowtime not below."""
+    def resolve(self, *, below: Tick | None = None, preference: _Preference | None = None) -> bool:
+        """Resolve all conflicts; false if that is impossible or the flowtime not below."""
         for _ in range(MOST_MEETINGS * len(self.alone)):
             if below is not None and self.graph.flowtime() >= below:
                 return False  # more rights of way never make it less
             meeting = self.graph.next_meeting()
             if meeting is None:
                 return True
-            if not self.keep_apart(meeting, favour):
+            if not self.resolve_one(meeting, preference):
                 return False
         return False
 
-    def keep_apart(self, meeting: Meeting, favour: _Favour | None) -> bool:
-        """Let one of two robots wait, by favour or by what it costs; false if neither can."""
+    def resolve_one(self, meeting: Meeting, preference: _Preference | None) -> bool:
+        """Let one of two robots wait, by preference or by what it costs; false if neither can."""
         graph, mark = self.graph, self.graph.checkpoint()
         (i, visit_i), (j, visit_j) = (graph.place(visit) for visit in meeting.visits)
         segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
         choices = []
         for waits in (0, 1):
-            against = favour is not None and favour.is_against(meeting, waits)
+            against = preference is not None and preference.robot in meeting.robots
+            if preference is not None and against:
+                is_waiting = meeting.robots[waits] == preference.robot
+                against = is_waiting == preference.goes_first
             rights = rights_if_waits(graph, meeting, segment, waits)
             if self.give_all(rights):
                 cost = (against, graph.flowtime(), graph.conflicts_left(), waits)
                 choices.append((cost, rights))
             graph.rollback(mark)
         return bool(choices) and self.give_all(min(choices)[1])
-
-
-def _alone(graph: PrecedenceGraph, robot: int) -> Tick:
-    """Return when a robot would complete its route if it never waited."""
-    route = graph.routes[robot]
-    return Tick(sum(route.least(visit) for visit in range(len(route))))

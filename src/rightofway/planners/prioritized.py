@@ -1,4 +1,4 @@
-"""One robot after another, each round those before it; who stands in the way is planned again.
+"""Prioritized planning: one robot after another; a robot in the way of another is planned again.
 
 References
 ----------
@@ -21,7 +21,7 @@ import numpy as np
 
 from rightofway.metrics import flowtime_of
 from rightofway.model import Scenario, Stop
-from rightofway.planners.joint import plan_jointly, timetable_in_order
+from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_headway
 from rightofway.search import Distances, FleetSearch
@@ -32,23 +32,23 @@ SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
 
 SHARE_WITH_NET = 0.5
-"""The part of the time left for planning at own speeds where a plan made in haste is there."""
+"""The part of the time left for planning at own speeds where the greedy attempt has a plan."""
 
 SEARCHES, SEARCHES_AT_ONE_PACE = 3, 20
-"""How often robots may be planned so and so, per robot of the fleet.
+"""How often robots are planned at most, per robot of the fleet: at own speeds, and at one pace.
 
-Fleets that settle at their own speeds do so after less than two searches for each robot, as a rule;
-one pace is quicker where more are needed, and settles more fleets.
+Fleets that find a plan at their own speeds need fewer than two searches per robot, as a rule; one
+pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
 MOST_ROBOTS = 8000
-"""Larger fleets are not planned in turn: ten thousand did not settle in 80 s."""
+"""Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
 
 HEADWAYS_PER_EDGE = 8
 """The headway of robots at one pace, as a part of the shortest edge."""
 
 ORDERS = ("shortest", "longest", "slowest", "file", "random")
-"""Who is planned first: by the least completion alone, by speed, as in the file, or as drawn."""
+"""Which robot is planned first: by least completion alone, by speed, as listed, or as drawn."""
 
 
 def prioritized(task: Task) -> Draft:
@@ -57,7 +57,7 @@ def prioritized(task: Task) -> Draft:
     Parameters
     ----------
     task
-        Options: ``order`` is one of `ORDERS`.
+        Options: `PrioritizedOptions`.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def prioritized(task: Task) -> Draft:
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
-    tracks, _ = plan_jointly(task)
+    tracks, _ = plan_fleet(task)
     status = "all together, because robots one after another found no way"
     return Draft(tracks=tuple(tracks), status=status)
 
@@ -93,9 +93,12 @@ def fleet_search(task: Task) -> FleetSearch:
 
 
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
-    """Plan robots one after another, at their own speeds or else at one pace; say which.
+    """Plan robots one after another, at their own speeds or else at one pace.
 
-    None if that did not work out.
+    Returns
+    -------
+    Draft or None
+        None if no plan was found; that proves nothing.
     """
     if len(task.scenario.robots) > MOST_ROBOTS:
         return None
@@ -126,7 +129,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     paced = _paced(task.scenario)
-    # Haste is not needed here, and beside it this would take longer on a busy machine.
+    # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
     search = FleetSearch(paced, headway=paced.problem.headway, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
@@ -142,10 +145,10 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
 
 
 def _paced(scenario: Scenario) -> Scenario:
-    """Return the same trips for robots that are all alike, do not work, and book one vertex.
+    """Return the same trips for robots of one speed that do not work and book one vertex.
 
-    Who goes where in which order there is possible for the robots as they are, too. A headway
-    keeps apart who leaves a vertex and who comes next, so that no circle of robots moves at once.
+    The order of visits in a plan of these is possible for the real robots, too: the headway keeps
+    the robot that leaves a vertex apart from the next one, so that no cycle moves at one instant.
     """
     robots = tuple(
         replace(

@@ -1,10 +1,11 @@
-"""Sending robots another way, one at a time, where waiting on fixed routes opens no deadlock."""
+"""Robots rerouted one at a time, where waiting on fixed routes resolves no deadlock."""
 
 from __future__ import annotations
 
 import random
 from collections import Counter, deque
 from collections.abc import Iterable
+from itertools import accumulate
 
 from rightofway.model import Tick, Track
 from rightofway.planners.routing import shortest_route
@@ -14,14 +15,14 @@ from rightofway.search import Booking, Bookings, Distances, earliest_track
 __all__ = ["reroute"]
 
 TRIES_PER_ROBOT = 10
-"""How often robots may be sent another way, per robot of the fleet."""
+"""How often robots are rerouted at most, per robot of the fleet."""
 
 START_HOLD = 4
-"""For how many of its slowest edges the home of a robot without a track is kept free."""
+"""How long the home of a robot without a track is kept free, in drives of its slowest edge."""
 
 
-class _Floor:
-    """Who has a track, what is booked, and who still waits for a track."""
+class _Reservations:
+    """The tracks of some robots of a fleet, and what these tracks book."""
 
     def __init__(self, task: Task, distances: Distances, tracks: dict[int, Track]) -> None:
         scenario = task.scenario
@@ -38,7 +39,7 @@ class _Floor:
             self.bookings.add(robot, track, self.itineraries[robot])
 
     def hold_home(self, robot: int) -> None:
-        """Keep the home of a robot without a track free for a while, so that it can leave."""
+        """Book the home of a robot without a track for a while, so that it can leave."""
         itinerary = self.itineraries[robot]
         booked = self.bookings.at(itinerary.home)
         hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
@@ -60,7 +61,7 @@ class _Floor:
         return True
 
     def evict(self, robots: Iterable[int]) -> list[int]:
-        """Take back the tracks of some robots; they need new ones."""
+        """Remove the tracks of some robots; return those that had one."""
         evicted = sorted(robot for robot in robots if self.tracks.pop(robot, None) is not None)
         for robot in evicted:
             self.bookings.release(robot)
@@ -71,49 +72,47 @@ class _Floor:
         """Return the robots in the way of this one on its shortest route without waits."""
         itinerary = self.itineraries[robot]
         route = shortest_route(itinerary, self.distances)
-        enter = [0]
-        for visit in range(len(route) - 1):
-            enter.append(enter[-1] + route.least(visit))
-        track = Track.of(route.vertices, enter)
+        enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
+        track = Track.of(route.vertices, list(enter))
         return self.bookings.in_the_way(robot, track, itinerary)
 
 
 def reroute(
-    task: Task, distances: Distances, tracks: dict[int, Track], aside: list[int]
+    task: Task, distances: Distances, tracks: dict[int, Track], deferred: list[int]
 ) -> list[int] | None:
-    """Give robots without a track one among the others; add them to ``tracks``.
+    """Add a track among the others to ``tracks`` for each robot without one.
 
-    A robot that finds no way takes back the tracks of those in its way, and they follow it in any
-    order. The more often it fails, the more others make room.
+    A robot that finds no way evicts the robots in its way, and these follow it in any order. The
+    more often a robot fails, the more others are evicted.
 
     Returns
     -------
     list of int or None
-        All robots whose way was changed, in the order of the fleet; None if that did not work out
-        in a bounded number of tries.
+        All robots whose route was changed, in the order of the fleet; None if that failed in a
+        bounded number of tries.
 
     Raises
     ------
     GaveUp
         When time ran out.
     """
-    floor = _Floor(task, distances, tracks)
-    waiting, changed = deque(aside), set(aside)
+    table = _Reservations(task, distances, tracks)
+    waiting, changed = deque(deferred), set(deferred)
     failures: Counter[int] = Counter()
     draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
-    for robot in aside:
-        floor.hold_home(robot)
-    for _ in range(TRIES_PER_ROBOT * len(floor.itineraries)):
+    for robot in deferred:
+        table.hold_home(robot)
+    for _ in range(TRIES_PER_ROBOT * len(table.itineraries)):
         if not waiting:
             return sorted(changed)
         task.deadline.check("sending robots another way")
         robot = waiting.popleft()
-        if floor.place(robot):
+        if table.place(robot):
             continue
         more = draw.sample(sorted(tracks), min(failures[robot], len(tracks)))
         failures[robot] += 1
-        evicted = floor.evict(floor.blockers(robot).union(more))
+        evicted = table.evict(table.blockers(robot).union(more))
         draw.shuffle(evicted)
         changed |= set(evicted)
-        waiting.extend(evicted if floor.place(robot) else [robot, *evicted])
+        waiting.extend(evicted if table.place(robot) else [robot, *evicted])
     return None
