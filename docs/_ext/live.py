@@ -25,7 +25,7 @@ from rightofway.cli.main import commands
 from rightofway.execution import CAUSES, DEFAULT
 from rightofway.io import schema
 from rightofway.model import Robot, Rules, Stop
-from rightofway.planners import Count, Option, registered
+from rightofway.planners import Option, registered
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -103,9 +103,7 @@ class PlannerOptions(LiveDirective):
 
 
 def _other_values(option: Option) -> str:
-    if isinstance(option, Count):
-        return f"whole numbers from {option.least}"
-    return _codes(option.choices[1:])
+    return _codes(option.choices[1:]) or f"whole numbers from {option.least}"
 
 
 class DocumentKeys(LiveDirective):

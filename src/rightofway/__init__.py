@@ -67,29 +67,15 @@ if _TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-_LATER = {
-    "CyclicResult": "cyclic",
-    "Film": "viz",
-    "GroupTimetable": "cyclic",
-    "Metrics": "metrics",
-    "Outcome": "execution",
-    "Theme": "viz.palette",
-    "Wait": "metrics",
-    "best_timetable": "cyclic",
-    "load": "io",
-    "load_plan": "io",
-    "measure": "metrics",
-    "plan_of": "cyclic",
-    "run_laps": "cyclic",
-    "run_of": "cyclic",
-    "simulate": "execution",
-    "waits": "metrics",
-    "write_gif": "viz",
-    "write_page": "viz",
-    "write_plan": "io",
-    "write_png": "viz",
-    "write_scenario": "io",
+_ROOMS = {
+    "cyclic": ("CyclicResult", "GroupTimetable", "best_timetable", "plan_of", "run_laps", "run_of"),
+    "execution": ("Outcome", "simulate"),
+    "io": ("load", "load_plan", "write_plan", "write_scenario"),
+    "metrics": ("Metrics", "Wait", "measure", "waits"),
+    "viz": ("Film", "write_gif", "write_page", "write_png"),
+    "viz.palette": ("Theme",),
 }
+_LATER = {name: room for room, names in _ROOMS.items() for name in names}
 
 __all__ = [
     "AutoOptions",

@@ -1,16 +1,51 @@
 """What planners can be told."""
 
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError, dataclass
+from typing import Annotated, Any, Literal
+
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.planners import Choice, Count
-
-WORD = Choice("order", ("file", "random"), "In which order.")
-NUMBER = Count("rounds", 5, 1, "How often.")
+from rightofway.planners import Least, Option, PlannerOptions, PlannerSpec, registered
 
 
-def test_a_choice_is_one_of_its_words_and_the_first_by_default() -> None:
-    assert (WORD.default, WORD.read("random"), WORD.accepts) == ("file", "random", "file|random")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnOptions(PlannerOptions):
+    """Options of a planner of another package."""
+
+    order: Annotated[Literal["file", "random"], "In which order."] = "file"
+    rounds: Annotated[int, Least(1), "How often."] = 5
+
+
+SPEC = PlannerSpec("own", "own:own", "A planner of another package.", OwnOptions)
+WORD, NUMBER = OwnOptions.described()
+
+
+def test_options_are_described_by_their_fields() -> None:
+    assert Option(name="order", default="file", summary="In which order.",
+                  choices=("file", "random")) == WORD  # fmt: skip
+    assert Option(name="rounds", default=5, summary="How often.", least=1) == NUMBER
+    assert (WORD.accepts, NUMBER.accepts) == ("file|random", "5")
+    assert SPEC.options == (WORD, NUMBER)
+
+
+def test_options_are_given_as_a_value_or_by_name_and_the_rest_has_its_default() -> None:
+    wanted = {"order": "random", "rounds": 5}
+    assert SPEC.settle(OwnOptions(order="random")) == wanted
+    assert SPEC.settle({"order": "random"}) == wanted
+    assert SPEC.settle({}) == {"order": "file", "rounds": 5}
+
+
+def test_options_cannot_be_changed() -> None:
+    options: Any = OwnOptions()
+    with pytest.raises(FrozenInstanceError):
+        options.rounds = 6
+
+
+def test_a_choice_is_one_of_its_words() -> None:
+    assert WORD.read("random") == "random"
     with pytest.raises(InputError, match=r"option order: 'x' is not a choice \(give one of: file,"):
         WORD.read("x")
 
@@ -24,3 +59,10 @@ def test_a_count_is_a_whole_number_however_it_is_written(given: object) -> None:
 def test_a_count_refuses_what_is_none_or_too_small(given: object) -> None:
     with pytest.raises(InputError, match=r"option rounds: '.*' is not a whole number of 1 or more"):
         NUMBER.read(given)
+
+
+@pytest.mark.parametrize("planner", sorted(registered()))
+def test_options_of_a_planner_hold_their_own_defaults(planner: str) -> None:
+    spec = registered()[planner]
+    assert spec.settle(spec.options_type()) == spec.settle({})
+    assert [option.name for option in spec.options] == list(spec.settle({}))

@@ -2,8 +2,6 @@
 
 from rightofway.planners.options import (
     AutoOptions,
-    Choice,
-    Count,
     LacamOptions,
     Least,
     LnsOptions,
@@ -23,8 +21,6 @@ __all__ = [
     "DEFAULT",
     "IMPROVER",
     "AutoOptions",
-    "Choice",
-    "Count",
     "Deadline",
     "Draft",
     "LacamOptions",

@@ -7,16 +7,13 @@ of values are made from that.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type_hints
+from typing import Annotated, Literal, Self, get_args, get_origin, get_type_hints
 
 from rightofway.errors import InputError, nearest
 
 __all__ = [
     "AutoOptions",
-    "Choice",
-    "Count",
     "LacamOptions",
     "Least",
     "LnsOptions",
@@ -32,51 +29,9 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """An option that is one of several words.
-
-    Attributes
-    ----------
-    name
-        As in ``--option name=value``.
-    choices
-        The values it may have, the default first.
-    summary
-        What it does, in a sentence.
-    """
-
-    name: str
-    choices: tuple[str, ...]
-    summary: str
-
-    @property
-    def default(self) -> str:
-        """The value where none is given."""
-        return self.choices[0]
-
-    @property
-    def accepts(self) -> str:
-        """What may be given, for people."""
-        return "|".join(self.choices)
-
-    def read(self, given: object) -> str:
-        """Return the value for what was given.
-
-        Raises
-        ------
-        InputError
-            If it is not a choice.
-        """
-        if str(given) not in self.choices:
-            message = f"{str(given)!r} is not a choice (give one of: {', '.join(self.choices)})"
-            raise InputError.at(f"option {self.name}", message)
-        return str(given)
-
-
-@dataclass(frozen=True, slots=True)
-class Count:
-    """An option that is a whole number.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Option:
+    """Something a planner can be told: one of several words, or a whole number.
 
     Attributes
     ----------
@@ -84,39 +39,43 @@ class Count:
         As in ``--option name=value``.
     default
         The value where none is given.
-    least
-        The least it may be.
     summary
         What it does, in a sentence.
+    choices
+        The words, the default first; empty for a number.
+    least
+        The least number.
     """
 
     name: str
-    default: int
-    least: int
+    default: str | int
     summary: str
+    choices: tuple[str, ...] = ()
+    least: int = 0
 
     @property
     def accepts(self) -> str:
         """What may be given, for people."""
-        return str(self.default)
+        return "|".join(self.choices) or str(self.default)
 
-    def read(self, given: object) -> int:
-        """Return the value for what was given.
+    def read(self, given: object) -> str | int:
+        """Return the value for what was given, a number also for its text.
 
         Raises
         ------
         InputError
-            If it is no whole number, or too small.
+            If it is none of the words, no whole number, or too small.
         """
         text = str(given)
-        if not (text.isascii() and text.isdecimal() and int(text) >= self.least):
-            message = f"{text!r} is not a whole number of {self.least} or more"
-            raise InputError.at(f"option {self.name}", f"{message} (for example {self.default})")
-        return int(text)
-
-
-Option = Choice | Count
-"""Something a planner can be told."""
+        if self.choices:
+            if text in self.choices:
+                return text
+            remedy = f"is not a choice (give one of: {', '.join(self.choices)})"
+        else:
+            if text.isascii() and text.isdecimal() and int(text) >= self.least:
+                return int(text)
+            remedy = f"is not a whole number of {self.least} or more (for example {self.default})"
+        raise InputError.at(f"option {self.name}", f"{text!r} {remedy}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,22 +121,26 @@ class PlannerOptions:
     @classmethod
     def described(cls) -> tuple[Option, ...]:
         """Return every option with its default, what it may be, and what it does."""
-        hints = get_type_hints(cls, include_extras=True)
-        return tuple(_option(field.name, field.default, hints[field.name]) for field in fields(cls))
+        hints, described = get_type_hints(cls, include_extras=True), []
+        for field in fields(cls):
+            default: Any = field.default
+            kind, *notes = get_args(hints[field.name])
+            summary = next(note for note in notes if isinstance(note, str))
+            words = get_args(kind) if get_origin(kind) is Literal else ()
+            described.append(
+                Option(
+                    name=field.name,
+                    default=default,
+                    summary=summary,
+                    choices=tuple(sorted(words, key=lambda word: word != default)),
+                    least=next((note.value for note in notes if isinstance(note, Least)), 0),
+                )
+            )
+        return tuple(described)
 
     def as_dict(self) -> dict[str, str | int]:
         """Return every option by name, as files keep them."""
         return asdict(self)
-
-
-def _option(name: str, default: Any, hint: Any) -> Option:
-    kind, *notes = get_args(hint)
-    summary = next(note for note in notes if isinstance(note, str))
-    if get_origin(kind) is Literal:
-        words = (default, *(word for word in get_args(kind) if word != default))
-        return Choice(name, words, summary)
-    least = next((note.value for note in notes if isinstance(note, Least)), 0)
-    return Count(name, default, least, summary)
 
 
 def unknown(name: str, owner: str, known: list[str]) -> str:
@@ -185,28 +148,6 @@ def unknown(name: str, owner: str, known: list[str]) -> str:
     near = nearest(name, known)
     hint = f"did you mean {near!r}? " if near else ""
     return f"{name!r} is unknown to {owner} ({hint}known: {', '.join(known) or 'none'})"
-
-
-def settled(
-    options: type[PlannerOptions], given: PlannerOptions | Mapping[str, Any], planner: str
-) -> dict[str, str | int]:
-    """Return a value for every option of a planner: the given ones, and defaults for the rest.
-
-    Raises
-    ------
-    InputError
-        For options of another planner, and for a name or a value that the planner does not know.
-    """
-    if isinstance(given, options):
-        return given.as_dict()
-    if not isinstance(given, Mapping):
-        wanted = f"{options.__name__}, or names with values"
-        raise InputError.at("options", f"{given!r} are no options of {planner} (give {wanted})")
-    known = [option.name for option in options.described()]
-    for name in given:
-        if name not in known:
-            raise InputError.at(f"option {name}", unknown(str(name), planner, known))
-    return options(**given).as_dict()
 
 
 Swaps = Annotated[

@@ -58,7 +58,18 @@ class PlannerSpec:
         InputError
             For options of another planner, and for a name or a value that this one does not know.
         """
-        return options.settled(self.options_type, given, self.name)
+        if isinstance(given, self.options_type):
+            return given.as_dict()
+        if not isinstance(given, Mapping):
+            remedy = f"give {self.options_type.__name__}, or names with values"
+            message = f"{given!r} are no options of {self.name} ({remedy})"
+            raise InputError.at("options", message)
+        known = [option.name for option in self.options]
+        for name in given:
+            if name not in known:
+                message = options.unknown(str(name), self.name, known)
+                raise InputError.at(f"option {name}", message)
+        return self.options_type(**given).as_dict()
 
 
 PLANNERS = (
