@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Self
 
-from rightofway.errors import InputError, InputFault, nearest, shown
+from rightofway.errors import InputError, nearest, shown
 from rightofway.model import (
     Edge,
     Roadmap,
@@ -23,7 +23,8 @@ from rightofway.model import (
     straight_length,
 )
 from rightofway.model.places import Place, as_place, vertex_at
-from rightofway.model.units import COORDINATE_DIGITS, Number, exact
+from rightofway.model.values import COORDINATE_DIGITS, Number, exact
+from rightofway.model.values import length as exact_length
 
 __all__ = ["FleetBuilder"]
 
@@ -121,7 +122,11 @@ class FleetBuilder:
             raise InputError.at(place, "is no name (give text)")
         if name in self._positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
-        self._positions[name] = (_coordinate(x, f"{place}.x"), _coordinate(y, f"{place}.y"))
+        try:
+            at = tuple(exact(value, digits=COORDINATE_DIGITS) for value in (x, y))
+        except ValueError as error:
+            raise InputError.at(place, str(error)) from None
+        self._positions[name] = (at[0], at[1])
         return self
 
     def add_edge(
@@ -156,7 +161,7 @@ class FleetBuilder:
         if length is None:
             exactly = _within(place, straight_length, *ends)
         else:
-            exactly = _positive(length, f"{place}: length")
+            exactly = exact_length(length, f"{place}: length")
         self._edges.append(Edge(tail=tail, head=head, length=exactly))
         if both_ways:
             self._edges.append(Edge(tail=head, head=tail, length=exactly))
@@ -313,17 +318,3 @@ def _within(place: str, make: Any, *arguments: Any, **named: Any) -> Any:
         return make(*arguments, **named)
     except InputError as error:
         raise InputError(fault.within(place) for fault in error.faults) from None
-
-
-def _coordinate(value: Number, place: str) -> Fraction:
-    try:
-        return exact(value, digits=COORDINATE_DIGITS)
-    except ValueError as error:
-        raise InputError([InputFault(place, str(error))]) from None
-
-
-def _positive(value: Number, place: str) -> Fraction:
-    number = _coordinate(value, place)
-    if number <= 0:
-        raise InputError.at(place, f"{shown(value)} is not positive (give a length above 0)")
-    return number

@@ -53,7 +53,7 @@ def solve(
         For planners that draw at random, from 0 to 2**32 - 1. The same input and seed give the
         same plan.
     options
-        What the planner is told: its own options, like ``LnsOptions(iterations=100)``, or names
+        Options of the planner: its own dataclass, like ``LnsOptions(iterations=100)``, or names
         with values.
     report
         Takes sentences on the progress.
@@ -94,7 +94,7 @@ def improve(
     report: Callable[[str], None] | None = None,
     **named: Any,
 ) -> Plan:
-    """Make a plan better, whoever made it, and have the result judged.
+    """Make a plan better, also one of another program, and have the result judged.
 
     Parameters
     ----------

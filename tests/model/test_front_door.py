@@ -14,7 +14,7 @@ import pytest
 
 import rightofway
 from rightofway import FleetBuilder, InputError, LnsOptions, Robot, Rules, Scenario, Stop
-from rightofway.model import roadmap_of_grid
+from rightofway.model import Edge, roadmap_of_grid
 
 DOOR = ["...", "@.@", "..."]
 
@@ -44,6 +44,7 @@ def test_a_number_is_kept_exactly_however_it_is_written(half: Any) -> None:
     assert (made.speed, made.turn, made.stops[0].work) == (Fraction(1, 2),) * 3
     assert rules(headway=half, turn=half).headway == Fraction(1, 2)
     assert roadmap_of_grid(DOOR, cell_size=half).lengths == (Fraction(1, 2),)
+    assert Edge(tail="A", head="B", length=half).length == Fraction(1, 2)
 
 
 def test_a_float_counts_as_the_decimal_that_it_prints_as() -> None:
@@ -173,7 +174,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a vertex at a word": (
         lambda: FleetBuilder().add_vertex("A", 0, "up"),
-        "vertex 'A'.y: 'up' is not a number",
+        "vertex 'A': 'up' is not a number",
     ),
     "an edge to nowhere": (
         lambda: FleetBuilder().add_vertex("A", 0, 0).add_edge("A", "B"),

@@ -1,4 +1,4 @@
-"""What one robot repeats: its visits from home past its stops and home again, without an end."""
+"""The lap of one robot: its visits from home past its stops and home again, repeated."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Lap:
 
     @property
     def duration(self) -> Tick:
-        """How long a lap lasts that nobody holds up [ticks]."""
+        """How long a lap without waits lasts [ticks]."""
         return Tick(sum(self.dwell) + sum(self.drive))
 
     def least(self, visit: int) -> Tick:

@@ -1,4 +1,4 @@
-"""The answer: routes and times for all robots, and why they wait."""
+"""The answer: routes and times for all robots, its figures, and why robots wait."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "RobotPlan", "Track"]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Track:
-    """Where one robot is, when: its route with the times.
+    """The route of one robot with the times of its visits.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Track:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
-    """Who got the right of way where two robots would have met, and why.
+    """Which of two robots got the right of way where they would have met, and why.
 
     Attributes
     ----------
@@ -88,19 +88,19 @@ class Decision:
     waits_at
         The vertex it waits in.
     ticks
-        How much later it leaves there by this decision [ticks]. Who follows another robot may have
-        to wait again on the way.
+        How much later it leaves there by this decision [ticks]. A robot that follows another one
+        may have to wait again on the way.
     level
         ``node``: fewer conflicts were left in the whole system. ``robot``: as many were left, but
         both achieve their work sooner. ``settled``: the other choice would have met robots that
         are settled already. ``priority``: the robot of higher priority goes first. ``only``: the
         other choice was impossible.
     conflicts_left
-        Conflicts left in the system if i waits, and if j waits; None where that was impossible, or
-        played no part.
+        Conflicts left in the system if i waits, and if j waits; None where that was impossible or
+        not counted.
     completion_sums
         Sum of both completion times if ties let i wait, and if ties let j wait [ticks]; None where
-        no tie came up, and in the place of a group that found no way.
+        there was no tie, and for a movement group that found no way.
     """
 
     tick: Tick
@@ -117,14 +117,14 @@ class Decision:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reroute:
-    """A robot that was sent another way, because waiting could not open a deadlock.
+    """A robot that was rerouted, because waiting could not resolve a deadlock.
 
     Attributes
     ----------
     robot
         Its index.
     because
-        What made it necessary, for people.
+        What made it necessary, in words.
     """
 
     robot: int
@@ -140,16 +140,16 @@ class PlannerRun:
     name, options, seed
         The planner, the options it was given and the seed.
     status
-        What it did, for people: ``waits only``, ``re-routed R3, R7``, ``optimal``, …
+        What it did, in words: ``waits only``, ``re-routed R3, R7``, ``optimal``, …
     seconds
         How long it took [s], or None where that was not kept.
     first_plan_seconds
         How long it took until there was a plan to improve on [s], or None where that was not kept.
         Files do not keep it.
     decisions
-        Rights of way in the order they were decided, by planners that can tell.
+        Rights of way in the order they were decided, from planners that record them.
     reroutes
-        Robots that were sent another way.
+        Robots that were rerouted.
     """
 
     name: str
@@ -164,7 +164,7 @@ class PlannerRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotPlan:
-    """What a plan lets one robot do: ``plan["R1"]``.
+    """The part of a plan that concerns one robot: ``plan["R1"]``.
 
     Attributes
     ----------

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
-from rightofway.model.units import DIGITS, Number, VertexId, exact
+from rightofway.model.units import VertexId
+from rightofway.model.values import DIGITS, Number, coerced, length, number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -213,7 +214,7 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
         For an empty or ragged grid, one without a free cell, or a cell size that is not positive.
     """
     _check_lines(lines)
-    size = _positive(cell_size, "cell_size")
+    size = length(cell_size, "cell_size")
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
         raise InputError.at("", f"no free cell in {free.size} (free cells are . G S)")
@@ -233,16 +234,6 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
         positions=np.column_stack((x, y)).astype(np.float64) * float(size),
         grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
     )
-
-
-def _positive(value: Number, place: str) -> Fraction:
-    try:
-        number = value if type(value) is Fraction else exact(value)
-    except ValueError as error:
-        raise InputError.at(place, str(error)) from None
-    if number <= 0:
-        raise InputError.at(place, f"{shown(value)} is not positive (give a length above 0)")
-    return number
 
 
 def _check_lines(lines: Sequence[str]) -> None:
@@ -284,6 +275,9 @@ class Edge:
     tail: str
     head: str
     length: Fraction
+
+    def __post_init__(self) -> None:
+        coerced(self, f"edge {self.tail!r} to {self.head!r}", length=number)
 
 
 def roadmap_of_edges(
@@ -358,11 +352,11 @@ def straight_length(tail: tuple[Fraction, Fraction], head: tuple[Fraction, Fract
     Fraction(1, 2)
     """
     square = (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
-    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if length == 0 and square == 0:
+    found = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    if square == 0:
         raise InputError.at("", "has no length, its ends are at one position (give a length)")
-    if length**2 != square or max(length.numerator, length.denominator) > 10**DIGITS:
+    if found**2 != square or max(found.numerator, found.denominator) > 10**DIGITS:
         about = f"about {math.sqrt(square):.4g}"
         message = f"the straight distance, {about}, is no fraction that can be kept (give a length)"
         raise InputError.at("", message)
-    return length
+    return found

@@ -4,105 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from numbers import Integral
-from typing import Any, Literal, get_args
+from typing import Literal
 
-from rightofway.errors import InputError, InputFault, shown
-from rightofway.model.units import VertexId, exact
+from rightofway.errors import shown
+from rightofway.model.units import VertexId
+from rightofway.model.values import (
+    coerced,
+    number,
+    optional,
+    text,
+    turning,
+    vertex,
+    whole_number,
+    word_of,
+)
 
-__all__ = ["Robot", "Stop", "TripEnd", "Turn", "coerced"]
+__all__ = ["Robot", "Stop", "TripEnd", "Turn"]
 
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
 
 TripEnd = Literal["home", "none"]
 """Where a trip ends: at ``home``, or (``none``) at the last stop."""
-
-
-def coerced(value: Any, source: str, **readers: Any) -> None:
-    """Replace fields of a frozen value by what their readers make of them.
-
-    Parameters
-    ----------
-    value
-        A frozen dataclass that is being made.
-    source
-        The name of the value in messages.
-    readers
-        For each field a function that returns the value to keep; a ``ValueError`` of the function
-        is the fault. None stays None where that is the default.
-
-    Raises
-    ------
-    InputError
-        With every field that its reader refuses.
-    """
-    faults = []
-    for name, read in readers.items():
-        given = getattr(value, name)
-        try:
-            object.__setattr__(value, name, read(given))
-        except InputError as error:
-            faults += [fault.within(name) for fault in error.faults]
-        except ValueError as error:
-            faults.append(InputFault(name, str(error)))
-    if faults:
-        raise InputError(faults, source)
-
-
-def optional(read: Any) -> Any:
-    """Return a reader that also takes None."""
-    return lambda value: None if value is None else read(value)
-
-
-def vertex(value: object) -> VertexId:
-    """Return a vertex; a name is refused."""
-    if isinstance(value, Integral) and not isinstance(value, bool):
-        return VertexId(int(value))
-    raise ValueError(
-        f"{shown(value)} is no vertex number"
-        " (give roadmap.vertex(name), or build the fleet with FleetBuilder, which takes names)"
-    )
-
-
-def number(value: object) -> Fraction:
-    """Return an exact number; one that is exact already may have any number of digits."""
-    return value if type(value) is Fraction else exact(value)
-
-
-def turning(value: object) -> Turn:
-    """Return a turning time."""
-    if value == "cell":
-        return "cell"
-    try:
-        return number(value)
-    except ValueError as error:
-        raise ValueError(f"{error}; 'cell' is possible too") from None
-
-
-def count(value: object) -> int:
-    """Return a whole number."""
-    if isinstance(value, Integral) and not isinstance(value, bool):
-        return int(value)
-    raise ValueError(f"{shown(value)} is no whole number (give 1 or more)")
-
-
-def word_of(kind: Any) -> Any:
-    """Return a reader of one of the words of a ``Literal``."""
-
-    def read(value: object) -> object:
-        if value in get_args(kind):
-            return value
-        raise ValueError(f"{shown(value)} is unknown (give {' or '.join(get_args(kind))})")
-
-    return read
-
-
-def text(value: object) -> str:
-    """Return a name."""
-    if isinstance(value, str):
-        return value
-    raise ValueError(f"{shown(value)} is no name (give text)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -174,7 +97,7 @@ class Robot:
             speed=number,
             turn=optional(turning),
             ends=optional(word_of(TripEnd)),
-            laps=optional(count),
+            laps=optional(whole_number),
         )
 
     def __repr__(self) -> str:

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from rightofway.errors import shown
-from rightofway.model.robot import (
-    TripEnd,
-    Turn,
+from rightofway.model.robot import TripEnd, Turn
+from rightofway.model.values import (
     coerced,
-    count,
     number,
     optional,
+    truth,
     turning,
+    whole_number,
     word_of,
 )
 
@@ -65,17 +64,11 @@ class Rules:
             headway=number,
             turn=optional(turning),
             ends=word_of(TripEnd),
-            laps=count,
-            rotations=_truth,
+            laps=whole_number,
+            rotations=truth,
         )
 
     @property
     def books_ahead(self) -> bool:
         """Whether a robot books a vertex from when it starts to drive there."""
         return self.occupancy == "both"
-
-
-def _truth(value: object) -> bool:
-    if isinstance(value, bool):
-        return value
-    raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")

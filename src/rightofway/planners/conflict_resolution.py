@@ -4,7 +4,7 @@ A *rule* decides which of two robots waits; this module does the rest. The earli
 resolved first. Where no waiting keeps two robots apart, one of them is deferred: it is rerouted
 when all others have their times (`rerouting`). Where that fails, or takes more than its share of
 the time, the whole fleet is planned by `lacam`. So a planner made of this is complete whatever its
-rule: given time it finds a plan or proves that there is none.
+rule: given time it finds a plan or proves that none exists.
 """
 
 from __future__ import annotations
@@ -198,7 +198,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out.
     """

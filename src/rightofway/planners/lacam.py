@@ -13,7 +13,7 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
-Complete: the untimed search finds an order of moves or proves that there is none. Deterministic, as
+Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
 long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
 
@@ -54,7 +54,7 @@ def lacam(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out.
     """

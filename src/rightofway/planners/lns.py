@@ -54,7 +54,7 @@ def lns(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out before there was a plan.
     """

@@ -1,4 +1,4 @@
-"""What planners can be told: a frozen dataclass for each, from which all else is derived.
+"""The options of planners: a frozen dataclass for each, from which all else is derived.
 
 An option is a field. Its type says what it may be, its default comes first, and the sentence beside
 the type says what it does. Tables of the documentation, the help of the command line and the checks
@@ -31,7 +31,7 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:
-    """Something a planner can be told: one of several words, or a whole number.
+    """An option of a planner: one of several words, or a whole number.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Option:
 
     @property
     def accepts(self) -> str:
-        """What may be given, for people."""
+        """The words, or an example of a number, as help texts show them."""
         return "|".join(self.choices) or str(self.default)
 
     def read(self, given: object) -> str | int:
@@ -195,7 +195,7 @@ class LocalSearchOptions(PlannerOptions):
     """Options of ``local-search``."""
 
     routes: Routes = "clear"
-    rounds: Annotated[int, "How often to favour some robots and go on from there."] = 100
+    rounds: Annotated[int, "How often to favour some robots and descend again."] = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -70,7 +70,7 @@ def fixed_priority(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out before the first plan.
     """

@@ -62,7 +62,7 @@ def prioritized(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out.
     """

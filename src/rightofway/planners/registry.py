@@ -29,7 +29,7 @@ class PlannerSpec:
     summary
         What it does, in a sentence.
     options_type
-        What it can be told.
+        Its options.
     improves
         Whether it can start from a plan and make it better.
     """
@@ -152,7 +152,7 @@ def find(name: str) -> PlannerSpec:
     Raises
     ------
     InputError
-        If there is none; names the nearest.
+        If no planner has that name; with the nearest name.
     """
     specs = registered()
     if name not in specs:

@@ -54,8 +54,8 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """Return a route for each robot that keeps clear of others where that is no long way round.
 
-    One robot after the other, each keeps clear of all homes and stops, and of the robots before it
-    that come the other way.
+    Robots are routed one after another. Each keeps clear of all homes and stops, and of the robots
+    routed before it that come the other way.
 
     Raises
     ------
@@ -71,8 +71,8 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
 def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Route]) -> list[Route]:
     """Return shorter routes for robots that make their trips again and again.
 
-    Who keeps clear of all others goes a longer way every time. Each robot whose route is not a
-    shortest one gets another, clear of others only as much as they are there.
+    A route that keeps clear of all others is longer in every lap. Each robot whose route is not a
+    shortest one gets another one, which keeps clear of others by how often they are there.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
 
 
 def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
-    """Return a robot's way through the traffic, and have it there from now on."""
+    """Return a robot's route through the traffic, and add the route to the traffic."""
     itinerary = scenario.problem.itineraries[robot]
     trips = _trips(itinerary)
     legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
@@ -109,17 +109,17 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
 
 
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
-    """Yield from where to where the robot goes, stage by stage."""
+    """Yield the place before each stage and the place of the stage."""
     return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
 
 
 def _is_path(roadmap: Roadmap, vertices: Path) -> bool:
-    """Tell whether edges lead from each vertex to the next; some may be one-ways."""
+    """Return whether an edge leads from each vertex to the next; some edges are one-way."""
     return all(roadmap.edge(tail, head) is not None for tail, head in pairwise(vertices))
 
 
 def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
-    """Raise if it is plain that no plan exists.
+    """Raise if no plan exists for one of two simple reasons.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a planner is given, and what it hands back."""
+"""The input and the output of a planner."""
 
 from __future__ import annotations
 
@@ -62,10 +62,10 @@ class Task:
     report
         Takes a sentence on progress.
     has_plan
-        To be called as soon as there is a plan, by planners that then go on to a better one. Only
-        the first call counts.
+        Planners that improve a first plan call it as soon as they have one. Only the first call
+        counts.
     start
-        A plan that keeps the rules, to improve on; only for planners that can.
+        A plan that keeps the rules, to improve; only for planners that can.
     """
 
     scenario: Scenario
@@ -86,7 +86,7 @@ class Draft:
     tracks
         One for each robot.
     status
-        What the planner did, for people.
+        What the planner did, in words.
     decisions, reroutes
         As in `PlannerRun`.
     keeps_swaps
@@ -120,6 +120,6 @@ def planning_headway(scenario: Scenario) -> Tick:
     """Return the headway to plan with [ticks].
 
     Where rotations are forbidden it is at least one tick: a vertex that is never entered at the
-    very instant it is left cannot be part of a rotation.
+    instant at which it is left cannot be part of a rotation.
     """
     return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))

@@ -18,7 +18,7 @@ Notes
 -----
 Deterministic. Rights of way once given are kept, so the method ends: it has decided every conflict,
 or it has found one that no waiting resolves (`conflict_resolution`). With ``swaps="resolve"`` the
-planner is complete: given time it finds a plan or proves that there is none. It is not optimal.
+planner is complete: given time it finds a plan or proves that none exists. It is not optimal.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def two_level(task: Task) -> Draft:
     Raises
     ------
     NoPlanExists
-        If it is proven that there is none.
+        If it is proven that no plan exists.
     GaveUp
         If time ran out; with ``swaps="leave"`` also where the published method is stuck.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 
-from rightofway.model.units import COORDINATE_DIGITS, DIGITS, PATTERN, exact, written
+from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact, written
 
 __all__ = ["COORDINATE_DIGITS", "DIGITS", "PATTERN", "decimal", "exact", "whole", "written"]
 

@@ -1,0 +1,211 @@
+"""Values as users write them: kept exactly, or refused with the value and what to do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral, Rational
+from typing import Any, Literal, TypeVar, get_args
+
+from rightofway.errors import InputError, InputFault, shown
+from rightofway.model.units import VertexId
+
+__all__ = [
+    "COORDINATE_DIGITS",
+    "DIGITS",
+    "PATTERN",
+    "Number",
+    "coerced",
+    "exact",
+    "length",
+    "number",
+    "optional",
+    "text",
+    "truth",
+    "turning",
+    "vertex",
+    "whole_number",
+    "word_of",
+    "written",
+]
+
+T = TypeVar("T")
+
+Number = int | float | str | Decimal | Fraction
+"""A number as users write it: ``2``, ``0.5``, ``"1/3"``; never rounded, see `exact`."""
+
+DIGITS = 18
+"""Numerator and denominator of a speed, a length or a time have at most that many digits."""
+
+COORDINATE_DIGITS = 400
+"""The same for coordinates and the tick: any decimal that stands for a float fits in."""
+
+PATTERN = r"[+-]?([0-9]+/[0-9]+|([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?)"
+"""How a number may be written as text; a dialect that JSON Schema understands too."""
+
+_NUMBER = re.compile(PATTERN.replace("([eE][+-]?[0-9]+)", "([eE](?P<exponent>[+-]?[0-9]+))"))
+
+
+def exact(value: object, *, digits: int = DIGITS) -> Fraction:
+    """Return the number that was written, exactly.
+
+    Parameters
+    ----------
+    value
+        A whole number, a decimal, a fraction, or text like ``0.1``, ``2e-3``, ``1/3``. A float
+        counts as the shortest decimal that stands for it.
+    digits
+        The most digits of numerator and denominator.
+
+    Raises
+    ------
+    ValueError
+        For anything else: words, true and false, NaN, infinity, 1/0, and numbers out of range.
+    """
+    if isinstance(value, Rational) and not isinstance(value, bool):
+        return _in_range(Fraction(int(value.numerator), int(value.denominator)), value, digits)
+    text = str(value) if isinstance(value, str | Decimal | float) else ""
+    match = _NUMBER.fullmatch(text)
+    if not match:
+        raise ValueError(f"{shown(value)} is not a number (write it like 3, 0.5 or 1/3)")
+    if _is_huge(text, match["exponent"] or "0"):
+        raise _out_of_range(value, digits)
+    try:
+        return _in_range(Fraction(text), value, digits)
+    except ZeroDivisionError:
+        raise ValueError(f"{shown(value)} divides by zero (give another denominator)") from None
+
+
+def _is_huge(text: str, exponent: str) -> bool:
+    """Return whether computing the number could take long: 1e999999999 would fill the memory."""
+    most = 2 * COORDINATE_DIGITS
+    return len(text) > most or abs(int(exponent)) > most
+
+
+def _in_range(number: Fraction, value: object, digits: int) -> Fraction:
+    if max(abs(number.numerator), number.denominator) > 10**digits:
+        raise _out_of_range(value, digits)
+    return number
+
+
+def _out_of_range(value: object, digits: int) -> ValueError:
+    return ValueError(
+        f"{shown(value)} is out of range (give at most {digits} digits before and after the point)"
+    )
+
+
+def written(number: Fraction) -> int | str:
+    """Return a fraction as documents have it: a whole number, or text like ``1/3``."""
+    return number.numerator if number.denominator == 1 else str(number)
+
+
+def coerced(value: object, source: str, **readers: Callable[[object], object]) -> None:
+    """Replace fields of a frozen value by what their readers make of them.
+
+    Parameters
+    ----------
+    value
+        A frozen dataclass that is being made.
+    source
+        The name of the value in messages.
+    readers
+        For each field a function that returns the value to keep; a ``ValueError`` of the function
+        is the fault. None stays None where that is the default.
+
+    Raises
+    ------
+    InputError
+        With every field that its reader refuses.
+    """
+    faults = []
+    for name, read in readers.items():
+        given = getattr(value, name)
+        try:
+            object.__setattr__(value, name, read(given))
+        except InputError as error:
+            faults += [fault.within(name) for fault in error.faults]
+        except ValueError as error:
+            faults.append(InputFault(name, str(error)))
+    if faults:
+        raise InputError(faults, source)
+
+
+def optional(read: Callable[[object], T]) -> Callable[[object], T | None]:
+    """Return a reader that also takes None."""
+    return lambda value: None if value is None else read(value)
+
+
+def vertex(value: object) -> VertexId:
+    """Return a vertex; a name is refused."""
+    if isinstance(value, Integral) and not isinstance(value, bool):
+        return VertexId(int(value))
+    raise ValueError(
+        f"{shown(value)} is no vertex number"
+        " (give roadmap.vertex(name), or build the fleet with FleetBuilder, which takes names)"
+    )
+
+
+def number(value: object) -> Fraction:
+    """Return an exact number; one that is exact already may have any number of digits."""
+    return value if type(value) is Fraction else exact(value)
+
+
+def turning(value: object) -> Literal["cell"] | Fraction:
+    """Return a turning time."""
+    if value == "cell":
+        return "cell"
+    try:
+        return number(value)
+    except ValueError as error:
+        raise ValueError(f"{error}; 'cell' is possible too") from None
+
+
+def whole_number(value: object) -> int:
+    """Return a whole number."""
+    if isinstance(value, Integral) and not isinstance(value, bool):
+        return int(value)
+    raise ValueError(f"{shown(value)} is no whole number (give 1 or more)")
+
+
+def word_of(kind: Any) -> Callable[[object], object]:
+    """Return a reader of one of the words of a ``Literal``."""
+
+    def read(value: object) -> object:
+        if value in get_args(kind):
+            return value
+        raise ValueError(f"{shown(value)} is unknown (give {' or '.join(get_args(kind))})")
+
+    return read
+
+
+def text(value: object) -> str:
+    """Return a name."""
+    if isinstance(value, str):
+        return value
+    raise ValueError(f"{shown(value)} is no name (give text)")
+
+
+def truth(value: object) -> bool:
+    """Return a truth value."""
+    if isinstance(value, bool):
+        return value
+    raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")
+
+
+def length(value: object, place: str) -> Fraction:
+    """Return a length.
+
+    Raises
+    ------
+    InputError
+        If it is no number, or not positive.
+    """
+    try:
+        found = value if type(value) is Fraction else exact(value)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+    if found <= 0:
+        raise InputError.at(place, f"{shown(value)} is not positive (give a length above 0)")
+    return found
