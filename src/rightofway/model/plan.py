@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from rightofway.metrics import Wait
 
 __all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "RobotPlan", "Track"]
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -224,7 +226,7 @@ class Plan:
     tracks: tuple[Track, ...]
     run: PlannerRun
     steady: tuple[SteadyState, ...] = ()
-    _measured: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _figures: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "tracks", tuple(self.tracks))
@@ -248,10 +250,19 @@ class Plan:
 
         return frame_of(self)
 
+    def once(self, figure: str, compute: Callable[[], T]) -> T:
+        """Return a figure of this plan; it is computed at the first request and kept by name."""
+        if figure not in self._figures:
+            self._figures[figure] = compute()
+        kept: T = self._figures[figure]
+        return kept
+
     @property
     def completions(self) -> tuple[Tick, ...]:
         """When each robot has done its work and is at its last vertex [ticks]."""
-        return self._once("completions_of", self.scenario, self.tracks)
+        from rightofway.metrics import completions_of
+
+        return self.once("completions", lambda: completions_of(self.scenario, self.tracks))
 
     @property
     def flowtime(self) -> Tick:
@@ -272,21 +283,16 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        return Tick(sum(self._once("alone_completions", self.scenario)))
+        from rightofway.metrics import alone_completions
+
+        return Tick(sum(alone_completions(self.scenario)))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        return self._once("waits", self)
+        from rightofway.metrics import waits
 
-    def _once(self, figure: str, *arguments: Any) -> tuple[Any, ...]:
-        """Return what a function of `rightofway.metrics` answers; ask it only once."""
-        if figure not in self._measured:
-            from rightofway import metrics
-
-            self._measured[figure] = getattr(metrics, figure)(*arguments)
-        answer: tuple[Any, ...] = self._measured[figure]
-        return answer
+        return self.once("waits", lambda: waits(self))
 
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
