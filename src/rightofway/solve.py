@@ -20,6 +20,7 @@ from rightofway.planners import (
     find,
     registered,
 )
+from rightofway.search import alone_completions
 
 __all__ = ["improve", "solve"]
 
@@ -152,6 +153,7 @@ def _run(
         clock.keep()
     draft = spec.load()(task)
     clock.keep()
+    alone = alone_completions(scenario) if draft.alone is None else draft.alone
     run = PlannerRun(
         name=spec.name,
         options=task.options,
@@ -161,6 +163,7 @@ def _run(
         first_plan_seconds=clock.kept,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
+        alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
     _refuse_faults(plan, draft)

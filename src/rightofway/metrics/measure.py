@@ -89,7 +89,7 @@ def measure(plan: Plan) -> Metrics:
     """
     stays = stays_of(plan.scenario, plan.tracks)
     completions = tuple(stay.completion for stay in stays)
-    alone = alone_completions(plan.scenario)
+    alone = plan.run.alone or alone_completions(plan.scenario)
     return Metrics(
         flowtime=Tick(sum(completions)),
         makespan=max(completions),

@@ -140,6 +140,9 @@ class PlannerRun:
         Rights of way in the order they were decided, by planners that can tell.
     reroutes
         Robots that were sent another way.
+    alone
+        The least completion of each robot without the others [ticks], or None where planning did
+        not compute it. Files do not keep it.
     """
 
     name: str
@@ -150,6 +153,7 @@ class PlannerRun:
     first_plan_seconds: float | None = None
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
+    alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

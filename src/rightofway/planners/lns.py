@@ -105,7 +105,9 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         task.scenario, first.tracks
     ):
         found = first.tracks  # the headway of planning costs more than was won
-    return Draft(tracks=found, status=improvement.status(first.status))
+    return Draft(
+        tracks=found, status=improvement.status(first.status), alone=search.alone()
+    )
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

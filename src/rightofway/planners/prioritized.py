@@ -66,13 +66,14 @@ def prioritized(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    found = plan_in_turn(task, fleet_search(task), task.options["order"])
+    search = fleet_search(task)
+    found = plan_in_turn(task, search, task.options["order"])
     if found is not None:
-        return found
+        return replace(found, alone=search.alone())
     task.deadline.check("planning robots one after another")
     tracks, _ = plan_jointly(task)
     status = "all together, because robots one after another found no way"
-    return Draft(tracks=tuple(tracks), status=status)
+    return Draft(tracks=tuple(tracks), status=status, alone=search.alone())
 
 
 def fleet_search(task: Task) -> FleetSearch:

@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Scenario, Tick, Track
 
@@ -91,6 +94,9 @@ class Draft:
         As in `PlannerRun`.
     keeps_swaps
         Whether swaps were left in because the options asked for it.
+    alone
+        The least completion of each robot without the others [ticks], from planners that compute
+        it anyway; shape (R,).
     """
 
     tracks: tuple[Track, ...]
@@ -98,6 +104,7 @@ class Draft:
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
     keeps_swaps: bool = False
+    alone: NDArray[np.int64] | None = None
 
 
 class Planner(Protocol):
