@@ -52,7 +52,12 @@ def largest_area(rows: list[str]) -> np.ndarray:
     while free:
         area = [free.pop()]
         for row, column in area:
-            for cell in ((row - 1, column), (row + 1, column), (row, column - 1), (row, column + 1)):
+            for cell in (
+                (row - 1, column),
+                (row + 1, column),
+                (row, column - 1),
+                (row, column + 1),
+            ):
                 if cell in free:
                     free.remove(cell)
                     area.append(cell)
@@ -68,7 +73,9 @@ def scen_text(map_file: Path, robots: int, seed: int = 1) -> str:
     homes, targets = (cells[draw.permutation(len(cells))[:robots]] for _ in range(2))
     lines = ["version 1"]
     for home, target in zip(homes.tolist(), targets.tolist(), strict=True):
-        lines.append(f"0\t{map_file.name}\t{size}\t{home[1]}\t{home[0]}\t{target[1]}\t{target[0]}\t0")
+        lines.append(
+            f"0\t{map_file.name}\t{size}\t{home[1]}\t{home[0]}\t{target[1]}\t{target[0]}\t0"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -83,7 +90,7 @@ def run(case: Case, maps: Path, folder: Path) -> str:
         *("--time-limit", f"{case.limit:g}", *case.arguments),
     ]
     began = time.perf_counter()
-    ended = subprocess.run(command, check=False, capture_output=True, text=True)  # noqa: S603
+    ended = subprocess.run(command, check=False, capture_output=True, text=True)
     seconds = time.perf_counter() - began
     planning = "-"
     if plan.exists():

@@ -6,7 +6,6 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.metrics.stays import stays_of
 from rightofway.model import (
     Decision,
     Edge,
@@ -24,6 +23,7 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
+    stays_of,
 )
 
 __all__ = [

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from rightofway.check.pairs import Indices, pairs
 from rightofway.check.report import Fault
 from rightofway.check.sieve import Sieve
-from rightofway.check.sorting import order_by
 from rightofway.check.visits import Visits
 from rightofway.check.words import Words
 from rightofway.model import Tick, VertexId
+from rightofway.model.sorting import order_by
 
 __all__ = ["judge_rotations", "judge_swaps"]
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.run import RunResult
-from rightofway.metrics.stays import stays_of
-from rightofway.model import NEVER, ExecutionTrace, Tick, Track
+from rightofway.model import NEVER, ExecutionTrace, Tick, Track, stays_of
 from rightofway.precedence import ActionDependencyGraph, DelaySample
 
 __all__ = ["trace_after_replanning", "trace_of"]

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.metrics.bookings import Bookings, bookings_of
-from rightofway.metrics.stays import Stays, stays_of
-from rightofway.model import Plan, Scenario, Tick, Track, VertexId
+from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
 
 __all__ = ["Wait", "waits", "waits_in"]
 

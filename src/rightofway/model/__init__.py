@@ -9,6 +9,13 @@ from rightofway.model.robot import Robot, Stop, TripEnd, Turn
 from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
+from rightofway.model.stays import (
+    Stays,
+    completions_of,
+    flowtime_of,
+    serving_visits,
+    stays_of,
+)
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
 from rightofway.model.units import NEVER, Clock, Tick, VertexId, choose_clock
@@ -35,6 +42,7 @@ __all__ = [
     "Rules",
     "Scenario",
     "Stage",
+    "Stays",
     "SteadyState",
     "Stop",
     "Tick",
@@ -44,7 +52,9 @@ __all__ = [
     "VertexId",
     "choose_clock",
     "cluster",
+    "completions_of",
     "edge_ticks",
+    "flowtime_of",
     "lap_of",
     "least_dwell",
     "node_length",
@@ -53,5 +63,7 @@ __all__ = [
     "route_along",
     "route_of",
     "route_through",
+    "serving_visits",
+    "stays_of",
     "steps_per_unit",
 ]

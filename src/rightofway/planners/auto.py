@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import flowtime_of
+from rightofway.model import flowtime_of
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task

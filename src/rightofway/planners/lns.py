@@ -20,8 +20,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import flowtime_of
-from rightofway.model import Track
+from rightofway.model import Track, flowtime_of
 from rightofway.planners.joint import plan_jointly
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
@@ -105,9 +104,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         task.scenario, first.tracks
     ):
         found = first.tracks  # the headway of planning costs more than was won
-    return Draft(
-        tracks=found, status=improvement.status(first.status), alone=search.alone()
-    )
+    return Draft(tracks=found, status=improvement.status(first.status), alone=search.alone())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

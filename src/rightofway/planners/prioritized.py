@@ -19,8 +19,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.metrics import flowtime_of
-from rightofway.model import Scenario, Stop
+from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.joint import plan_jointly, timetable_in_order
 from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_headway

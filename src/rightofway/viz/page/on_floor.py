@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.metrics.stays import Stays
 from rightofway.metrics.waits import waits_in
-from rightofway.model import ExecutionTrace, Plan, Tick, Track
+from rightofway.model import ExecutionTrace, Plan, Stays, Tick, Track
 from rightofway.viz.motion import Trip, trips_of
 from rightofway.viz.page.figures import differences, wait_row
 
@@ -78,7 +77,7 @@ def _stays(
     waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
     waits[-1] = 0
     completion = Tick(int(track.enter[-1] + dwell[-1]))
-    return Stays(dwell=stood, drive=out, waits=waits, completion=completion)
+    return Stays(dwell=stood, drive=out, waits=waits, serves=(), completion=completion)
 
 
 def _stood(track: Track, still: Standstills) -> NDArray[np.int64]:
