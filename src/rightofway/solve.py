@@ -7,9 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.check import check
 from rightofway.errors import InputError, InvalidPlan
-from rightofway.model import Plan, PlannerRun, Scenario, Track
+from rightofway.model import Plan, PlannerRun, Scenario, Track, checked_time_limit
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
@@ -20,7 +23,6 @@ from rightofway.planners import (
     find,
     registered,
 )
-from rightofway.search import alone_completions
 
 __all__ = ["improve", "solve"]
 
@@ -33,6 +35,7 @@ def solve(
     *,
     options: Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    keep_best: bool = False,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
 
@@ -50,6 +53,9 @@ def solve(
         What the planner is told; see its page.
     report
         Takes sentences on the progress.
+    keep_best
+        Whether Ctrl-C returns the best plan so far, where there is one. By default
+        `KeyboardInterrupt` is raised.
 
     Returns
     -------
@@ -65,8 +71,8 @@ def solve(
     GaveUp
         If none was found in time, or by the means of the planner.
     """
-    spec = find(planner)
-    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    limit, spec = checked_time_limit(time_limit), find(planner)
+    given = _Given(time_limit=limit, seed=seed, options=options, report=report, keep_best=keep_best)
     return _run(spec, scenario, given)
 
 
@@ -78,6 +84,7 @@ def improve(
     *,
     options: Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    keep_best: bool = False,
 ) -> Plan:
     """Make a plan better, whoever made it, and have the result judged.
 
@@ -87,7 +94,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report
+    time_limit, seed, options, report, keep_best
         As for `solve`.
 
     Returns
@@ -100,13 +107,14 @@ def improve(
     InputError
         If the plan has faults, for a planner that cannot start from one, or an unknown option.
     """
+    limit = checked_time_limit(time_limit)
     judged, spec = check(plan), find(planner)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    given = _Given(time_limit=time_limit, seed=seed, options=options, report=report)
+    given = _Given(time_limit=limit, seed=seed, options=options, report=report, keep_best=keep_best)
     return _run(spec, plan.scenario, given, start=plan.tracks)
 
 
@@ -118,6 +126,7 @@ class _Given:
     seed: int
     options: Mapping[str, Any] | None
     report: Callable[[str], None] | None
+    keep_best: bool
 
 
 class _Clock:
@@ -147,13 +156,14 @@ def _run(
         deadline=Deadline.after(given.time_limit),
         report=given.report or (lambda _: None),
         has_plan=clock.keep,
+        keep_best=given.keep_best,
         start=start,
     )
     if start is not None:
         clock.keep()
     draft = spec.load()(task)
     clock.keep()
-    alone = alone_completions(scenario) if draft.alone is None else draft.alone
+    alone = _alone(scenario) if draft.alone is None else draft.alone
     run = PlannerRun(
         name=spec.name,
         options=task.options,
@@ -168,6 +178,12 @@ def _run(
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
     _refuse_faults(plan, draft)
     return plan
+
+
+def _alone(scenario: Scenario) -> NDArray[np.int64]:
+    from rightofway.search import alone_completions  # loads the native core, which help needs not
+
+    return alone_completions(scenario)
 
 
 def _refuse_faults(plan: Plan, draft: Draft) -> None:

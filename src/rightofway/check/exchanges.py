@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,15 +60,25 @@ def _at_once(visits: Visits) -> tuple[Indices, NDArray[np.bool_]]:
     nearly all.
     """
     move = _moves(visits)
-    tail, head = visits.vertex[move], visits.vertex[move + 1]
-    ends = np.minimum(tail, head) * (visits.vertex.max() + 1) + np.maximum(tail, head)
-    order = order_by(ends, visits.leave[move], tail < head)
-    move, ends = move[order], ends[order]
+    low = np.minimum(visits.vertex[move], visits.vertex[move + 1])
+    order = order_by(low, visits.leave[move])
+    move, low = move[order], low[order]
     leave = visits.leave[move]
-    as_before = np.zeros(len(move) + 1, bool)
-    as_before[1:-1] = (ends[1:] == ends[:-1]) & (leave[1:] == leave[:-1])
-    shared = as_before[:-1] | as_before[1:]
-    return move[shared], ~as_before[:-1][shared]
+    maybe, _ = _alike(low, leave)
+    move, low, leave = move[maybe], low[maybe], leave[maybe]
+    tail, head = visits.vertex[move], visits.vertex[move + 1]
+    high = np.maximum(tail, head)
+    order = order_by(low, high, leave, tail < head)
+    move, low, high, leave = move[order], low[order], high[order], leave[order]
+    shared, begins = _alike(low, high, leave)
+    return move[shared], begins[shared]
+
+
+def _alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which rows equal a neighbour, and which rows begin a group of equal rows."""
+    as_before = np.zeros(len(columns[0]) + 1, bool)
+    as_before[1:-1] = np.logical_and.reduce([column[1:] == column[:-1] for column in columns])
+    return as_before[:-1] | as_before[1:], ~as_before[:-1]
 
 
 def _take_swaps(one: Indices, other: Indices, visits: Visits, words: Words, sieve: Sieve) -> None:

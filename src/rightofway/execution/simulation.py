@@ -13,7 +13,7 @@ from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.outcome import Collisions, Outcome
 from rightofway.execution.policy import ExecutionPolicy
 from rightofway.execution.tally import Tally
-from rightofway.model import NEVER, Plan
+from rightofway.model import NEVER, Plan, checked_time_limit
 from rightofway.precedence import ActionDependencyGraph
 
 __all__ = ["simulate"]
@@ -73,6 +73,7 @@ def simulate(
     whatever the clock says. Bookings never overlap then. Nobody waits in a circle, since in the
     plan nobody did: that holds for delays of any length. Both are counted nevertheless.
     """
+    time_limit = checked_time_limit(time_limit)
     _refuse_faults(plan)
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")

@@ -75,6 +75,10 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
+    return plan.once("metrics", lambda: _measured(plan))
+
+
+def _measured(plan: Plan) -> Metrics:
     stays = stays_of(plan.scenario, plan.tracks)
     completions = tuple(stay.completion for stay in stays)
     alone = plan.run.alone or alone_completions(plan.scenario)

@@ -47,7 +47,8 @@ class Wait:
 
 def waits(plan: Plan) -> tuple[Wait, ...]:
     """Return all waits of a plan that keeps the rules, by tick, then by robot."""
-    return waits_in(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
+    scenario, tracks = plan.scenario, plan.tracks
+    return plan.once("waits", lambda: waits_in(scenario, tracks, stays_of(scenario, tracks)))
 
 
 def waits_in(

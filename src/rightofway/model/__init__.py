@@ -18,7 +18,7 @@ from rightofway.model.stays import (
 )
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
-from rightofway.model.units import NEVER, Clock, Tick, VertexId, choose_clock
+from rightofway.model.units import NEVER, Clock, Tick, VertexId, checked_time_limit, choose_clock
 
 __all__ = [
     "NEVER",
@@ -50,6 +50,7 @@ __all__ = [
     "TripEnd",
     "Turn",
     "VertexId",
+    "checked_time_limit",
     "choose_clock",
     "cluster",
     "completions_of",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from rightofway.errors import InputError
 from rightofway.model.scenario import Scenario
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
+
+T = TypeVar("T")
 
 __all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "Track"]
 
@@ -185,6 +187,7 @@ class Plan:
     tracks: tuple[Track, ...]
     run: PlannerRun
     steady: tuple[SteadyState, ...] = ()
+    _figures: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         robots, tracks = len(self.scenario.robots), len(self.tracks)
@@ -194,3 +197,10 @@ class Plan:
             )
         names = [robot.name for robot in self.scenario.robots]
         refuse_unknown_robots(self.steady, names, list(map(len, self.tracks)))
+
+    def once(self, figure: str, compute: Callable[[], T]) -> T:
+        """Return a figure of this plan; it is computed at the first request and kept by name."""
+        if figure not in self._figures:
+            self._figures[figure] = compute()
+        kept: T = self._figures[figure]
+        return kept

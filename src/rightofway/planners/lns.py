@@ -132,11 +132,13 @@ class _Improvement:
     def run(self) -> None:
         """Improve until time, iterations or gains are used up, or nothing can be better.
 
-        An interrupt ends it too: there is a plan to hand out.
+        An interrupt ends it too where the task keeps the best plan.
         """
         try:
             self._run()
         except KeyboardInterrupt:
+            if not self.task.keep_best:
+                raise
             self.was_interrupted = True
 
     def _run(self) -> None:

@@ -69,6 +69,8 @@ class Task:
         the first call counts.
     start
         A plan that keeps the rules, to improve on; only for planners that can.
+    keep_best
+        Whether an interrupt ends the planner with the best plan so far, where there is one.
     """
 
     scenario: Scenario
@@ -78,6 +80,7 @@ class Task:
     report: Callable[[str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
     start: tuple[Track, ...] | None = None
+    keep_best: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
