@@ -13,13 +13,22 @@ A message says where, what (with the value) and what to do.
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
-__all__ = ["GaveUp", "InputError", "InputFault", "InvalidPlan", "NoPlanExists", "RightOfWayError"]
+__all__ = [
+    "GaveUp",
+    "InputError",
+    "InputFault",
+    "InvalidPlan",
+    "NoPlanExists",
+    "RightOfWayError",
+    "kernel_limits",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +85,16 @@ class InputError(RightOfWayError, ValueError):
     def __str__(self) -> str:
         prefix = f"{self.source}: " if self.source else ""
         return "\n".join(f"{prefix}{fault}" for fault in self.faults)
+
+
+@contextmanager
+def kernel_limits() -> Iterator[None]:
+    """Raise as `InputError` what a native kernel refuses because its integers cannot hold it."""
+    try:
+        yield
+    except OverflowError as limit:
+        place, _, message = str(limit).partition(": ")
+        raise InputError.at(place, message) from limit
 
 
 class NoPlanExists(RightOfWayError):

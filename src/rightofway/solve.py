@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check import check
-from rightofway.errors import InputError, InvalidPlan
+from rightofway.errors import InputError, InvalidPlan, kernel_limits
 from rightofway.model import Plan, PlannerRun, Scenario, Track, checked_time_limit
 from rightofway.planners import (
     DEFAULT,
@@ -161,9 +161,10 @@ def _run(
     )
     if start is not None:
         clock.keep()
-    draft = spec.load()(task)
-    clock.keep()
-    alone = _alone(scenario) if draft.alone is None else draft.alone
+    with kernel_limits():
+        draft = spec.load()(task)
+        clock.keep()
+        alone = _alone(scenario) if draft.alone is None else draft.alone
     run = PlannerRun(
         name=spec.name,
         options=task.options,

@@ -9,8 +9,8 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.model import Rules, Scenario
-from tests.fleets import random_fleet
+from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
+from tests.builders.fleets import random_fleet
 
 NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
 
@@ -74,3 +74,25 @@ def test_an_interrupt_hands_out_the_best_plan_where_that_is_asked_for(crowd: Sce
     plan = rightofway.solve(crowd, time_limit=60, keep_best=True)
     assert plan.run.status.startswith("interrupted: ")
     assert rightofway.check(plan).ok
+
+
+def test_the_laps_of_one_robot_alone_do_not_count_as_meetings() -> None:
+    """A robot alone visits each vertex of a corridor 100 000 times or more."""
+    scenario = corridor(laps=40_000, homes=(0,))
+    plan = rightofway.solve(scenario, "two-level", time_limit=None)
+    assert rightofway.measure(plan).gap == 0
+
+
+def test_more_meetings_than_can_be_counted_are_an_input_error() -> None:
+    """Two robots pass the vertices between their places 2 x 40 000 times each."""
+    with pytest.raises(InputError, match=r"^robots: \d+ pairs .* \(plan fewer laps"):
+        rightofway.solve(corridor(laps=40_000, homes=(0, 1)), "two-level", time_limit=None)
+
+
+def corridor(laps: int, homes: tuple[int, ...]) -> Scenario:
+    """Return robots that go to the fourth vertex of a corridor and back home."""
+    robots = tuple(
+        Robot(name=f"R{home}", home=VertexId(home), stops=(Stop(at=VertexId(3)),)) for home in homes
+    )
+    roadmap = roadmap_of_grid(["....."])
+    return Scenario(roadmap=roadmap, robots=robots, rules=Rules(laps=laps))

@@ -15,7 +15,7 @@ from rightofway.cyclic.rolling_horizon import Rolling
 from rightofway.cyclic.route import CyclicRoute, cyclic_routes
 from rightofway.cyclic.rules import FAR_SIGHTED, RULES
 from rightofway.cyclic.window import Ground
-from rightofway.errors import GaveUp, InputError
+from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline, Task, planning_headway
 
@@ -28,6 +28,7 @@ LEAST_SHARE = 0.05
 """The part of the time left that a group may take at first, however small it is."""
 
 
+@kernel_limits()
 def run_laps(
     scenario: Scenario,
     rule: str = "first-come",

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from rightofway.check import check
-from rightofway.errors import InputError
+from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.outcome import Collisions, Outcome
 from rightofway.execution.policy import ExecutionPolicy
@@ -22,6 +22,7 @@ CHUNK = 1 << 20
 """Visits that are run at a time; after each time limit and Ctrl-C are looked at."""
 
 
+@kernel_limits()
 def simulate(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT,
