@@ -28,6 +28,7 @@ __all__ = [
     "stays_of",
 ]
 
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Stays:
     """The visits of one robot.
