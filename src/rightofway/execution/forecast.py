@@ -117,7 +117,7 @@ class Forecast:
         here = self.visit_of(robot) - first
         lasted = np.diff(self.execution.enter[first : first + here + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
-        if here < len(route) - 1 and robot not in self.broken:
+        if here < len(route) - 1:
             dwell.append(Tick(self._lasts(robot, here) - route.drive[here + 1]))
         return replace(route, dwell=(*dwell, *route.dwell[len(dwell) :]))
 
@@ -131,7 +131,8 @@ class Forecast:
             return max(since, least) if self.is_ready(robot) else _with_overdue(least, since)
         if self.booked[visit + 1]:
             stayed = int(self.execution.start[visit + 1] - self.execution.enter[visit])
-            return stayed + _with_overdue(drive, since - stayed)
+            is_lost = robot in self.broken
+            return stayed + (drive if is_lost else _with_overdue(drive, since - stayed))
         if self.is_ready(robot):
             return since + drive
         return _with_overdue(int(route.dwell[index]), since) + drive
