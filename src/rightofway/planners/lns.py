@@ -167,4 +167,5 @@ class _Improvement:
         return f"{ended}improved by {self.done} neighbourhoods (first plan: {origin})"
 
     def _gap(self) -> str:
-        return f"{self.search.flowtime / self.bound - 1:.2%} above the bound"
+        above = self.search.flowtime / self.bound - 1 if self.bound else float("inf")
+        return f"{above:.2%} above the bound"
