@@ -99,15 +99,15 @@ def care_row(fleet: str, delays: str, care: str) -> Row:
     switch, replan = CARES[care]
     outcome = rightofway.simulate(plan, CARED_FOR[delays], CARED, switch=switch, replan=replan)
     seconds = time.perf_counter() - began
-    won = outcome.won
-    assert won is not None
-    assert won.runs == CARED
+    gain = outcome.gain
+    assert gain is not None
+    assert gain.runs == CARED
     assert not outcome.collisions + outcome.deadlocks
     return {
         "late": outcome.lateness.flowtime.mean,
-        "won": won.flowtime.mean,
-        "earlier": won.earlier,
-        "later": won.later,
+        "won": gain.flowtime.mean,
+        "earlier": gain.earlier,
+        "later": gain.later,
         "changes": (outcome.switches + outcome.replans) / CARED,
         "seconds": seconds,
     }

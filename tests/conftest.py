@@ -13,7 +13,7 @@ SLOW = (
     "cli/test_bench.py",  # a process for each case of a suite
     "cli/test_bench_cluster.py",  # starts a Dask cluster
     "cli/test_process.py",  # starts the command as a process, and interrupts it
-    "conformance/test_late_floors.py",  # hundreds of runs for each planner and scenario
+    "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_mixed_scenarios.py",  # a thousand scenarios
     "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
@@ -23,7 +23,7 @@ SLOW = (
     "laws/test_io_round_trip.py",
     "laws/test_laps.py",
     "laws/test_precedence_graph.py",
-    "laws/test_watching.py",
+    "laws/test_monitor.py",
     "viewer/",  # a browser
 )
 """Files and folders of the slow lane: what takes more than about four seconds."""

@@ -31,15 +31,19 @@ stage_vertex : int32[S]
     The vertices to go to, one after the other; a robot stays at its last one.
 may_rotate : bool
     Whether three or more robots may move round a circle in one step.
+ends_anywhere : uint8[R], or empty
+    Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
 seed : int
     For ties.
 time_limit : float or None
     After so many seconds the search stops.
+most_steps : int or None
+    After about so many steps of the fleet the search stops.
 
 Returns
 -------
 tuple of (int, int32[T, R])
-    How it ended (0: found, 1: proven that there is none, 2: out of time) and where every robot is
+    How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
     after each step, the start included.
 
 Raises
@@ -54,7 +58,8 @@ Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is 
 using Steps = std::tuple<int, TableOut<VertexId>>;
 
 SearchEnd search(const Graph& graph, const UntimedProblem& goals, bool may_rotate,
-                 std::uint32_t seed, const Deadline& deadline, std::vector<VertexId>& steps) {
+                 std::uint32_t seed, const Deadline& deadline,
+                 std::optional<std::int64_t> most_steps, std::vector<VertexId>& steps) {
     check(graph, goals);
     StepTables tables(graph);
     const SearchEnd reach = reach_all(goals, tables, deadline);
@@ -62,22 +67,29 @@ SearchEnd search(const Graph& graph, const UntimedProblem& goals, bool may_rotat
         return reach;
     }
     UntimedLacam lacam(graph, goals, tables, may_rotate, seed);
-    const SearchEnd end = lacam.run(deadline);
+    std::int64_t done = 0;
+    const SearchEnd end = lacam.run([&] {
+        done += UntimedLacam::steps_between_questions;
+        return (most_steps && done > *most_steps) || deadline();
+    });
     steps = lacam.steps();
     return end;
 }
 
 Steps untimed_lacam(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
                     const ArrayIn<VertexId>& home, const ArrayIn<std::int32_t>& first_stage,
-                    const ArrayIn<VertexId>& stage_vertex, bool may_rotate, std::uint32_t seed,
-                    std::optional<double> time_limit) {
-    const UntimedProblem goals{view(home), view(first_stage), view(stage_vertex)};
+                    const ArrayIn<VertexId>& stage_vertex,
+                    const ArrayIn<std::uint8_t>& ends_anywhere, bool may_rotate, std::uint32_t seed,
+                    std::optional<double> time_limit, std::optional<std::int64_t> most_steps) {
+    const UntimedProblem goals{view(home), view(first_stage), view(stage_vertex),
+                               view(ends_anywhere)};
     const Deadline deadline(time_limit);
     SearchEnd end = SearchEnd::stopped;
     std::vector<VertexId> steps;
     {
         const nb::gil_scoped_release released;
-        end = search({view(indptr), view(indices)}, goals, may_rotate, seed, deadline, steps);
+        end = search({view(indptr), view(indices)}, goals, may_rotate, seed, deadline, most_steps,
+                     steps);
     }
     const std::size_t n_steps = home.size() == 0 ? 0 : steps.size() / home.size();
     return {static_cast<int>(end),
@@ -90,7 +102,8 @@ void bind_untimed_lacam(nb::module_& module) {
     module.def("untimed_lacam", &untimed_lacam, nb::arg("indptr").noconvert(),
                nb::arg("indices").noconvert(), nb::arg("home").noconvert(),
                nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
-               nb::arg("may_rotate"), nb::arg("seed"), nb::arg("time_limit").none(), steps_doc);
+               nb::arg("ends_anywhere").noconvert(), nb::arg("may_rotate"), nb::arg("seed"),
+               nb::arg("time_limit").none(), nb::arg("most_steps").none(), steps_doc);
 }
 
 }  // namespace rightofway::bind

@@ -189,8 +189,8 @@ void StepTables::search_all(std::span<const Request> requests) {
 void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
     Search& search = searches_[table];
     if (++search.depth > most_steps) {
-        throw std::overflow_error("steps: more than " + std::to_string(most_steps) +
-                                  " to a target");
+        throw std::overflow_error("robots: more than " + std::to_string(most_steps) +
+                                  " edges lead to a place (use a coarser map)");
     }
     Byte* const cells = cells_[table];
     scratch.clear();

@@ -8,8 +8,6 @@
 namespace rightofway {
 namespace {
 
-constexpr std::int64_t steps_between_questions = 64;
-
 std::size_t hash_of(const Configuration& now) {
     std::size_t hash = 0;
     for (const auto* numbers : {&now.at, &now.stage}) {

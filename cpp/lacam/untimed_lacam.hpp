@@ -22,11 +22,13 @@ namespace rightofway {
 
 class UntimedLacam {
   public:
+    static constexpr std::int64_t steps_between_questions = 64;
+
     // Borrows the graph, the goals and the tables.
     UntimedLacam(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
                  bool may_rotate, std::uint32_t seed);
 
-    // `is_over` is asked every few steps whether to stop.
+    // `is_over` is asked every `steps_between_questions` steps whether to stop.
     SearchEnd run(const StopCondition& is_over);
 
     // Where all robots are, step by step: the first n_robots entries are the homes.

@@ -19,6 +19,9 @@ void check_stages(const Graph& graph, const UntimedProblem& goals) {
             reject_entry("first_stage", r + 1, goals.first_stage[r + 1], "leaves a robot no stage");
         }
     }
+    if (!goals.ends_anywhere.empty()) {
+        require_length("ends_anywhere", goals.ends_anywhere.size(), goals.home.size());
+    }
     require_length("stage_vertex", goals.stage_vertex.size(),
                    static_cast<std::size_t>(goals.first_stage.back()));
     for (std::size_t s = 0; s < goals.stage_vertex.size(); ++s) {

@@ -20,10 +20,15 @@ struct UntimedProblem {
     std::span<const VertexId> home;
     std::span<const std::int32_t> first_stage;  // robot r owns first_stage[r] .. [r + 1] - 1
     std::span<const VertexId> stage_vertex;
+    std::span<const std::uint8_t> ends_anywhere = {};  // per robot; empty: every last stage binds
 
     RobotId n_robots() const { return static_cast<RobotId>(home.size()); }
     bool is_last(RobotId robot, std::int32_t stage) const {
         return stage + 1 == first_stage[robot + 1];
+    }
+    // A robot that may end anywhere prefers its last stage, but does not need it.
+    bool may_end_anywhere(RobotId robot) const {
+        return !ends_anywhere.empty() && ends_anywhere[robot] != 0;
     }
 };
 
@@ -46,10 +51,12 @@ inline void advance(const UntimedProblem& goals, Configuration& now, RobotId rob
     }
 }
 
-// Whether every robot is on its last stage, and there.
+// Whether every robot is on its last stage, and there unless it may end anywhere.
 inline bool is_goal(const UntimedProblem& goals, const Configuration& now) {
     for (RobotId r = 0; r < goals.n_robots(); ++r) {
-        if (!goals.is_last(r, now.stage[r]) || goals.stage_vertex[now.stage[r]] != now.at[r]) {
+        const bool is_there =
+            goals.stage_vertex[now.stage[r]] == now.at[r] || goals.may_end_anywhere(r);
+        if (!goals.is_last(r, now.stage[r]) || !is_there) {
             return false;
         }
     }

@@ -1,9 +1,8 @@
 #include "precedence/conflict_index.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
-
-#include "core/reject.hpp"
 
 namespace rightofway {
 namespace {
@@ -25,8 +24,10 @@ constexpr auto any_robot = [](RobotId) { return true; };
 ConflictIndex::ConflictIndex(const Routes& routes)
     : routes_(routes), bookings_(routes), moves_(routes) {
     if (bookings_.n_pairs() > most_pairs) {
-        reject("vertex", bookings_.n_pairs(),
-               "pairs of visits share a vertex, more than can be counted");
+        throw std::overflow_error("robots: " + std::to_string(bookings_.n_pairs()) +
+                                  " pairs of their visits share a vertex, more than " +
+                                  std::to_string(most_pairs) +
+                                  " cannot be counted (plan fewer laps or fewer robots at once)");
     }
 }
 

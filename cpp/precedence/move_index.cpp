@@ -38,12 +38,21 @@ MoveIndex::MoveIndex(const Routes& routes) : slot_(routes.n_visits(), none) {
     for (const VisitId x : moves) {
         const auto [from, to] = edge_into(routes, x);
         const Edge opposite{to, from};
-        const auto start = std::lower_bound(moves.begin(), moves.end(), opposite, before);
-        const auto end = std::upper_bound(start, moves.end(), opposite, after);
+        const auto begin = std::lower_bound(moves.begin(), moves.end(), opposite, before);
+        const auto end = std::upper_bound(begin, moves.end(), opposite, after);
+        const RobotId robot = routes.robot(x);
+        const auto own = std::lower_bound(begin, end, robot, [&](VisitId visit, RobotId own_robot) {
+            return routes.robot(visit) < own_robot;
+        });
+        const auto own_end = std::upper_bound(
+            own, end, robot,
+            [&](RobotId own_robot, VisitId visit) { return own_robot < routes.robot(visit); });
+        const auto place = [&](auto move) {
+            return static_cast<std::int32_t>(move - moves.begin());
+        };
         slot_[x] = static_cast<std::int32_t>(slots_.size());
-        slots_.push_back({never, x, routes.robot(x)});
-        opposite_.push_back({static_cast<std::size_t>(start - moves.begin()),
-                             static_cast<std::size_t>(end - moves.begin())});
+        slots_.push_back({never, x, robot});
+        opposite_.push_back({place(begin), place(own), place(own_end), place(end)});
     }
 }
 

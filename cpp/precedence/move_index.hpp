@@ -38,24 +38,30 @@ class MoveIndex {
         if (slot_[visit] == none) {
             return;
         }
-        const Slot& own = slots_[slot_[visit]];
-        const Range& range = opposite_[slot_[visit]];
-        for (std::size_t k = range.start; k < range.end; ++k) {
-            const Slot& other = slots_[k];
-            if (other.instant == own.instant && own.instant != never && other.robot != own.robot) {
-                use(other, own.instant, swap_weight);
+        const Tick instant = slots_[slot_[visit]].instant;
+        const auto look = [&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t k = begin; k < end; ++k) {
+                if (slots_[k].instant == instant && instant != never) {
+                    use(slots_[k], instant, swap_weight);
+                }
             }
-        }
+        };
+        const Opposite& opposite = opposite_[slot_[visit]];
+        look(opposite.begin, opposite.own_begin);
+        look(opposite.own_end, opposite.end);
     }
 
   private:
-    struct Range {
-        std::size_t start;
-        std::size_t end;
+    // The moves (to, from) of all robots, and those among them of the same robot.
+    struct Opposite {
+        std::int32_t begin;
+        std::int32_t own_begin;
+        std::int32_t own_end;
+        std::int32_t end;
     };
 
-    std::vector<Slot> slots_;         // by (from, to), then by visit
-    std::vector<Range> opposite_;     // per slot: the moves (to, from)
+    std::vector<Slot> slots_;         // by (from, to), then by visit, and so by robot
+    std::vector<Opposite> opposite_;  // of each slot
     std::vector<std::int32_t> slot_;  // of each visit
 };
 

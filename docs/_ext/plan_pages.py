@@ -45,7 +45,7 @@ class PlanPage(SphinxDirective):
             return
         plan, actual = rightofway.solve(scenario), None
         if "delays" in self.options:
-            actual = simulate(plan, self.options["delays"], runs=1).happened()
+            actual = simulate(plan, self.options["delays"], runs=1).trace()
         rightofway.write_page(plan, target, actual=actual)
 
     def frame(self, name: str, page: Path) -> str:

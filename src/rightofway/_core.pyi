@@ -795,7 +795,7 @@ class ActionDependencyGraph:
         Return the robots that can never complete, since they wait for each other.
         """
 
-def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None, most_steps: int | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
 
@@ -814,15 +814,19 @@ def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), or
         The vertices to go to, one after the other; a robot stays at its last one.
     may_rotate : bool
         Whether three or more robots may move round a circle in one step.
+    ends_anywhere : uint8[R], or empty
+        Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
     seed : int
         For ties.
     time_limit : float or None
         After so many seconds the search stops.
+    most_steps : int or None
+        After about so many steps of the fleet the search stops.
 
     Returns
     -------
     tuple of (int, int32[T, R])
-        How it ended (0: found, 1: proven that there is none, 2: out of time) and where every robot is
+        How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
         after each step, the start included.
 
     Raises

@@ -14,13 +14,14 @@ A message says where, what (with the value) and what to do.
 from __future__ import annotations
 
 import difflib
+from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Iterator
 
 __all__ = [
     "GaveUp",
@@ -30,6 +31,7 @@ __all__ = [
     "NoPlanExists",
     "RightOfWayError",
     "is_printable",
+    "kernel_limits",
     "nearest",
     "shown",
 ]
@@ -98,6 +100,16 @@ class InputError(RightOfWayError, ValueError):
     def __str__(self) -> str:
         prefix = f"{self.source}: " if self.source else ""
         return "\n".join(f"{prefix}{fault}" for fault in self.faults)
+
+
+@contextmanager
+def kernel_limits() -> Iterator[None]:
+    """Raise as `InputError` what a native kernel refuses because its integers cannot hold it."""
+    try:
+        yield
+    except OverflowError as limit:
+        place, _, message = str(limit).partition(": ")
+        raise InputError.at(place, message) from limit
 
 
 class NoPlanExists(RightOfWayError):

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from numbers import Integral
 from typing import Any
 
 from rightofway.check import check
-from rightofway.errors import InputError, InvalidPlan, shown
-from rightofway.model import Plan, PlannerRun, Scenario, Track
+from rightofway.errors import InputError, InvalidPlan, kernel_limits, shown
+from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
     Deadline,
-    Draft,
     PlannerOptions,
     PlannerSpec,
     Task,
@@ -37,6 +35,7 @@ def solve(
     *,
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    keep_best: bool = False,
     **named: Any,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
@@ -57,6 +56,9 @@ def solve(
         with values.
     report
         Takes sentences on the progress.
+    keep_best
+        Whether Ctrl-C returns the best plan so far, where there is one. By default
+        `KeyboardInterrupt` is raised.
     named
         Options one by one, like ``iterations=100``, instead of ``options``.
 
@@ -77,11 +79,17 @@ def solve(
     if not isinstance(scenario, Scenario):
         remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
         raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
-    spec = find(planner)
-    given = _given(
-        spec, time_limit=time_limit, seed=seed, options=options, named=named, report=report
+    clock, spec = _Clock(), find(planner)
+    task = Task(
+        scenario=scenario,
+        options=_settled(spec, options, named),
+        seed=_checked_seed(seed),
+        deadline=Deadline.after(checked_time_limit(time_limit)),
+        report=report or (lambda _: None),
+        has_plan=clock.keep,
+        keep_best=keep_best,
     )
-    return _run(spec, scenario, given)
+    return _run(spec, task, clock)
 
 
 def improve(
@@ -92,6 +100,7 @@ def improve(
     *,
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    keep_best: bool = False,
     **named: Any,
 ) -> Plan:
     """Make a plan better, also one of another program, and have the result judged.
@@ -102,7 +111,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report, named
+    time_limit, seed, options, report, keep_best, named
         As for `solve`.
 
     Returns
@@ -118,46 +127,42 @@ def improve(
     if not isinstance(plan, Plan):
         message = f"{shown(plan)} is no plan (load a file with rightofway.load_plan)"
         raise InputError.at("plan", message)
-    judged, spec = check(plan), find(planner)
+    limit, judged, spec = checked_time_limit(time_limit), check(plan), find(planner)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be improved)")
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    given = _given(
-        spec, time_limit=time_limit, seed=seed, options=options, named=named, report=report
+    clock = _Clock()
+    clock.keep()
+    task = Task(
+        scenario=plan.scenario,
+        options=_settled(spec, options, named),
+        seed=_checked_seed(seed),
+        deadline=Deadline.after(limit),
+        report=report or (lambda _: None),
+        keep_best=keep_best,
+        start=plan.tracks,
     )
-    return _run(spec, plan.scenario, given, start=plan.tracks)
+    return _run(spec, task, clock)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Given:
-    """What the caller says besides the problem."""
-
-    time_limit: float | None
-    seed: int
-    options: dict[str, str | int]
-    report: Callable[[str], None] | None
-
-
-def _given(
-    spec: PlannerSpec,
-    *,
-    time_limit: float | None,
-    seed: int,
-    options: PlannerOptions | Mapping[str, Any] | None,
-    named: dict[str, Any],
-    report: Callable[[str], None] | None,
-) -> _Given:
-    """Check what the caller says besides the problem."""
-    if not isinstance(seed, Integral) or not 0 <= seed <= LARGEST_SEED:
-        remedy = f"give a whole number from 0 to {LARGEST_SEED}"
-        raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
-    if options is not None and named:
+def _settled(
+    spec: PlannerSpec, options: PlannerOptions | Mapping[str, Any] | None, named: dict[str, Any]
+) -> dict[str, str | int]:
+    if options is None:
+        return spec.settle(named)
+    if named:
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
-    settled = spec.settle(named if options is None else options)
-    return _Given(time_limit=time_limit, seed=int(seed), options=settled, report=report)
+    return spec.settle(options)
+
+
+def _checked_seed(seed: int) -> int:
+    if isinstance(seed, Integral) and 0 <= seed <= LARGEST_SEED:
+        return int(seed)
+    remedy = f"give a whole number from 0 to {LARGEST_SEED}"
+    raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
 
 
 class _Clock:
@@ -176,23 +181,15 @@ class _Clock:
             self.kept = self.seconds()
 
 
-def _run(
-    spec: PlannerSpec, scenario: Scenario, given: _Given, start: tuple[Track, ...] | None = None
-) -> Plan:
-    clock = _Clock()
-    task = Task(
-        scenario=scenario,
-        options=given.options,
-        seed=given.seed,
-        deadline=Deadline.after(given.time_limit),
-        report=given.report or (lambda _: None),
-        has_plan=clock.keep,
-        start=start,
-    )
-    if start is not None:
+def _run(spec: PlannerSpec, task: Task, clock: _Clock) -> Plan:
+    with kernel_limits():
+        draft = spec.load()(task)
         clock.keep()
-    draft = spec.load()(task)
-    clock.keep()
+        alone = draft.alone
+        if alone is None:
+            from rightofway.search import alone_completions  # loads the native core: not for help
+
+            alone = alone_completions(task.scenario)
     run = PlannerRun(
         name=spec.name,
         options=task.options,
@@ -202,14 +199,10 @@ def _run(
         first_plan_seconds=clock.kept,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
+        alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
-    _refuse_faults(plan, draft)
-    return plan
-
-
-def _refuse_faults(plan: Plan, draft: Draft) -> None:
     report = check(plan)
-    bad = [kind for kind in report.counts if kind != "swap conflict" or not draft.keeps_swaps]
-    if bad:
-        raise InvalidPlan(f"{plan.run.name} made a plan with {report}")
+    if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
+        raise InvalidPlan(f"{spec.name} made a plan with {report}")
+    return plan

@@ -6,7 +6,6 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.metrics.stays import stays_of
 from rightofway.model import (
     Decision,
     Edge,
@@ -24,6 +23,7 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
+    stays_of,
 )
 
 __all__ = [
@@ -218,7 +218,7 @@ def counter_late() -> ExecutionTrace:
         dwell=(np.array([0, 4, 1, 4, 1]), np.array([0, 4, 1, 4])),
         drive=(np.array([0, 1, 1, 1, 1]), np.array([0, 1, 1, 1])),
         completion=(None, None),
-        standstills=(((Tick(3), Tick(4)),), ((Tick(22), None),)),
+        stoppages=(((Tick(3), Tick(4)),), ((Tick(22), None),)),
     )
 
 
@@ -227,7 +227,7 @@ def delayed(plan: Plan, every: int = 9) -> ExecutionTrace:
 
     Each drive into every ninth visit takes a tick longer, and each robot stands still for 12 ticks.
     """
-    tracks, dwells, drives, standstills = [], [], [], []
+    tracks, dwells, drives, stoppages = [], [], [], []
     for robot, (track, stay) in enumerate(
         zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True)
     ):
@@ -239,11 +239,11 @@ def delayed(plan: Plan, every: int = 9) -> ExecutionTrace:
         tracks.append(Track.of(track.vertices.tolist(), enter.tolist()))
         dwells.append(stay.dwell)
         drives.append(np.append(0, stay.drive[:-1]) + slow)
-        standstills.append(((Tick(begin), Tick(12)),) if begin < enter[-1] else ())
+        stoppages.append(((Tick(begin), Tick(12)),) if begin < enter[-1] else ())
     return ExecutionTrace(
         tracks=tuple(tracks),
         dwell=tuple(dwells),
         drive=tuple(drives),
         completion=tuple(Tick(int(track.enter[-1])) for track in tracks),
-        standstills=tuple(standstills),
+        stoppages=tuple(stoppages),
     )

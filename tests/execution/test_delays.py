@@ -32,9 +32,9 @@ def test_random_delays_become_numbers_of_the_kernel(scenario: Scenario) -> None:
 
 def test_what_befalls_one_robot_befalls_no_other(scenario: Scenario) -> None:
     text = ["slow:R2x1.5", "stop:R1@12,stop:R1@3+9/2", "early:R2x1/2"]
-    hazards = delay_model_of(read_delays(text, scenario), scenario)
-    assert hazards.pace == (1.0, 0.75)
-    assert hazards.standstills == (((3, 5), (12, NEVER)), ())  # 9/2 takes 5 ticks of 1
+    delays = delay_model_of(read_delays(text, scenario), scenario)
+    assert delays.pace == (1.0, 0.75)
+    assert delays.stoppages == (((3, 5), (12, NEVER)), ())  # 9/2 takes 5 ticks of 1
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ def plan() -> Plan:
 
 def test_without_delays_everything_is_as_planned(plan: Plan) -> None:
     outcome = rightofway.simulate(plan, "uniform:0..0", runs=3)
-    assert outcome.actual(2) == plan.tracks
+    assert outcome.tracks(2) == plan.tracks
     assert outcome.collisions == outcome.deadlocks == outcome.by_clock.total == 0
     assert outcome.lateness.all.max == 0
 
@@ -40,7 +40,7 @@ def test_a_robot_that_stops_is_run_into_by_the_clock_and_waited_for_by_right_of_
     assert outcome.by_clock.first.median == 2
     assert outcome.collisions == 0
     other = 1 - first
-    assert outcome.lateness.robots[other].spread.mean == 10
+    assert outcome.lateness.robots[other].quantiles.mean == 10
     assert outcome.lateness.robots[other].waiting == {first: 10.0}
     assert outcome.lateness.sources[0].robot == first
     assert outcome.lateness.sources[0].own == outcome.lateness.sources[0].of_others == 10
@@ -66,10 +66,10 @@ def test_a_run_shown_is_the_run_counted() -> None:
     for switch in (False, True):
         outcome = rightofway.simulate(plan, "chance:0.1x9", runs=5, switch=switch)
         for run in range(5):
-            ends = [int(track.enter[-1]) for track in outcome.actual(run)]
+            ends = [int(track.enter[-1]) for track in outcome.tracks(run)]
             assert ends == outcome.completion[run].tolist()
     with pytest.raises(IndexError, match="run 5 is not among the 5 runs"):
-        outcome.actual(5)
+        outcome.tracks(5)
 
 
 def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:
@@ -94,10 +94,10 @@ def test_what_was_won_is_told_of_the_same_runs() -> None:
         for replan in (False, True)
     )
     won = kept.completion.sum(axis=1) - anew.completion.sum(axis=1)
-    assert kept.won is None
-    assert anew.won is not None
-    assert (anew.won.runs, anew.won.flowtime.max) == (10, won.max())
-    assert (anew.won.earlier, anew.won.later) == ((won > 0).sum(), (won < 0).sum())
+    assert kept.gain is None
+    assert anew.gain is not None
+    assert (anew.gain.runs, anew.gain.flowtime.max) == (10, won.max())
+    assert (anew.gain.earlier, anew.gain.later) == ((won > 0).sum(), (won < 0).sum())
 
 
 def test_replanning_brings_home_whom_a_broken_robot_would_strand() -> None:

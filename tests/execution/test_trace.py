@@ -12,9 +12,9 @@ from tests.builders.plans import door
 def test_what_befell_a_run_accounts_for_its_times() -> None:
     """R1 stands still in N4 from 3 to 8, and R2 has to pass there behind it: 4 late."""
     outcome = simulate(door(), "stop:R1@3+5", runs=1)
-    actual = outcome.happened(0)
-    assert actual.tracks == outcome.actual(0)
-    assert actual.standstills == (((3, 5),), ())
+    actual = outcome.trace(0)
+    assert actual.tracks == outcome.tracks(0)
+    assert actual.stoppages == (((3, 5),), ())
     assert actual.completion == (15, 13)
     one, planned = actual.tracks[0], door().tracks[0]
     assert (np.diff(one.enter) - np.diff(planned.enter)).sum() == 5
@@ -24,9 +24,9 @@ def test_what_befell_a_run_accounts_for_its_times() -> None:
 
 def test_who_breaks_down_never_completes() -> None:
     """R2 is in N7 at 3 and stays there; R1 behind it, too."""
-    actual = simulate(door(), "stop:R2@3", runs=1).happened(0)
+    actual = simulate(door(), "stop:R2@3", runs=1).trace(0)
     assert actual.completion == (None, None)
-    assert actual.standstills[1] == ((3, None),)
+    assert actual.stoppages[1] == ((3, None),)
     assert [len(drive) for drive in actual.drive] == list(map(len, actual.tracks))
 
 
@@ -38,7 +38,7 @@ def test_the_typical_run_is_in_the_middle() -> None:
 
 def test_there_is_no_run_beyond_the_last() -> None:
     with pytest.raises(IndexError, match="run 3 is not among the 3 runs"):
-        simulate(door(), runs=3).happened(3)
+        simulate(door(), runs=3).trace(3)
 
 
 def test_a_plan_made_anew_on_the_move_accounts_for_its_times_as_well() -> None:
@@ -46,7 +46,7 @@ def test_a_plan_made_anew_on_the_move_accounts_for_its_times_as_well() -> None:
     plan = solve(random_fleet(2, size=12, robots=10), "two-level", None)
     outcome = simulate(plan, "slow:R10x2", runs=1, replan=True)
     assert outcome.replans > 0
-    actual = outcome.happened(0)
+    actual = outcome.trace(0)
     assert any(one != other for one, other in zip(actual.tracks, plan.tracks, strict=True))
     for track, dwell, drive in zip(actual.tracks, actual.dwell, actual.drive, strict=True):
         assert (np.diff(track.enter) >= dwell[:-1] + drive[1:]).all()

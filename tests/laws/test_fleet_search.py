@@ -10,9 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.metrics import completions_of
 from rightofway.metrics.alone import alone_completions
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, roadmap_of_grid
+from rightofway.model import (
+    Plan,
+    PlannerRun,
+    Rules,
+    Scenario,
+    Track,
+    completions_of,
+    roadmap_of_grid,
+)
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 from tests.builders.fleets import grid_fleet, random_fleet

@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import NoPlanExists
-from rightofway.metrics import completions_of, measure
+from rightofway.metrics import measure
 from rightofway.model import (
     Plan,
     PlannerRun,
@@ -19,6 +19,7 @@ from rightofway.model import (
     Scenario,
     Stop,
     Track,
+    completions_of,
     roadmap_of_grid,
 )
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario

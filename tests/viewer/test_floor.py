@@ -91,7 +91,7 @@ def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
         dwell=(np.zeros(3, np.int64), np.zeros(3, np.int64)),
         drive=(np.array([0, 1, 1]), np.array([0, 1, 1])),
         completion=(None, None),
-        standstills=((), ((Tick(3), None),)),
+        stoppages=((), ((Tick(3), None),)),
     )
     viewer = show(door(), "#tick=2", actual=actual)
     first = viewer.page.locator("#robot-list .late").first

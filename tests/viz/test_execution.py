@@ -71,7 +71,7 @@ def test_another_way_is_told_with_its_vertices() -> None:
         dwell=(np.zeros(3, np.int64), np.zeros(3, np.int64)),
         drive=(np.array([0, 1, 1]), np.array([0, 1, 1])),
         completion=(None, None),
-        standstills=((), ((Tick(3), None),)),
+        stoppages=((), ((Tick(3), None),)),
     )
     one, two = payload_of(plan, actual=actual)["floor"]["robots"]
     assert one["vertices"] == [0, 1, -1]
@@ -96,7 +96,7 @@ def test_every_robot_needs_a_track() -> None:
     [
         ({"dwell": ()}, r"dwell: 0 for 2 tracks \(give one for each\)"),
         ({"completion": (None,)}, "completion: 1 for 2 tracks"),
-        ({"standstills": ((),)}, "standstills: 1 for 2 tracks"),
+        ({"stoppages": ((),)}, "stoppages: 1 for 2 tracks"),
         ({"drive": (np.zeros(5), np.zeros(5))}, r"drive\[1\]: 5 for 4 visits"),
     ],
 )

@@ -60,8 +60,9 @@ TEST_CASE("a visit without a booking overlaps nothing, not even a booking withou
     CHECK(overlaps(index, 2).empty());
 }
 
-TEST_CASE("pairs are counted vertex by vertex") {
-    CHECK(at_seven().n_pairs() == 6 + 1);  // four visits at 7, two at 1
+TEST_CASE("pairs of visits of different robots are counted vertex by vertex") {
+    // Four visits at 7, of which two belong to the first robot; two visits at 1.
+    CHECK(at_seven().n_pairs() == 6 - 1 + 1);
 }
 
 }  // namespace

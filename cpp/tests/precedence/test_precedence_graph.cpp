@@ -183,9 +183,9 @@ TEST_CASE("so many visits to one vertex that their conflicts might overflow are 
     for (std::size_t r = 1; r <= n; ++r) {
         example.first_visit.push_back(static_cast<VisitId>(r));
     }
-    CHECK_THROWS_WITH(
-        PrecedenceGraph(example.arrays()),
-        "vertex: 1073767311 pairs of visits share a vertex, more than can be counted");
+    CHECK_THROWS_WITH(PrecedenceGraph(example.arrays()),
+                      "robots: 1073767311 pairs of their visits share a vertex, more than "
+                      "1073741824 cannot be counted (plan fewer laps or fewer robots at once)");
 }
 
 }  // namespace

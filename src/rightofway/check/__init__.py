@@ -3,7 +3,7 @@
 It reads the scenario in ticks and the tracks, nothing else: no planner, no search, no native core.
 """
 
+from rightofway.check.faults import Fault, FaultKind, Report
 from rightofway.check.judge import check
-from rightofway.check.report import Fault, FaultKind, Report
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from rightofway.check.drives import judge_drives
-from rightofway.check.exchanges import judge_rotations, judge_swaps
-from rightofway.check.meetings import judge_meetings
-from rightofway.check.report import Report
-from rightofway.check.sieve import Sieve
-from rightofway.check.trips import judge_trips
+from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
+from rightofway.check.faults import FaultCollector, Names, Report
+from rightofway.check.tracks import judge_drives, judge_trips
 from rightofway.check.visits import visits_of
-from rightofway.check.words import Words
 from rightofway.model import Plan
 
 __all__ = ["check"]
@@ -40,12 +36,12 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     visit if they follow each other at one vertex. A visit too short for that is only passing.
     """
     visits = visits_of(plan)
-    words = Words(plan.scenario)
-    sieve = Sieve(limit)
-    judge_drives(visits, words, sieve)
-    judge_trips(plan, visits, words, sieve)
-    judge_meetings(plan, visits, words, sieve)
-    judge_swaps(visits, words, sieve)
+    names = Names(plan.scenario)
+    collector = FaultCollector(limit)
+    judge_drives(visits, names, collector)
+    judge_trips(plan, visits, names, collector)
+    judge_bookings(plan, visits, names, collector)
+    judge_swaps(visits, names, collector)
     if not plan.scenario.rules.rotations:
-        judge_rotations(visits, words, sieve)
-    return sieve.report()
+        judge_rotations(visits, names, collector)
+    return collector.report()

@@ -42,6 +42,12 @@ def improve(*, plan: str, asked: Asked) -> int:
     first = read_plan(plan)
     with progress() as report:
         found = make_better(
-            first, asked.planner, asked.time_limit, asked.seed, options=asked.options, report=report
+            first,
+            asked.planner,
+            asked.time_limit,
+            asked.seed,
+            options=asked.options,
+            report=report,
+            keep_best=True,
         )
     return hand_over(found, asked)

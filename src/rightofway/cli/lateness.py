@@ -36,8 +36,8 @@ def _head(outcome: Outcome) -> Iterator[str]:
         yield _row("switching", f"{outcome.switches / outcome.runs:.1f} times a run")
     if outcome.replans:
         yield _row("planned anew", f"{outcome.replans / outcome.runs:.1f} times a run")
-    if outcome.won and outcome.won.runs:
-        yield _row("won by that", _won(outcome.won))
+    if outcome.gain and outcome.gain.runs:
+        yield _row("won by that", _gain(outcome.gain))
     if outcome.broken:
         yield _row("broken", _broken(outcome))
 
@@ -73,12 +73,13 @@ def _spread(spread: Quantiles) -> str:
     )
 
 
-def _won(won: PolicyGain) -> str:
-    """Say what was won; what was lost is won below zero."""
-    spread, runs = won.flowtime, won.runs
+def _gain(gain: PolicyGain) -> str:
+    """Say how much earlier the fleet is; negative if it is later."""
+    runs = gain.runs
     return (
-        f"{spread.mean:.1f} ticks of flowtime a run on average against the plan's rights of way in"
-        f" the same runs; {won.earlier / runs:.0%} of runs earlier, {won.later / runs:.0%} later"
+        f"{gain.flowtime.mean:.1f} ticks of flowtime a run on average against the plan's rights of"
+        f" way in the same runs; {gain.earlier / runs:.0%} of runs earlier,"
+        f" {gain.later / runs:.0%} later"
     )
 
 
@@ -94,12 +95,12 @@ def _broken(outcome: Outcome) -> str:
 
 def _robots(outcome: Outcome) -> Iterator[str]:
     names, robots = names_of(outcome.plan), outcome.lateness.robots
-    shown = sorted(range(len(robots)), key=lambda robot: -(robots[robot].spread.mean or 0))
+    shown = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     shown = sorted(shown[:MOST_LINES])
     width = max(len("robot"), *(len(short(names[robot])) for robot in shown))
     yield f"{'robot':{width}}  late     95 %   most  own    waiting for"
     for number in shown:
-        robot, spread = robots[number], robots[number].spread
+        robot, spread = robots[number], robots[number].quantiles
         if spread.mean is None:
             yield f"{short(names[number]):{width}}  never completes"
             continue

@@ -46,5 +46,6 @@ def plan(*, scenario: str, asked: Asked) -> int:
             asked.seed,
             options=asked.options,
             report=report,
+            keep_best=True,
         )
     return hand_over(found, asked)

@@ -134,7 +134,7 @@ def _texts(delays: str) -> tuple[str, ...]:
 def _write_page(outcome: Outcome, page: str, run: int) -> None:
     from rightofway.viz import write_page
 
-    write_page(outcome.plan, page, actual=outcome.happened(run))
+    write_page(outcome.plan, page, actual=outcome.trace(run))
     say(f"wrote {page}: run {run} of {outcome.runs}")
 
 

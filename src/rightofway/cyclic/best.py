@@ -12,8 +12,8 @@ from rightofway.cyclic.groups import independent_groups
 from rightofway.cyclic.problem import CyclicProblem
 from rightofway.cyclic.route import CyclicRoute, clear_and_direct, cyclic_routes
 from rightofway.cyclic.schedule_search import LARGE, GroupTimetable, choose
-from rightofway.errors import GaveUp, InputError
-from rightofway.model import Lap, Scenario, VertexId
+from rightofway.errors import GaveUp, InputError, kernel_limits
+from rightofway.model import Lap, Scenario, VertexId, checked_time_limit
 from rightofway.planners import Deadline, planning_headway
 from rightofway.search import Distances, RoundTrip
 
@@ -23,6 +23,7 @@ MOST_WITH_WAYS = 200
 """Larger fleets have no time to look for any way: they take clear routes or direct ones."""
 
 
+@kernel_limits()
 def best_timetable(
     scenario: Scenario,
     *,
@@ -74,6 +75,7 @@ def best_timetable(
     and that is fair enough. Deterministic for a seed where rounds end before time does. Not
     optimal.
     """
+    time_limit = checked_time_limit(time_limit)
     _refuse(scenario, weights, least_fairness, time_limit, rounds)
     wish = _Wish(
         scenario=scenario,

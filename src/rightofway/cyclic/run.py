@@ -15,8 +15,8 @@ from rightofway.cyclic.rolling_horizon import Rolling
 from rightofway.cyclic.route import CyclicRoute, cyclic_routes
 from rightofway.cyclic.rules import FAR_SIGHTED, RULES
 from rightofway.cyclic.window import Ground
-from rightofway.errors import GaveUp, InputError
-from rightofway.model import Scenario
+from rightofway.errors import GaveUp, InputError, kernel_limits
+from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline, Task, planning_headway
 
 __all__ = ["ROUTES", "go_on", "make_simulator", "run_group", "run_laps", "share_time"]
@@ -28,6 +28,7 @@ LEAST_SHARE = 0.05
 """The part of the time left that a group may take at first, however small it is."""
 
 
+@kernel_limits()
 def run_laps(
     scenario: Scenario,
     rule: str = "first-come",
@@ -75,7 +76,7 @@ def run_laps(
     """
     _refuse_unknown("rule", rule, tuple(RULES))
     _refuse_unknown("routes", routes, ROUTES)
-    deadline = Deadline.after(time_limit)
+    deadline = Deadline.after(checked_time_limit(time_limit))
     groups = independent_groups(cyclic_routes(scenario, routes))
     going = [make_simulator(Task(scenario=scenario), group, rule) for group in groups]
     return CyclicResult(

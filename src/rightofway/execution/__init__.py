@@ -1,7 +1,8 @@
-"""A plan on a floor where robots are late: by the clock it collides, by right of way never."""
+"""Executing a plan when robots are late: by the clock they collide, by right of way never."""
 
 from rightofway.execution.delays import CAUSES, DEFAULT, Cause, Delay, delay_model_of, read_delays
-from rightofway.execution.outcome import (
+from rightofway.execution.simulation import simulate
+from rightofway.execution.statistics import (
     Collisions,
     Lateness,
     Outcome,
@@ -10,7 +11,6 @@ from rightofway.execution.outcome import (
     RobotLateness,
     Source,
 )
-from rightofway.execution.simulation import simulate
 
 __all__ = [
     "CAUSES",

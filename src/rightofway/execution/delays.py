@@ -11,8 +11,8 @@ from typing import Any
 
 from rightofway.errors import InputError
 from rightofway.io.text.exact import exact
-from rightofway.model import NEVER, Clock, Scenario, Tick
-from rightofway.precedence import DelayModel
+from rightofway.model import NEVER, Clock, Scenario
+from rightofway.precedence import DelayModel, Stoppage
 
 __all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
 
@@ -200,25 +200,25 @@ def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
     clock = scenario.problem.clock
     names = [robot.name for robot in scenario.robots]
     pace = dict.fromkeys(names, 1.0)
-    standstills: dict[str, list[tuple[Tick, Tick]]] = {name: [] for name in names}
+    stoppages: dict[str, list[Stoppage]] = {name: [] for name in names}
     random = []
     for delay in delays:
         if delay.kind in {"slow", "early"}:
             pace[delay.robot] *= float(delay.first)
         elif delay.kind == "stop":
-            standstills[delay.robot].append(_standstill(delay, clock))
+            stoppages[delay.robot].append(_stoppage(delay, clock))
         else:
             random.append((delay.kind, float(delay.first), _second(delay, clock)))
     return DelayModel(
         random=tuple(random),
         pace=tuple(pace[name] for name in names),
-        standstills=tuple(tuple(sorted(standstills[name])) for name in names),
+        stoppages=tuple(tuple(sorted(stoppages[name])) for name in names),
     )
 
 
-def _standstill(delay: Delay, clock: Clock) -> tuple[Tick, Tick]:
+def _stoppage(delay: Delay, clock: Clock) -> Stoppage:
     lasts = NEVER if delay.second is None else clock.ticks(delay.second)
-    return clock.ticks(delay.first), lasts
+    return Stoppage(clock.ticks(delay.first), lasts)
 
 
 def _second(delay: Delay, clock: Clock) -> float:

@@ -1,8 +1,8 @@
-"""What can be expected of a plan at an instant: what has happened is fixed, the rest is reckoned.
+"""What is expected of an execution at an instant: the past is fixed, the rest is estimated.
 
-Who is overdue with a stay or a drive is expected to be so for as long again; who is ready, and only
-waits for its right of way, can go at once; everything else takes the time of the plan. Nobody knows
-how long a delay will last, neither here nor on a real floor.
+A stay or drive that is overdue is expected to be so for as long again. A robot that only waits for
+its right of way can go at once. Everything else takes its planned time. How long a delay will last
+is not known, neither here nor on a real site.
 """
 
 from __future__ import annotations
@@ -20,105 +20,125 @@ from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution,
 __all__ = ["Forecast", "Times"]
 
 Times = NDArray[np.int64]
+"""A time for each visit [ticks]; shape (N,)."""
 
 
 class Forecast:
-    """What can be expected at an instant, and what can still be changed.
+    """What is expected at an instant, and what can still be changed.
 
     Parameters
     ----------
-    floor, setbacks
-        A plan, and what befalls it; only what has happened by the instant is looked at.
-    happens
-        What comes of both.
+    adg, delay_sample, execution
+        A plan, its delays, and the times that follow; later times than ``now`` are not looked at.
     now
         The instant [ticks].
+    broken
+        Robots known to stand still for ever; nothing more is expected of them.
 
     Attributes
     ----------
-    begun, over
-        Which visits have booked their vertex, and which robots have entered it; bool[N].
+    booked, entered
+        Which visits have booked their vertex, and which have begun; bool[N].
     graph
-        The precedence graph with the durations that are expected.
+        The precedence graph with the expected durations.
     is_possible
         Whether all visits can take place in their order, without a swap.
     """
 
     def __init__(
-        self, floor: ActionDependencyGraph, delay_sample: DelaySample, happens: Execution, now: int
+        self,
+        adg: ActionDependencyGraph,
+        delay_sample: DelaySample,
+        execution: Execution,
+        now: int,
+        broken: frozenset[int] = frozenset(),
     ) -> None:
-        self.floor, self.delay_sample, self.happens, self.now = floor, delay_sample, happens, now
-        self.begun = happens.start <= now
-        self.over = happens.enter <= now
-        scenario = floor.scenario
+        self.adg, self.delay_sample, self.execution = adg, delay_sample, execution
+        self.now, self.broken = now, broken
+        self.booked = execution.start <= now
+        self.entered = execution.enter <= now
+        self.books_ahead = adg.scenario.rules.books_ahead
         self.graph = PrecedenceGraph(
-            [self._route(robot) for robot in range(len(floor.routes))],
-            headway=planning_headway(scenario),
-            books_ahead=scenario.rules.books_ahead,
+            [self._route(robot) for robot in range(len(adg.routes))],
+            headway=planning_headway(adg.scenario),
+            books_ahead=self.books_ahead,
         )
         self.is_possible = self.graph.give_all(self._rights())
 
     def times(self) -> Times:
-        """Return when visits are expected to begin [ticks]."""
+        """Return when visits are expected to begin."""
         return np.concatenate([track.enter for track in self.graph.tracks()])
 
     def visit_of(self, robot: int) -> int:
-        """Return the last visit that a robot has entered."""
-        first, end = self.floor.first_visit[robot : robot + 2].tolist()
-        return int(first + np.count_nonzero(self.over[first:end]) - 1)
+        """Return the last visit that a robot has begun."""
+        first, end = self.adg.first_visit[robot : robot + 2].tolist()
+        return int(first + np.count_nonzero(self.entered[first:end]) - 1)
 
     def is_ready(self, robot: int) -> bool:
-        """Tell whether a robot has done what it has to and only waits for its right of way."""
+        """Tell whether a robot only waits for its right of way."""
         visit = self.visit_of(robot)
-        ready = int(self.happens.enter[visit] + self.delay_sample.dwell[visit])
-        if not self.floor.scenario.rules.books_ahead:
+        ready = int(self.execution.enter[visit] + self.delay_sample.dwell[visit])
+        if not self.books_ahead:
             ready += int(self.delay_sample.drive[visit + 1])
         stands = False
-        for begin, ticks in self.delay_sample.of(robot):
-            if self.happens.enter[visit] <= begin < ready:
+        for begin, ticks in self.delay_sample.stoppages_of(robot):
+            if self.execution.enter[visit] <= begin < ready:
                 ready += ticks
             stands |= begin < self.now < begin + ticks
         return ready <= self.now and not stands
 
+    def has_set_off(self, robot: int) -> bool:
+        """Tell whether a robot has left for a vertex that it has not booked, or waits before it."""
+        visit = self.visit_of(robot)
+        if self.books_ahead or visit + 1 == self.adg.first_visit[robot + 1]:
+            return False
+        return int(self.execution.enter[visit] + self.delay_sample.dwell[visit]) <= self.now
+
+    def is_driving(self, robot: int) -> bool:
+        """Tell whether a robot is on its way to a vertex that it has not booked."""
+        visit = self.visit_of(robot)
+        is_last = visit + 1 == self.adg.first_visit[robot + 1]
+        if is_last or self.books_ahead or self.is_ready(robot):
+            return False
+        return int(self.execution.enter[visit] + self.delay_sample.dwell[visit]) <= self.now
+
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the rights of way that are still to be used, in the order of the plan."""
-        before, robot = self.floor.before, self._robots()
-        still = np.flatnonzero(~self.begun & (before >= 0) & (robot[before] != robot))
-        still = still[np.argsort(self.floor.planned[still], kind="stable")]
-        yield from zip(before[still].tolist(), still.tolist(), strict=True)
-
-    def _robots(self) -> NDArray[np.int64]:
-        """Return whose each visit is."""
-        lengths = np.diff(self.floor.first_visit)
-        return np.repeat(np.arange(len(lengths)), lengths)
+        before = self.adg.before
+        lengths = np.diff(self.adg.first_visit)
+        robot = np.repeat(np.arange(len(lengths)), lengths)
+        unused = np.flatnonzero(~self.booked & (before >= 0) & (robot[before] != robot))
+        unused = unused[np.argsort(self.adg.planned[unused], kind="stable")]
+        yield from zip(before[unused].tolist(), unused.tolist(), strict=True)
 
     def _route(self, robot: int) -> Route:
-        """Return a route with what has happened, and what the visit under way may still take."""
-        route, first = self.floor.routes[robot], int(self.floor.first_visit[robot])
+        """Return a route with the real durations so far and the expected one of this visit."""
+        route, first = self.adg.routes[robot], int(self.adg.first_visit[robot])
         here = self.visit_of(robot) - first
-        lasted = np.diff(self.happens.enter[first : first + here + 1])
+        lasted = np.diff(self.execution.enter[first : first + here + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
         if here < len(route) - 1:
             dwell.append(Tick(self._lasts(robot, here) - route.drive[here + 1]))
         return replace(route, dwell=(*dwell, *route.dwell[len(dwell) :]))
 
     def _lasts(self, robot: int, index: int) -> int:
-        """Return how long it is from entering the visit under way to entering the next one."""
-        route, visit = self.floor.routes[robot], int(self.floor.first_visit[robot]) + index
-        since = self.now - int(self.happens.enter[visit])
+        """Return the expected time from the begin of this visit to that of the next one."""
+        route, visit = self.adg.routes[robot], int(self.adg.first_visit[robot]) + index
+        since = self.now - int(self.execution.enter[visit])
         drive = int(route.drive[index + 1])
-        if not self.floor.scenario.rules.books_ahead:
+        if not self.books_ahead:
             least = route.least(index)
             return max(since, least) if self.is_ready(robot) else _with_overdue(least, since)
-        if self.begun[visit + 1]:
-            stayed = int(self.happens.start[visit + 1] - self.happens.enter[visit])
-            return stayed + _with_overdue(drive, since - stayed)
+        if self.booked[visit + 1]:
+            stayed = int(self.execution.start[visit + 1] - self.execution.enter[visit])
+            is_lost = robot in self.broken
+            return stayed + (drive if is_lost else _with_overdue(drive, since - stayed))
         if self.is_ready(robot):
             return since + drive
         return _with_overdue(int(route.dwell[index]), since) + drive
 
 
 def _with_overdue(least: int, since: int) -> int:
-    """Return how long something takes that has not come to its end yet."""
+    """Return the expected duration of what takes ``least`` ticks and began ``since`` ticks ago."""
     overdue = since - least
     return least if overdue < 0 else least + 2 * overdue + 1

@@ -1,27 +1,29 @@
-"""Run a plan on a floor where robots are late, many times."""
+"""Executing a plan with delays, many times."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.check import check
-from rightofway.errors import InputError
+from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
-from rightofway.execution.outcome import Collisions, Outcome
-from rightofway.execution.policy import ExecutionPolicy
-from rightofway.execution.tally import Tally
-from rightofway.model import NEVER, Plan
-from rightofway.precedence import ActionDependencyGraph
+from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
+from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
+from rightofway.execution.trace import trace_of
+from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
+from rightofway.planners import Deadline
+from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 __all__ = ["simulate"]
 
 CHUNK = 1 << 20
-"""Visits that are run at a time; after each time limit and Ctrl-C are looked at."""
+"""Visits executed at a time; after each, time limit and Ctrl-C are looked at."""
 
 
+@kernel_limits()
 def simulate(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT,
@@ -33,7 +35,7 @@ def simulate(
     time_limit: float | None = None,
     report: Callable[[str], None] = lambda _: None,
 ) -> Outcome:
-    """Run a plan many times with delays: by right of way, and by the clock to compare.
+    """Execute a plan many times with delays: by right of way, and by the clock to compare.
 
     Parameters
     ----------
@@ -44,72 +46,95 @@ def simulate(
         commas or in a list; see `rightofway.execution.CAUSES`. A file of them is read by
         `rightofway.io.load_delays`.
     runs
-        How many runs.
+        Number of runs.
     seed
         Run k of a seed meets the same delays, however many runs there are.
     switch
-        Whether rights of way are switched while the plan runs, where that is expected to help.
+        Whether rights of way are switched during execution, where that is expected to help.
     replan
-        Whether what is left is planned anew when the fleet has fallen behind and that is expected
-        to help, and when a robot breaks down for ever.
+        Whether the rest is replanned during execution: where the fleet has fallen behind and that
+        is expected to help, and where a robot breaks down.
     time_limit
-        When no more runs are begun [s]; one is run in any case.
+        After this no more runs are begun, and no more is replanned [s]; one run is made in any
+        case.
     report
         Takes sentences on the progress.
 
     Returns
     -------
     Outcome
-        Collisions, deadlocks, lateness and where it comes from, single runs.
+        Collisions, deadlocks, lateness and its sources, single runs.
 
     Raises
     ------
     InputError
-        If the plan has faults, or the delays cannot be read.
+        If the plan has faults, the delays cannot be read, or the time limit is no duration.
 
     Notes
     -----
-    By right of way every robot enters a vertex after all those that do so before it by the plan,
-    whatever the clock says. Bookings never overlap then. Nobody waits in a circle, since in the
-    plan nobody did: that holds for delays of any length. Both are counted nevertheless.
+    By right of way a robot enters a vertex after all visits that come before by the plan, whatever
+    the clock says. Bookings never overlap then, and no robots wait in a cycle because none did in
+    the plan: that holds for delays of any length. Both are counted nevertheless.
     """
+    time_limit = checked_time_limit(time_limit)
     _refuse_faults(plan)
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
+    if time_limit is not None and not time_limit >= 0:
+        raise InputError.at("time_limit", f"{time_limit} is no duration (give 0 or more seconds)")
+    deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
-    floor = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
-    care = ExecutionPolicy(switch=switch, replan=replan)
-    tally = Tally(floor)
-    chunk = 1 if care else max(CHUNK // len(floor.vertex), 1)
-    end = None if time_limit is None else time.monotonic() + time_limit
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
+    policy = ExecutionPolicy(switch=switch, replan=replan)
+    batches: list[RunBatch] = []
+    kept: list[NDArray[np.int64]] = []
+    changes = np.zeros(4, np.int64)
+    first_run: ExecutionMonitor | None = None
+    chunk = 1 if policy else max(CHUNK // len(adg.vertex), 1)
     for first in range(0, runs, chunk):
-        if care:
-            care.run(floor, seed, first, tally)
-        else:
-            tally.add(floor.runs(seed, first, min(chunk, runs - first)))
-        report(f"{tally.runs} of {runs} runs")
-        if end is not None and time.monotonic() > end:
+        batch = adg.runs(seed, first, min(chunk, runs - first))
+        if policy:
+            monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
+            if first and deadline.seconds_left() == 0:
+                break  # replanning may have been cut short
+            first_run = first_run or monitor
+            kept.append(batch.completion)
+            changes += monitor.changes()
+            batch = monitor.batch(batch)
+        batches.append(batch)
+        report(f"{min(first + chunk, runs)} of {runs} runs")
+        if deadline.seconds_left() == 0:
             break
+
+    def trace(run: int) -> ExecutionTrace:
+        if not policy:
+            sample = adg.delay_sample(seed, run)
+            return trace_of(adg, sample, adg.execute(sample).completion)
+        monitor = first_run if first_run and not run else ExecutionMonitor(adg, policy, seed, run)
+        return trace_of(monitor.adg, monitor.delay_sample, monitor.completion)
+
+    every = joined(batches)
+    switches, replans, cut_off, deadlocks = changes.tolist()
+    is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.zeros(len(plan.tracks), bool)
-    stuck[floor.deadlocked()] = True
-    unfinished = tally.completion == NEVER
+    stuck[adg.deadlocked()] = True
     return Outcome(
         plan=plan,
-        runs=tally.runs,
+        runs=len(every.completion),
         seed=seed,
         delays=tuple(cause.text for cause in causes),
-        by_right_of_way=Collisions.of(tally.by_right_of_way),
-        by_clock=Collisions.of(tally.by_clock),
-        deadlocks=tally.runs if stuck.any() else tally.deadlocks,
-        broken=int(tally.is_broken.sum()),
-        stranded=int((unfinished & ~tally.is_broken & ~stuck).sum()) - tally.cut_off,
-        cut_off=tally.cut_off,
-        switches=tally.switches,
-        replans=tally.replans,
-        won=tally.won(),
-        lateness=tally.lateness(),
-        completion=np.where(unfinished, -1, tally.completion),
-        _actual=lambda run: care.actual(floor, seed, run),
+        by_right_of_way=Collisions.of(every.by_right_of_way),
+        by_clock=Collisions.of(every.by_clock),
+        deadlocks=len(every.completion) if stuck.any() else deadlocks,
+        broken=int(is_broken.sum()),
+        stranded=int((unfinished & ~is_broken & ~stuck).sum()) - cut_off,
+        cut_off=cut_off,
+        switches=switches,
+        replans=replans,
+        gain=PolicyGain.of(np.concatenate(kept), every.completion) if policy else None,
+        lateness=Lateness.of(adg, every),
+        completion=np.where(unfinished, -1, every.completion),
+        _trace=trace,
     )
 
 

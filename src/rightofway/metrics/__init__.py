@@ -2,7 +2,7 @@
 
 from rightofway.metrics.alone import alone_completions
 from rightofway.metrics.collisions import Collision, collisions, free_running
-from rightofway.metrics.measure import Metrics, completions_of, flowtime_of, measure
+from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.waits import Wait, waits
 
 __all__ = [
@@ -11,8 +11,6 @@ __all__ = [
     "Wait",
     "alone_completions",
     "collisions",
-    "completions_of",
-    "flowtime_of",
     "free_running",
     "measure",
     "waits",

@@ -1,29 +1,45 @@
-"""The shortest completion of each robot if it had the floor to itself: no plan beats their sum."""
+"""The least completion of each robot without the others: no plan has a flowtime below their sum.
+
+Where all edges are equally long, a breadth-first search counts the edges between the places of 256
+legs at once: each vertex keeps one bit for each leg, set as soon as the vertex is within reach of
+the first place of that leg, and takes over its neighbours' bits in every step. On other roadmaps
+Dijkstra's algorithm runs once for each pace and place.
+"""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
+from heapq import heappop, heappush
 from itertools import chain, groupby, pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import NoPlanExists
-from rightofway.metrics.dijkstra import shortest_ticks
-from rightofway.metrics.hops import hops
 from rightofway.model import Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
 
 __all__ = ["alone_completions"]
 
 Leg = tuple[VertexId, VertexId]
+"""Two places of a trip that follow each other."""
+
 Pace = tuple[Tick, ...]
 """Ticks of each length class of edges; robots of one speed have one pace."""
+
+Indices = NDArray[np.int64]
+
+WORD = 64
+"""Bits in a word."""
+
+BLOCK = 4 * WORD
+"""Legs in a search; four words a vertex stay in the processor's cache on most maps."""
 
 
 @lru_cache(maxsize=4)
 def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
-    """Return each robot's shortest completion time without the others.
+    """Return each robot's least completion time without the others.
 
     Parameters
     ----------
@@ -42,21 +58,18 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
 
     Notes
     -----
-    The latest answers are kept: a plan is measured once for the summary and once for its file.
-
-    Where all edges are equally long, hops are counted for the whole fleet at once; on other
-    roadmaps Dijkstra searches once for each pace and place.
+    The latest answers are kept. A plan that was made in this process brings its own figures, which
+    the planner computed.
     """
     itineraries = scenario.problem.itineraries
     wanted: defaultdict[Pace, set[Leg]] = defaultdict(set)
     for itinerary in itineraries:
         wanted[itinerary.edge_ticks].update(_legs(itinerary))
     uniform = len(scenario.roadmap.lengths) <= 1
-    ways = (_by_hops if uniform else _by_ticks)(scenario.roadmap, wanted)
-    driving = (_driving(scenario, robot, ways) for robot in range(len(itineraries)))
+    ways = (_by_edges if uniform else _by_ticks)(scenario.roadmap, wanted)
     return tuple(
-        Tick(ticks + _dwell(itinerary))
-        for ticks, itinerary in zip(driving, itineraries, strict=True)
+        Tick(_driving(scenario, robot, ways[itinerary.edge_ticks]) + _dwell(itinerary))
+        for robot, itinerary in enumerate(itineraries)
     )
 
 
@@ -72,17 +85,21 @@ def _dwell(itinerary: Itinerary) -> int:
     return moving + least_dwell(visits[-1], leaves=False)
 
 
-def _by_hops(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:
-    legs = sorted(set().union(*wanted.values()))
-    ends = np.array(legs, np.int64).reshape(-1, 2)
-    hops_of = dict(zip(legs, hops(roadmap, ends[:, 0], ends[:, 1]).tolist(), strict=True))
-    return {
-        pace: {leg: hops_of[leg] * pace[0] for leg in own if hops_of[leg] >= 0}
-        for pace, own in wanted.items()
-    }
+def _driving(scenario: Scenario, robot: int, ways: Mapping[Leg, int]) -> int:
+    driving = 0
+    for leg in _legs(scenario.problem.itineraries[robot]):
+        if leg not in ways:
+            tail, head = map(scenario.roadmap.name, leg)
+            raise NoPlanExists(
+                f"{scenario.robots[robot].name}: no way leads from {tail} to {head}"
+                " (open one, or give the robot other places)"
+            )
+        driving += ways[leg]
+    return driving
 
 
 def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:
+    """Return the ticks of a shortest way for each leg that a way leads along."""
     ways: dict[Pace, dict[Leg, int]] = {}
     for pace, legs in wanted.items():
         targets: defaultdict[VertexId, list[VertexId]] = defaultdict(list)
@@ -91,21 +108,93 @@ def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, d
         ways[pace] = {
             (source, target): ticks
             for source in targets
-            for target, ticks in shortest_ticks(roadmap, pace, source, targets[source]).items()
+            for target, ticks in _dijkstra(roadmap, pace, source, targets[source]).items()
         }
     return ways
 
 
-def _driving(scenario: Scenario, robot: int, ways: Mapping[Pace, Mapping[Leg, int]]) -> int:
-    itinerary = scenario.problem.itineraries[robot]
-    own = ways[itinerary.edge_ticks]
-    driving = 0
-    for leg in _legs(itinerary):
-        if leg not in own:
-            tail, head = map(scenario.roadmap.name, leg)
-            raise NoPlanExists(
-                f"{scenario.robots[robot].name}: no way leads from {tail} to {head}"
-                " (open one, or give the robot other places)"
-            )
-        driving += own[leg]
-    return driving
+def _dijkstra(
+    roadmap: Roadmap, pace: Pace, source: VertexId, targets: Collection[VertexId]
+) -> dict[VertexId, Tick]:
+    settled: dict[VertexId, Tick] = {}
+    missing = set(targets)
+    heap = [(Tick(0), source)]
+    while heap and missing:
+        ticks, vertex = heappop(heap)
+        if vertex in settled:
+            continue
+        settled[vertex] = ticks
+        missing.discard(vertex)
+        edges = slice(roadmap.indptr[vertex], roadmap.indptr[vertex + 1])
+        for head, length in zip(
+            roadmap.heads[edges].tolist(), roadmap.length_class[edges].tolist(), strict=True
+        ):
+            if head not in settled:
+                heappush(heap, (Tick(ticks + pace[length]), head))
+    return {target: settled[target] for target in targets if target in settled}
+
+
+def _by_edges(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:
+    """Return the same where all edges are equally long."""
+    legs = sorted(set().union(*wanted.values()))
+    sources, targets = np.array(legs, np.int64).reshape(-1, 2).T
+    gaps = np.abs(roadmap.positions[sources] - roadmap.positions[targets]).sum(axis=1)
+    alike = np.argsort(gaps, kind="stable")  # searches for legs of one length end at one step
+    rank, rounds = _by_edges_in(roadmap)
+    found = np.full(len(legs), -1)
+    for block in (alike[begin : begin + BLOCK] for begin in range(0, len(legs), BLOCK)):
+        reach = np.zeros((roadmap.n_vertices, -(-len(block) // WORD)), np.uint64)
+        found[block] = _count_edges(rounds, reach, rank[sources[block]], rank[targets[block]])
+    edges_of = dict(zip(legs, found.tolist(), strict=True))
+    return {
+        pace: {leg: edges_of[leg] * pace[0] for leg in own if edges_of[leg] >= 0}
+        for pace, own in wanted.items()
+    }
+
+
+def _by_edges_in(roadmap: Roadmap) -> tuple[Indices, list[Indices]]:
+    """Return a new number for each vertex, those with most edges in first, and rounds of edges.
+
+    Round k has the tail (by new number) of the k-th edge into each vertex that has so many. Their
+    heads are then 0, 1, 2, …, and need no index.
+    """
+    n_vertices = roadmap.n_vertices
+    edges_in = np.bincount(roadmap.heads, minlength=n_vertices)
+    rank = np.empty(n_vertices, np.int64)
+    rank[np.argsort(-edges_in, kind="stable")] = np.arange(n_vertices)
+    tails = rank[np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr))]
+    heads = rank[roadmap.heads]
+    order = np.argsort(heads, kind="stable")
+    tails, heads = tails[order], heads[order]
+    number = np.arange(len(heads)) - np.searchsorted(heads, heads)
+    return rank, [tails[number == k] for k in range(edges_in.max(initial=0))]
+
+
+def _count_edges(
+    rounds: list[Indices], reach: NDArray[np.uint64], sources: Indices, targets: Indices
+) -> Indices:
+    """Search for all targets of a block, step by step; -1 where no way leads."""
+    found = np.full(len(sources), -1)
+    pending = np.arange(len(sources))
+    word, bit = pending // WORD, np.uint64(1) << (pending % WORD).astype(np.uint64)
+    np.bitwise_or.at(reach, (sources, word), bit)
+    step = 0
+    while len(pending):
+        arrived = (reach[targets[pending], word[pending]] & bit[pending]) != 0
+        found[pending[arrived]] = step
+        pending = pending[~arrived]
+        grown = _grow(reach, rounds)
+        if np.array_equal(grown, reach):
+            break
+        reach, step = grown, step + 1
+    return found
+
+
+def _grow(reach: NDArray[np.uint64], rounds: list[Indices]) -> NDArray[np.uint64]:
+    grown, taken = reach.copy(), np.empty_like(reach)
+    for tails in rounds:
+        heads = slice(len(tails))
+        # Ten times as fast as an index in brackets; "clip" only saves a copy, none is out of range.
+        np.take(reach, tails, axis=0, out=taken[heads], mode="clip")
+        grown[heads] |= taken[heads]
+    return grown

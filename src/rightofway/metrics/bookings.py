@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.metrics.stays import Stays
-from rightofway.model import NEVER, Scenario, Track
+from rightofway.model import NEVER, Scenario, Stays, Track
+from rightofway.model.sorting import order_by
 
 __all__ = ["Bookings", "bookings_of"]
 
@@ -45,7 +45,7 @@ def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Sta
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), lengths)
     start = enter - _approaches(scenario, stays)
-    order = np.lexsort((start, vertex))  # stable, so by robot where all else is equal
+    order = order_by(vertex, start)  # stable, so by robot where all else is equal
     return Bookings(
         visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]
     )

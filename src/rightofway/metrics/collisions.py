@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rightofway.metrics.bookings import Bookings, bookings_of
-from rightofway.metrics.stays import stays_of
-from rightofway.model import NEVER, Plan, Scenario, Tick, Track, VertexId
+from rightofway.model import NEVER, Plan, Scenario, Tick, Track, VertexId, stays_of
 
 __all__ = ["Collision", "collisions", "free_running"]
 

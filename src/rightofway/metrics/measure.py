@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from rightofway.metrics.alone import alone_completions
-from rightofway.metrics.stays import stays_of
-from rightofway.model import Plan, Scenario, Tick, Track
+from rightofway.model import Plan, Tick, stays_of
 
-__all__ = ["Metrics", "completions_of", "flowtime_of", "measure"]
+__all__ = ["Metrics", "measure"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,16 +62,6 @@ class Metrics:
         }
 
 
-def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
-    """Return when each robot has done its work and entered its last vertex [ticks]."""
-    return tuple(stay.completion for stay in stays_of(scenario, tracks))
-
-
-def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return the sum of the robots' completion times [ticks]."""
-    return Tick(sum(completions_of(scenario, tracks)))
-
-
 def measure(plan: Plan) -> Metrics:
     """Measure a plan.
 
@@ -87,9 +75,13 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
+    return plan.once("metrics", lambda: _measured(plan))
+
+
+def _measured(plan: Plan) -> Metrics:
     stays = stays_of(plan.scenario, plan.tracks)
     completions = tuple(stay.completion for stay in stays)
-    alone = alone_completions(plan.scenario)
+    alone = plan.run.alone or alone_completions(plan.scenario)
     return Metrics(
         flowtime=Tick(sum(completions)),
         makespan=max(completions),

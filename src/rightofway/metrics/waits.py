@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.metrics.bookings import Bookings, bookings_of
-from rightofway.metrics.stays import Stays, stays_of
-from rightofway.model import Plan, Scenario, Tick, Track, VertexId
+from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
 
 __all__ = ["Wait", "waits", "waits_in"]
 
@@ -48,7 +47,8 @@ class Wait:
 
 def waits(plan: Plan) -> tuple[Wait, ...]:
     """Return all waits of a plan that keeps the rules, by tick, then by robot."""
-    return waits_in(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
+    scenario, tracks = plan.scenario, plan.tracks
+    return plan.once("waits", lambda: waits_in(scenario, tracks, stays_of(scenario, tracks)))
 
 
 def waits_in(

@@ -16,9 +16,16 @@ from rightofway.model.robot import Robot, Stop, TripEnd, Turn
 from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
 from rightofway.model.rules import Occupancy, Rules
 from rightofway.model.scenario import Scenario
+from rightofway.model.stays import (
+    Stays,
+    completions_of,
+    flowtime_of,
+    serving_visits,
+    stays_of,
+)
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
-from rightofway.model.units import NEVER, Clock, Tick, VertexId, choose_clock
+from rightofway.model.units import NEVER, Clock, Tick, VertexId, checked_time_limit, choose_clock
 
 __all__ = [
     "NEVER",
@@ -43,6 +50,7 @@ __all__ = [
     "Rules",
     "Scenario",
     "Stage",
+    "Stays",
     "SteadyState",
     "Stop",
     "Tick",
@@ -50,9 +58,12 @@ __all__ = [
     "TripEnd",
     "Turn",
     "VertexId",
+    "checked_time_limit",
     "choose_clock",
     "cluster",
+    "completions_of",
     "edge_ticks",
+    "flowtime_of",
     "lap_of",
     "least_dwell",
     "node_length",
@@ -61,6 +72,8 @@ __all__ = [
     "route_along",
     "route_of",
     "route_through",
+    "serving_visits",
+    "stays_of",
     "steps_per_unit",
     "straight_length",
 ]

@@ -152,6 +152,9 @@ class PlannerRun:
         Rights of way in the order they were decided, from planners that record them.
     reroutes
         Robots that were rerouted.
+    alone
+        The least completion of each robot without the others [ticks], or None where planning did
+        not compute it. Files do not keep it.
     """
 
     name: str
@@ -162,6 +165,7 @@ class PlannerRun:
     first_plan_seconds: float | None = None
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
+    alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -260,7 +264,7 @@ class Plan:
     @property
     def completions(self) -> tuple[Tick, ...]:
         """When each robot has done its work and is at its last vertex [ticks]."""
-        from rightofway.metrics import completions_of
+        from rightofway.model.stays import completions_of
 
         return self.once("completions", lambda: completions_of(self.scenario, self.tracks))
 
@@ -285,7 +289,7 @@ class Plan:
         """
         from rightofway.metrics import alone_completions
 
-        return Tick(sum(alone_completions(self.scenario)))
+        return Tick(sum(self.run.alone or alone_completions(self.scenario)))
 
     @property
     def waits(self) -> tuple[Wait, ...]:

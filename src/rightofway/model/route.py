@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.model.plan import Track
-from rightofway.model.problem import Itinerary, Stage, least_dwell
+from rightofway.model.problem import Itinerary
 from rightofway.model.roadmap import Roadmap
+from rightofway.model.stays import least_dwells, serving_visits
 from rightofway.model.units import NEVER, Tick, VertexId
 
 __all__ = ["Route", "edge_ticks", "route_along", "route_of", "route_through"]
@@ -27,11 +29,14 @@ class Route:
         How long each visit lasts at least, without the drive that follows [ticks].
     drive
         Ticks of the edge driven into each visit; 0 for the first.
+    serves
+        The visit that serves each stage; empty where no itinerary made the route.
     """
 
     vertices: tuple[VertexId, ...]
     dwell: tuple[Tick, ...]
     drive: tuple[Tick, ...]
+    serves: tuple[int, ...] = field(default=(), compare=False)
 
     def __len__(self) -> int:
         return len(self.vertices)
@@ -77,8 +82,8 @@ def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[Ver
     vertices
         Where it goes, visit by visit.
     """
-    for_ever: list[int] = [NEVER] * len(vertices)
-    return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, for_ever))
+    spare = np.full(len(vertices), NEVER)
+    return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
 
 
 def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
@@ -96,35 +101,29 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
     drive = np.array(_drives(roadmap, itinerary, vertices), np.int64)
-    spare = [*(np.diff(track.enter) - drive).tolist(), NEVER]
-    return _route(roadmap, itinerary, vertices, _serving(itinerary, vertices, spare))
+    spare = np.append(np.diff(track.enter) - drive, NEVER)
+    return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
 
 
-def _serving(itinerary: Itinerary, vertices: Sequence[VertexId], spare: list[int]) -> list[int]:
-    """Return the visit that serves each stage, given how long each visit may be worked in."""
-    visit, serves = 0, []
-    for stage in itinerary.stages[:-1]:
-        need = stage.work + stage.turn
-        while vertices[visit] != stage.vertex or spare[visit] < need:
-            visit += 1
-        spare[visit] -= need
-        serves.append(visit)
-    return [*serves, len(vertices) - 1]
+def _serves(
+    itinerary: Itinerary, vertices: Sequence[VertexId], spare: NDArray[np.int64]
+) -> list[int]:
+    """Return the visit that serves each stage: the last visit for the last stage."""
+    before = serving_visits(itinerary.stages[:-1], np.array(vertices, np.int32), spare)
+    return [*before, len(vertices) - 1]
 
 
 def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
-    served: list[list[Stage]] = [[] for _ in vertices]
-    for stage, visit in zip(itinerary.stages, serves, strict=True):
-        served[visit].append(stage)
-    last = len(vertices) - 1
-    dwell = (
-        least_dwell(stages, leaves=visit < last) if stages else Tick(0)
-        for visit, stages in enumerate(served)
-    )
+    dwell = least_dwells(itinerary.stages, serves, len(vertices))
     drive = map(Tick, _drives(roadmap, itinerary, vertices))
-    return Route(vertices=tuple(vertices), dwell=tuple(dwell), drive=(Tick(0), *drive))
+    return Route(
+        vertices=tuple(vertices),
+        dwell=tuple(map(Tick, dwell.tolist())),
+        drive=(Tick(0), *drive),
+        serves=tuple(serves),
+    )
 
 
 def _drives(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> list[int]:

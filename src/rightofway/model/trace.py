@@ -1,4 +1,4 @@
-"""What became of a plan on the floor: where robots really were, and what really took how long."""
+"""One execution of a plan: where robots were, and how long each visit and drive took."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ __all__ = ["ExecutionTrace"]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ExecutionTrace:
-    """One run of a plan on a floor where robots are late.
+    """One execution of a plan, with delays.
 
     Attributes
     ----------
     tracks
-        Where each robot was, when. Usually the vertices of its planned track, or the first of them
-        where it never got further; another way where what was left was planned anew.
+        Vertices and times of each robot: its planned vertices, or the first of them if it got no
+        further; other vertices where the rest was replanned.
     dwell
-        For each robot, how long it really worked and turned in each visit [ticks]; int64, as long
+        For each robot, the real duration of work and turning in each visit [ticks]; int64, as long
         as its track.
     drive
-        For each robot, the ticks of the edge that it really drove into each visit, 0 for the first;
+        For each robot, the real duration of the drive into each visit, 0 for the first [ticks];
         int64, as long as its track.
     completion
         When each robot had done its work and was at its last vertex [ticks]; None for never.
-    standstills
-        For each robot, from when it stood still by itself and how long [ticks], in order; None for
-        ever: it broke down. Empty if none did.
+    stoppages
+        For each robot, its stoppages in order: first tick and length [ticks], None for a breakdown.
+        Empty if no robot had one.
 
     Raises
     ------
@@ -45,13 +45,13 @@ class ExecutionTrace:
     dwell: tuple[NDArray[np.int64], ...]
     drive: tuple[NDArray[np.int64], ...]
     completion: tuple[Tick | None, ...]
-    standstills: tuple[tuple[tuple[Tick, Tick | None], ...], ...] = ()
+    stoppages: tuple[tuple[tuple[Tick, Tick | None], ...], ...] = ()
 
     def __post_init__(self) -> None:
         robots = len(self.tracks)
-        for name in ("dwell", "drive", "completion", "standstills"):
+        for name in ("dwell", "drive", "completion", "stoppages"):
             given = getattr(self, name)
-            if len(given) != robots and (given or name != "standstills"):
+            if len(given) != robots and (given or name != "stoppages"):
                 message = f"{len(given)} for {robots} tracks (give one for each)"
                 raise InputError.at(name, message)
         for robot, track in enumerate(self.tracks):

@@ -10,12 +10,23 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from numbers import Real
 from typing import TYPE_CHECKING, NewType
+
+from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["MAX_TICKS_OF_SHORTEST", "NEVER", "Clock", "Tick", "VertexId", "choose_clock"]
+__all__ = [
+    "MAX_TICKS_OF_SHORTEST",
+    "NEVER",
+    "Clock",
+    "Tick",
+    "VertexId",
+    "checked_time_limit",
+    "choose_clock",
+]
 
 Tick = NewType("Tick", int)
 VertexId = NewType("VertexId", int)
@@ -78,3 +89,19 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
 def _greatest_common_divisor(fractions: Iterable[Fraction]) -> Fraction:
     numerators, denominators = zip(*((f.numerator, f.denominator) for f in fractions), strict=True)
     return Fraction(math.gcd(*numerators), math.lcm(*denominators))
+
+
+def checked_time_limit(seconds: float | None) -> float | None:
+    """Return a time limit that a caller gave [s]; None for no limit, also for infinity.
+
+    Raises
+    ------
+    InputError
+        If it is negative or no number.
+    """
+    if seconds is None or seconds == math.inf:
+        return None
+    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not seconds >= 0:
+        message = f"{seconds!r} is no number of seconds (give 0 or more, or None for no limit)"
+        raise InputError.at("time_limit", message)
+    return float(seconds)

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import flowtime_of
+from rightofway.model import flowtime_of
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -56,4 +56,6 @@ def auto(task: Task) -> Draft:
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
-    return better if after < before else replace(explained, status=better.status)
+    return (
+        better if after < before else replace(explained, status=better.status, alone=better.alone)
+    )

@@ -21,8 +21,7 @@ from dataclasses import replace
 from functools import partial
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import flowtime_of
-from rightofway.model import Track
+from rightofway.model import Track, flowtime_of
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
@@ -93,7 +92,7 @@ def _together(task: Task) -> Draft | None:
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     """Improve a plan until time, iterations or gains are used up, or nothing can be better.
 
-    An interrupt ends it too: there is a plan to return.
+    An interrupt ends it too where the task keeps the best plan.
     """
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
@@ -116,6 +115,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
             if search.idle >= patience or task.deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
+        if not task.keep_best:
+            raise
         ended = "interrupted: "
     if search.flowtime < before:
         # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
@@ -130,7 +131,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     found, flowtime = search.tracks(), partial(flowtime_of, task.scenario)
     if spaced is not first.tracks and flowtime(found) > flowtime(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
-    return Draft(tracks=found, status=status)
+    return Draft(tracks=found, status=status, alone=search.alone())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

@@ -36,8 +36,7 @@ from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
-from rightofway.metrics import flowtime_of
-from rightofway.model import Tick
+from rightofway.model import Tick, flowtime_of
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,

@@ -19,8 +19,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.metrics import flowtime_of
-from rightofway.model import Scenario, Stop
+from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_headway
@@ -66,13 +65,14 @@ def prioritized(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    found = plan_in_turn(task, fleet_search(task), task.options["order"])
+    search = fleet_search(task)
+    found = plan_in_turn(task, search, task.options["order"])
     if found is not None:
-        return found
+        return replace(found, alone=search.alone())
     task.deadline.check("planning robots one after another")
     tracks, _ = plan_fleet(task)
     status = "all together, because robots one after another found no way"
-    return Draft(tracks=tuple(tracks), status=status)
+    return Draft(tracks=tuple(tracks), status=status, alone=search.alone())
 
 
 def fleet_search(task: Task) -> FleetSearch:

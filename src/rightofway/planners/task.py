@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Scenario, Tick, Track
 
@@ -66,6 +69,8 @@ class Task:
         counts.
     start
         A plan that keeps the rules, to improve; only for planners that can.
+    keep_best
+        Whether an interrupt ends the planner with the best plan so far, where there is one.
     """
 
     scenario: Scenario
@@ -75,6 +80,7 @@ class Task:
     report: Callable[[str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
     start: tuple[Track, ...] | None = None
+    keep_best: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,6 +97,9 @@ class Draft:
         As in `PlannerRun`.
     keeps_swaps
         Whether swaps were left in because the options asked for it.
+    alone
+        The least completion of each robot without the others [ticks], from planners that compute
+        it anyway; shape (R,).
     """
 
     tracks: tuple[Track, ...]
@@ -98,6 +107,7 @@ class Draft:
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
     keeps_swaps: bool = False
+    alone: NDArray[np.int64] | None = None
 
 
 class Planner(Protocol):

@@ -6,7 +6,9 @@ from rightofway.precedence.adg import (
     DelaySample,
     Execution,
     RunBatch,
+    Stoppage,
     order_of,
+    stoppage_arrays,
 )
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
 from rightofway.precedence.schedule import CyclicSchedule, unrolled
@@ -38,6 +40,7 @@ __all__ = [
     "RunBatch",
     "Segment",
     "Sensitivity",
+    "Stoppage",
     "TimedEventGraph",
     "critical_circuit",
     "crossing",
@@ -46,6 +49,7 @@ __all__ = [
     "order_of",
     "sensitivity",
     "shared_segment",
+    "stoppage_arrays",
     "tight_arcs",
     "timed_event_graph",
     "unrolled",

@@ -1,19 +1,19 @@
-"""A plan whose arcs get longer: the same routes and rights of way on a floor where robots are late.
+"""Action dependency graph: the routes of a plan and its order of visits at each vertex, no clock.
 
-The clock of the plan is forgotten, its order of visits at every vertex is kept. Visits of a
-rotation hold each other and begin at one instant, so they are one joint event.
+A robot enters a vertex when the visit directly before has left it, however late that is. The visits
+of a rotation wait for each other and begin at one instant: one joint event.
 
 References
 ----------
 Hönig, Kiesel, Tinka, Durham & Ayanian, *Persistent and robust execution of MAPF schedules in
-warehouses*, IEEE Robotics and Automation Letters 4, 2019 (their action dependency graph).
+warehouses*, IEEE Robotics and Automation Letters 4, 2019.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -28,71 +28,82 @@ __all__ = [
     "DelaySample",
     "Execution",
     "RunBatch",
+    "Stoppage",
     "order_of",
+    "stoppage_arrays",
 ]
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
-"""Kinds of random delay, as the kernel counts them."""
+"""Kinds of random delay; the kernel takes the index."""
+
+
+class Stoppage(NamedTuple):
+    """A robot stands still from a tick on, for some ticks; `NEVER` ticks are a breakdown."""
+
+    tick: Tick
+    ticks: Tick
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DelayModel:
-    """What may go otherwise than planned, in ticks.
+    """Delays of a fleet in ticks: random ones, slow robots, stoppages.
 
     Attributes
     ----------
     random
-        Kind and two numbers of each random delay: ``exponential`` and its mean, ``uniform`` and its
-        bounds, ``normal`` with mean and deviation, all as parts of what a visit takes; ``chance``
-        of a stop and its ticks; ``breaks`` with the chance to stand still for ever.
+        Kind and two numbers of each random delay: ``exponential`` with the mean, ``uniform`` with
+        the bounds, ``normal`` with mean and deviation, all as parts of the planned duration;
+        ``chance`` with the probability of a stop in a visit and its ticks; ``breaks`` with the
+        probability that a robot breaks down.
     pace
-        For each robot, how much longer than planned everything takes it; 1 is as planned.
-    standstills
-        For each robot, from when it stands still and how long, by tick; `NEVER` for ever.
+        For each robot, real duration divided by planned duration; 1 is as planned.
+    stoppages
+        For each robot its stoppages, sorted.
     """
 
     random: tuple[tuple[str, float, float], ...]
     pace: tuple[float, ...]
-    standstills: tuple[tuple[tuple[Tick, Tick], ...], ...]
+    stoppages: tuple[tuple[Stoppage, ...], ...]
 
     @classmethod
     def none(cls, robots: int) -> DelayModel:
-        """Return those of a floor where everything goes as planned."""
-        return cls(random=(), pace=(1.0,) * robots, standstills=((),) * robots)
-
-    def all_standstills(self) -> list[tuple[Tick, Tick]]:
-        """Return those of all robots, one robot behind the other."""
-        return [standstill for of_robot in self.standstills for standstill in of_robot]
+        """Return the model of a fleet without delays."""
+        return cls(random=(), pace=(1.0,) * robots, stoppages=((),) * robots)
 
 
 class DelaySample(NamedTuple):
-    """What befalls one run: arrays as the kernel takes them.
+    """Delays drawn for one run: arrays as the kernel takes them.
 
     Attributes
     ----------
     dwell, drive
-        How long each visit really lasts at least, and the drive into it [ticks]; int64[N].
-    first_standstill
-        Which standstills are whose; int32[R + 1].
+        Real least duration of each visit, and of the drive into it [ticks]; int64[N].
+    first_stoppage
+        Robot ``r`` owns stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``; int32[R + 1].
     tick, ticks
-        From when a robot stands still and how long [ticks]; int64[S].
+        Begin and length of each stoppage [ticks]; int64[S].
     """
 
     dwell: NDArray[np.int64]
     drive: NDArray[np.int64]
-    first_standstill: NDArray[np.int32]
+    first_stoppage: NDArray[np.int32]
     tick: NDArray[np.int64]
     ticks: NDArray[np.int64]
 
-    def of(self, robot: int) -> list[tuple[Tick, Tick]]:
-        """Return the standstills of a robot."""
-        here = slice(*self.first_standstill[robot : robot + 2].tolist())
-        pairs = zip(self.tick[here].tolist(), self.ticks[here].tolist(), strict=True)
-        return [(Tick(tick), Tick(ticks)) for tick, ticks in pairs]
+    def stoppages_of(self, robot: int) -> list[Stoppage]:
+        """Return the stoppages of a robot."""
+        own = slice(*self.first_stoppage[robot : robot + 2].tolist())
+        pairs = zip(self.tick[own].tolist(), self.ticks[own].tolist(), strict=True)
+        return [Stoppage(Tick(tick), Tick(ticks)) for tick, ticks in pairs]
+
+    def breakdown(self, robot: int) -> Tick:
+        """Return when a robot breaks down, `NEVER` if it does not [ticks]."""
+        own = self.stoppages_of(robot)
+        return min((tick for tick, ticks in own if ticks == NEVER), default=NEVER)
 
 
 class Execution(NamedTuple):
-    """What happened in one run; `NEVER` for what did not.
+    """Times of one run; `NEVER` for what does not happen.
 
     Attributes
     ----------
@@ -101,10 +112,10 @@ class Execution(NamedTuple):
     completion
         When each robot completed [ticks]; int64[R].
     is_broken
-        Whether it stands still for ever; uint8[R].
+        Whether each robot broke down; uint8[R].
     collisions
-        Pairs of visits that overlap, those that do only by the headway, swaps, and when the first
-        of all these begins [ticks]; int64[4].
+        Numbers of overlapping pairs of visits, of pairs that overlap by the headway only, and of
+        swaps; and when the first of all these begins [ticks]; int64[4].
     """
 
     enter: NDArray[np.int64]
@@ -115,7 +126,7 @@ class Execution(NamedTuple):
 
 
 class RunBatch(NamedTuple):
-    """What happened in many runs, by right of way but where it says by clock.
+    """Times and counts of K runs, by right of way unless the name says by clock.
 
     Attributes
     ----------
@@ -126,7 +137,7 @@ class RunBatch(NamedTuple):
     own, of_others
         Lateness that began at each visit, of its own robot and of others [ticks]; int64[N].
     between
-        Robot, another, and the ticks that it is late because of the other; int64[P, 3].
+        Robot, another, and how late the robot is because of the other [ticks]; int64[P, 3].
     """
 
     completion: NDArray[np.int64]
@@ -139,46 +150,47 @@ class RunBatch(NamedTuple):
 
 
 class ActionDependencyGraph:
-    """The routes, times and order of a plan, and what may delay it.
+    """Routes, planned times and order of a plan, with the delays it may meet.
 
     Parameters
     ----------
     scenario
         The problem.
     tracks
-        A plan that keeps the rules, by anybody.
-    hazards
-        What may go otherwise.
+        A plan that keeps the rules.
+    delay_model
+        The delays to draw from.
     routes
-        The routes of the tracks, where they are known already.
+        The routes of the tracks, if known already.
     before
-        Another order than that of the plan: for each visit the one directly before it at its
-        vertex, -1 for none; int32[N].
+        For each visit the one directly before it at its vertex, -1 for none; int32[N]. Without, the
+        order of the plan.
     since
-        When each visit was given its right of way, if that was on the way; it begins no sooner
-        [ticks]; int64[N].
+        When each visit was given its right of way; it begins no sooner [ticks]; int64[N]. Without,
+        tick 0.
 
     Attributes
     ----------
     routes
-        Where robots go, what they do there, and how long that takes at least.
-    first_visit, vertex, planned, before, since
-        Arrays over visits: which are whose, where each is, when it begins by the plan, which one
-        goes directly before it at its vertex, and since when that is so.
+        Vertices, least dwells and drives of each robot.
+    first_visit, vertex, planned, dwell, drive, before, since
+        Arrays over visits, robot after robot: index of each robot's first visit (int32[R + 1]),
+        vertex (int32[N]), planned enter, least dwell and drive into it (int64[N], ticks), and the
+        two above.
     """
 
     def __init__(
         self,
         scenario: Scenario,
         tracks: Sequence[Track],
-        hazards: DelayModel,
+        delay_model: DelayModel,
         *,
         routes: Sequence[Route] | None = None,
         before: NDArray[np.int32] | None = None,
         since: NDArray[np.int64] | None = None,
     ) -> None:
         itineraries = scenario.problem.itineraries
-        self.scenario, self.hazards = scenario, hazards
+        self.scenario, self.delay_model = scenario, delay_model
         self.routes = tuple(
             routes
             or (
@@ -203,39 +215,40 @@ class ActionDependencyGraph:
             self.since,
             int(scenario.problem.headway),
             scenario.rules.books_ahead,
-            np.array(hazards.pace, np.float64),
-            np.array([KINDS.index(kind) for kind, _, _ in hazards.random], np.int32),
-            np.array([a for _, a, _ in hazards.random], np.float64),
-            np.array([b for _, _, b in hazards.random], np.float64),
-            np.array([0, *accumulate(map(len, hazards.standstills))], np.int32),
-            np.array([tick for tick, _ in hazards.all_standstills()], np.int64),
-            np.array([ticks for _, ticks in hazards.all_standstills()], np.int64),
+            np.array(delay_model.pace, np.float64),
+            np.array([KINDS.index(kind) for kind, _, _ in delay_model.random], np.int32),
+            np.array([a for _, a, _ in delay_model.random], np.float64),
+            np.array([b for _, _, b in delay_model.random], np.float64),
+            *stoppage_arrays(delay_model.stoppages),
         )
 
     def reordered(
         self, before: NDArray[np.int32], since: NDArray[np.int64] | None = None
     ) -> ActionDependencyGraph:
-        """Return the same with another order of visits, and since when each is told of it."""
+        """Return the same routes with another order of visits; `before` and `since` as above."""
         return ActionDependencyGraph(
             self.scenario,
-            self.split(self.planned),
-            self.hazards,
+            self.tracks_at(self.planned),
+            self.delay_model,
             routes=self.routes,
             before=before,
             since=self.since if since is None else since,
         )
 
     def deadlocked(self) -> list[int]:
-        """Return the robots that can never complete, since they wait for each other."""
+        """Return the robots that can never complete because they wait for each other."""
         found: list[int] = self._kernel.deadlocked().tolist()
         return found
 
     def runs(self, seed: int, first: int, count: int, time_limit: float | None = None) -> RunBatch:
-        """Run the plan many times; each run depends on its number and the seed alone."""
+        """Run the plan ``count`` times, from run number ``first`` on.
+
+        A run depends on its number and the seed alone. After ``time_limit`` [s] no run is begun.
+        """
         return RunBatch(*self._kernel.runs(seed, first, count, time_limit))
 
     def delay_sample(self, seed: int, run: int) -> DelaySample:
-        """Return what befalls one run."""
+        """Return the delays of one run."""
         return DelaySample(*self._kernel.delay_sample(seed, run))
 
     def execute(self, delay_sample: DelaySample, *, clock: bool = False) -> Execution:
@@ -243,11 +256,11 @@ class ActionDependencyGraph:
         return Execution(*self._kernel.execute(*delay_sample, clock))
 
     def robot_of(self, visit: int) -> int:
-        """Return whose visit it is."""
+        """Return the robot of a visit."""
         return int(np.searchsorted(self.first_visit, visit, side="right")) - 1
 
-    def split(self, enter: NDArray[np.int64]) -> tuple[Track, ...]:
-        """Return the tracks with these times; visits that never begin are left out."""
+    def tracks_at(self, enter: NDArray[np.int64]) -> tuple[Track, ...]:
+        """Return the tracks with these times (int64[N]); visits at `NEVER` are left out."""
         tracks = []
         for first, end in pairwise(self.first_visit.tolist()):
             times = enter[first:end]
@@ -257,15 +270,24 @@ class ActionDependencyGraph:
         return tuple(tracks)
 
 
+def stoppage_arrays(
+    stoppages: Sequence[Sequence[Stoppage]],
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the stoppages of each robot as the arrays of a `DelaySample`."""
+    every = np.array(list(chain.from_iterable(stoppages)), np.int64).reshape(-1, 2)
+    first = np.array([0, *accumulate(map(len, stoppages))], np.int32)
+    return first, every[:, 0].copy(), every[:, 1].copy()
+
+
 def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> NDArray[np.int32]:
-    """Return for each visit the one directly before it at its vertex, -1 for none.
+    """Return for each visit the one directly before it at its vertex, -1 for none; int32[N].
 
     Parameters
     ----------
     vertex
-        Where each visit is.
+        The vertex of each visit; int32[N].
     when
-        A time for each visit, in whose order they take place at every vertex.
+        A time for each visit; visits at one vertex take place in its order; int64[N].
     """
     order = np.lexsort((when, vertex)).astype(np.int32)
     before = np.full(len(vertex), -1, np.int32)

@@ -3,7 +3,7 @@
 from rightofway.search.bookings import Booking, Bookings
 from rightofway.search.congestion import Congestion, CongestionCosts
 from rightofway.search.distances import Distances, Path
-from rightofway.search.fleet import FleetSearch
+from rightofway.search.fleet import FleetSearch, alone_completions
 from rightofway.search.lacam import plan_by_lacam
 from rightofway.search.native import compiler
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip
@@ -20,6 +20,7 @@ __all__ = [
     "Path",
     "PeriodicBookings",
     "RoundTrip",
+    "alone_completions",
     "compiler",
     "earliest_track",
     "plan_by_lacam",

@@ -12,7 +12,12 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Scenario, Tick, Track
 
-__all__ = ["FleetSearch"]
+__all__ = ["FleetSearch", "alone_completions"]
+
+
+def alone_completions(scenario: Scenario) -> NDArray[np.int64]:
+    """Return each robot's least completion without the others [ticks], -1 for no way; (R,)."""
+    return FleetSearch(scenario, headway=Tick(0)).alone()
 
 
 class FleetSearch:

@@ -7,6 +7,7 @@ Okumura, *LaCAM: Search-based algorithm for quick multi-agent pathfinding*, AAAI
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import accumulate, chain
 
 import numpy as np
@@ -22,7 +23,12 @@ FOUND, PROVEN_NONE = 0, 1
 
 
 def untimed_lacam(
-    scenario: Scenario, *, seed: int = 0, time_limit: float | None = None
+    scenario: Scenario,
+    *,
+    seed: int = 0,
+    time_limit: float | None = None,
+    most_steps: int | None = None,
+    ends_anywhere: Collection[int] = (),
 ) -> NDArray[np.int32]:
     """Find steps for the whole fleet that bring every robot through its stages.
 
@@ -38,6 +44,10 @@ def untimed_lacam(
         For ties.
     time_limit
         When to stop [s].
+    most_steps
+        After how many steps of the fleet to stop, those taken back included.
+    ends_anywhere
+        Robots that only prefer their last stage: any vertex will do where they are in nobody's way.
 
     Returns
     -------
@@ -49,7 +59,7 @@ def untimed_lacam(
     NoPlanExists
         If it is proven that there are no such steps, and so no plan.
     GaveUp
-        If time ran out.
+        If time or steps ran out.
 
     Notes
     -----
@@ -63,9 +73,11 @@ def untimed_lacam(
         np.array([itinerary.home for itinerary in itineraries], np.int32),
         np.array([0, *accumulate(map(len, stages))], np.int32),
         np.array([stage.vertex for stage in chain.from_iterable(stages)], np.int32),
+        np.array([robot in ends_anywhere for robot in range(len(stages))], np.uint8),
         _may_rotate(scenario),
         seed,
         time_limit,
+        most_steps,
     )
     if end == PROVEN_NONE:
         raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")

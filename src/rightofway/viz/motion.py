@@ -11,8 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from rightofway.metrics.stays import Stays, stays_of
-from rightofway.model import Itinerary, Plan, Stage, Track, least_dwell
+from rightofway.model import Itinerary, Plan, Stage, Stays, Track, stays_of
 
 __all__ = ["Activity", "Moment", "Trip", "end_of", "trips_of"]
 
@@ -121,29 +120,11 @@ def end_of(trips: Sequence[Trip]) -> int:
 
 
 def _trip(track: Track, stays: Stays, itinerary: Itinerary) -> Trip:
-    room = (stays.dwell + stays.waits).tolist()
-    served = _served(track.vertices.tolist(), room, itinerary.stages)
+    unserved = len(itinerary.stages) - len(stays.serves)
     return Trip(
         vertices=tuple(track.vertices.tolist()),
         enter=tuple(track.enter.tolist()),
         drive=(0, *stays.drive[:-1].tolist()),
         stages=itinerary.stages,
-        served=tuple(served),
+        served=(*stays.serves, *[-1] * unserved),
     )
-
-
-def _served(vertices: list[int], room: list[int], stages: Sequence[Stage]) -> Iterator[int]:
-    """Yield the visit that serves each stage: the first one with room, in order of the stages."""
-    visit, last = 0, len(vertices) - 1
-    for stage in stages:
-        need = least_dwell([stage], leaves=True)
-        while visit <= last and not _serves(vertices, room, visit, stage.vertex, need):
-            visit += 1
-        if visit <= last:
-            room[visit] -= need
-        yield visit if visit <= last else -1
-
-
-def _serves(vertices: list[int], room: list[int], visit: int, vertex: int, need: int) -> bool:
-    last = visit == len(vertices) - 1
-    return vertices[visit] == vertex and (last or room[visit] >= need)

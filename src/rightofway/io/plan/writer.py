@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text.exact import written
-from rightofway.io.text.json_layout import json_text
+from rightofway.io.text.json_layout import Rendered, json_line, json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 
 __all__ = ["dump_plan", "plan_text", "write_plan"]
@@ -31,17 +34,17 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     InputError
         If a track leads through a vertex that the roadmap does not have.
     """
-    scenario = plan.scenario
-    robots = _robots(plan)
-    return {
-        "format": PLAN_FORMAT,
-        "scenario": dump_scenario(scenario),
-        "tick": written(scenario.problem.clock.tick),
-        "planner": _planner(plan.run, scenario, seconds=seconds),
-        "metrics": _metrics(plan),
-        "robots": robots,
-        **({"steady": [_steady(group, scenario) for group in plan.steady]} if plan.steady else {}),
-    }
+    names = _vertex_names(plan)
+    rows = zip(plan.scenario.robots, plan.tracks, strict=True)
+    robots = [
+        {
+            "name": robot.name,
+            "vertices": [names[vertex] for vertex in track.vertices.tolist()],
+            "enter": track.enter.tolist(),
+        }
+        for robot, track in rows
+    ]
+    return _document(plan, robots, seconds=seconds)
 
 
 def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
@@ -64,20 +67,39 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
 
 def plan_text(plan: Plan, *, seconds: bool = False) -> str:
     """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`."""
-    return json_text(dump_plan(plan, seconds=seconds))
+    quoted = np.array([json_line(name) for name in _vertex_names(plan)], object)
+    rows = zip(plan.scenario.robots, plan.tracks, strict=True)
+    robots = [
+        Rendered(
+            f'{{"name": {json_line(robot.name)}, "vertices": [{", ".join(quoted[track.vertices])}],'
+            f' "enter": {track.enter.tolist()}}}'
+        )
+        for robot, track in rows
+    ]
+    return json_text(_document(plan, robots, seconds=seconds))
 
 
-def _robots(plan: Plan) -> list[dict[str, Any]]:
-    names = [plan.scenario.roadmap.name(v) for v in range(plan.scenario.roadmap.n_vertices)]
-    rows = []
-    for index, (robot, track) in enumerate(zip(plan.scenario.robots, plan.tracks, strict=True)):
-        vertices = track.vertices.tolist()
-        if not 0 <= min(vertices) <= max(vertices) < len(names):
-            message = f"a vertex is not on the roadmap (give 0 to {len(names) - 1})"
+def _vertex_names(plan: Plan) -> list[str]:
+    """Return the names of all vertices, after a look at whether the tracks visit no others."""
+    n_vertices = plan.scenario.roadmap.n_vertices
+    for index, track in enumerate(plan.tracks):
+        if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
+            message = f"a vertex is not on the roadmap (give 0 to {n_vertices - 1})"
             raise InputError.at(f"robots[{index}].vertices", message)
-        row = {"vertices": [names[v] for v in vertices], "enter": track.enter.tolist()}
-        rows.append({"name": robot.name, **row})
-    return rows
+    return [plan.scenario.roadmap.name(vertex) for vertex in range(n_vertices)]
+
+
+def _document(plan: Plan, robots: Sequence[Any], *, seconds: bool) -> dict[str, Any]:
+    scenario = plan.scenario
+    return {
+        "format": PLAN_FORMAT,
+        "scenario": dump_scenario(scenario),
+        "tick": written(scenario.problem.clock.tick),
+        "planner": _planner(plan.run, scenario, seconds=seconds),
+        "metrics": _metrics(plan),
+        "robots": robots,
+        **({"steady": [_steady(group, scenario) for group in plan.steady]} if plan.steady else {}),
+    }
 
 
 def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:

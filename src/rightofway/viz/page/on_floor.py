@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.metrics.stays import Stays
 from rightofway.metrics.waits import waits_in
-from rightofway.model import ExecutionTrace, Plan, Tick, Track
+from rightofway.model import ExecutionTrace, Plan, Stays, Tick, Track
 from rightofway.viz.motion import Trip, trips_of
 from rightofway.viz.page.figures import differences, wait_row
 
 __all__ = ["floor_of"]
 
-Standstills = Sequence[tuple[Tick, Tick | None]]
+Stoppages = Sequence[tuple[Tick, Tick | None]]
 
 
 def floor_of(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[str, Any]:
@@ -41,7 +40,7 @@ def floor_of(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[
     if len(actual.tracks) != len(plan.tracks):
         counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
         raise InputError.at("actual.tracks", f"{counts} (give one for each)")
-    still = actual.standstills or ((),) * len(trips)
+    still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_stays, actual.tracks, actual.dwell, actual.drive, still))
     anew = trips_of(replace(plan, tracks=actual.tracks, steady=()))
     return {
@@ -51,10 +50,10 @@ def floor_of(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[
                 **_way(planned, taken, dwell),
                 "enter": differences(taken.enter),
                 "drive": drive.tolist(),
-                "still": [list(standstill) for standstill in standstills],
+                "still": [list(stoppage) for stoppage in stoppages],
                 "completion": completion,
             }
-            for planned, taken, dwell, drive, standstills, completion in zip(
+            for planned, taken, dwell, drive, stoppages, completion in zip(
                 trips, anew, actual.dwell, actual.drive, still, actual.completion, strict=True
             )
         ],
@@ -70,7 +69,7 @@ def _way(planned: Trip, taken: Trip, dwell: NDArray[np.int64]) -> dict[str, Any]
 
 
 def _stays(
-    track: Track, dwell: NDArray[np.int64], drive: NDArray[np.int64], still: Standstills
+    track: Track, dwell: NDArray[np.int64], drive: NDArray[np.int64], still: Stoppages
 ) -> Stays:
     """Return what the visits of a track are for; standing still is not waiting."""
     out = np.append(drive[1:], 0)
@@ -78,10 +77,10 @@ def _stays(
     waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
     waits[-1] = 0
     completion = Tick(int(track.enter[-1] + dwell[-1]))
-    return Stays(dwell=stood, drive=out, waits=waits, completion=completion)
+    return Stays(dwell=stood, drive=out, waits=waits, serves=(), completion=completion)
 
 
-def _stood(track: Track, still: Standstills) -> NDArray[np.int64]:
+def _stood(track: Track, still: Stoppages) -> NDArray[np.int64]:
     """Return how much of each visit the robot stood still; nothing for the last one."""
     stood = np.zeros(len(track), np.int64)
     for begin, ticks in still:

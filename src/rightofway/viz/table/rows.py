@@ -8,8 +8,8 @@ from difflib import get_close_matches
 from functools import partial
 
 from rightofway.errors import InputError, InputFault
-from rightofway.metrics import collisions, completions_of, free_running, waits
-from rightofway.model import NEVER, Plan, Roadmap, Scenario, Tick, Track
+from rightofway.metrics import collisions, free_running, waits
+from rightofway.model import NEVER, Plan, Roadmap, Scenario, Tick, Track, completions_of
 from rightofway.viz.table.runs import Span, runs_of
 from rightofway.viz.table.timespace import Mark, Place, Row, RowKind, TimeSpaceTable
 

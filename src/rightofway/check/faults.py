@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from rightofway.model import Tick, VertexId
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["Fault", "FaultKind", "Report"]
+from rightofway.model import Scenario, Tick, VertexId
+
+__all__ = ["Fault", "FaultCollector", "FaultKind", "Names", "Report", "ticks"]
 
 FaultKind = Literal[
     "unknown vertex",
@@ -107,3 +111,77 @@ class Report:
         unlisted = self.total - len(self.faults)
         more = [f"and {unlisted} more (raise the limit to list them)"] if unlisted else []
         return "\n".join([self.summary, *map(str, self.faults), *more])
+
+
+class FaultCollector:
+    """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions.
+
+    Parameters
+    ----------
+    limit
+        How many to keep.
+    """
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._counts: Counter[FaultKind] = Counter()
+        self._kept: list[Fault] = []
+
+    def add(self, fault: Fault) -> None:
+        """Add one fault."""
+        self._counts[fault.kind] += 1
+        self._kept.append(fault)
+
+    def add_all(
+        self,
+        kind: FaultKind,
+        ticks: NDArray[Any],
+        robots: tuple[NDArray[Any], ...],
+        fault_at: Callable[[int], Fault],
+    ) -> None:
+        """Add many faults of a kind.
+
+        Parameters
+        ----------
+        kind
+            Their kind.
+        ticks
+            When they begin [ticks]; shape (n,).
+        robots
+            Their robots, as in `Fault`, one array of shape (n,) for each place in the tuple.
+        fault_at
+            Makes the fault of a position in these arrays; called for the earliest only.
+        """
+        if len(ticks):
+            self._counts[kind] += len(ticks)
+            earliest = np.lexsort((*reversed(robots), ticks))[: self._limit]
+            self._kept.extend(fault_at(int(position)) for position in earliest)
+
+    def report(self) -> Report:
+        """Return the judgement on all faults added."""
+        self._kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
+        return Report(
+            faults=tuple(self._kept[: self._limit]), counts=dict(sorted(self._counts.items()))
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """The names of a scenario."""
+
+    scenario: Scenario
+
+    def robot(self, index: int) -> str:
+        """Return a robot's name."""
+        return self.scenario.robots[index].name
+
+    def vertex(self, vertex: int) -> str:
+        """Return a vertex's name, whether the roadmap has it or not."""
+        if 0 <= vertex < self.scenario.roadmap.n_vertices:
+            return self.scenario.roadmap.name(vertex)
+        return f"vertex {vertex}"
+
+
+def ticks(number: int) -> str:
+    """Return a number of ticks in words."""
+    return f"{number} tick" if number == 1 else f"{number} ticks"

@@ -1,23 +1,97 @@
-"""One robot's whole trip: from its home, through all its stops, to where it ends."""
+"""The track of each robot: from its home along edges, no faster than it can, through all stops."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rightofway.check.report import Fault, FaultKind
-from rightofway.check.sieve import Sieve
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, ticks
 from rightofway.check.visits import Visits
-from rightofway.check.words import Words, ticks
 from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
 
-__all__ = ["judge_trips"]
+__all__ = ["judge_drives", "judge_trips"]
 
 
-def judge_trips(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> None:
+def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
+    stay = visits.leave - visits.enter
+    moves = ~visits.last
+    joined = visits.edge >= 0
+    both_known = visits.known & np.roll(visits.known, -1)
+    judgement = _Drives(visits, names, collector)
+    judgement.report("unknown vertex", ~visits.known, judgement.unknown)
+    judgement.report("backwards", moves & (stay < 0), judgement.backwards)
+    judgement.report("jump", moves & both_known & ~joined, judgement.jump)
+    judgement.report("too fast", joined & (stay >= 0) & (stay < visits.drive), judgement.too_fast)
+
+
+class _Drives:
+    """Reports visits, and the moves that end them."""
+
+    def __init__(self, visits: Visits, names: Names, collector: FaultCollector) -> None:
+        self._visits, self._names, self._collector = visits, names, collector
+
+    def report(
+        self, kind: FaultKind, broken: NDArray[np.bool_], message: Callable[[int], str]
+    ) -> None:
+        visits, where = self._visits, np.flatnonzero(broken)
+        # An unknown vertex is wrong as soon as it is entered, a move at the instant it is made.
+        times, ends = (visits.enter, 1) if kind == "unknown vertex" else (visits.leave, 2)
+
+        def fault(position: int) -> Fault:
+            visit = int(where[position])
+            return Fault(
+                kind=kind,
+                robots=(int(visits.robot[visit]),),
+                vertices=tuple(map(VertexId, visits.vertex[visit : visit + ends].tolist())),
+                tick=Tick(int(times[visit])),
+                message=message(visit),
+            )
+
+        self._collector.add_all(kind, times[where], (visits.robot[where],), fault)
+
+    def unknown(self, visit: int) -> str:
+        n_vertices = self._names.scenario.roadmap.n_vertices
+        return (
+            f"{self._robot(visit)} enters {self._vertex(visit)}, which is not on the roadmap"
+            f" (its vertices are 0 to {n_vertices - 1})"
+        )
+
+    def backwards(self, visit: int) -> str:
+        enter = self._visits.enter[visit]
+        return (
+            f"{self._robot(visit)} enters {self._vertex(visit)} at tick {enter}, but"
+            f" {self._vertex(visit + 1)} after it at tick {self._visits.leave[visit]}"
+            f" (later visits have later ticks)"
+        )
+
+    def jump(self, visit: int) -> str:
+        tail, head = self._vertex(visit), self._vertex(visit + 1)
+        if tail == head:
+            return f"{self._robot(visit)} enters {tail} twice in a row (make it one visit)"
+        return f"{self._robot(visit)} goes from {tail} to {head}, no edge leads there (use edges)"
+
+    def too_fast(self, visit: int) -> str:
+        visits = self._visits
+        stay, drive = visits.leave[visit] - visits.enter[visit], visits.drive[visit]
+        return (
+            f"{self._robot(visit)} drives from {self._vertex(visit)} to {self._vertex(visit + 1)}"
+            f" in {ticks(stay)}, it needs {drive} (enter at tick {visits.enter[visit] + drive}"
+            f" or later)"
+        )
+
+    def _robot(self, visit: int) -> str:
+        return self._names.robot(int(self._visits.robot[visit]))
+
+    def _vertex(self, visit: int) -> str:
+        return self._names.vertex(int(self._visits.vertex[visit]))
+
+
+def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
     spare = np.maximum(visits.leave - visits.enter - visits.drive, 0).tolist()
     begin = 0
@@ -29,10 +103,10 @@ def judge_trips(plan: Plan, visits: Visits, words: Words, sieve: Sieve) -> None:
             vertices=track.vertices.tolist(),
             enter=track.enter.tolist(),
             spare=spare[begin:end],
-            words=words,
+            names=names,
         )
         for fault in trip.faults():
-            sieve.add(fault)
+            collector.add(fault)
         begin = end
 
 
@@ -50,7 +124,7 @@ class _Trip:
     vertices: list[int]
     enter: list[int]
     spare: list[int]
-    words: Words
+    names: Names
     too_short: dict[Stage, list[tuple[int, int]]] = field(default_factory=dict)
 
     def faults(self) -> Iterator[Fault]:
@@ -59,7 +133,7 @@ class _Trip:
 
     def _ends(self) -> Iterator[Fault]:
         home, last = self.itinerary.home, self.itinerary.stages[-1].vertex
-        name, vertex = self._name, self.words.vertex
+        name, vertex = self._name, self.names.vertex
         if self.vertices[0] != home or self.enter[0] != 0:
             message = (
                 f"{name} starts at {vertex(self.vertices[0])} at tick {self.enter[0]}"
@@ -73,7 +147,7 @@ class _Trip:
     def _work(self) -> Iterator[Fault]:
         stages = self.itinerary.stages
         if self.vertices[-1] != stages[-1].vertex:
-            stages = stages[:-1]  # the wrong end has been told
+            stages = stages[:-1]  # a wrong end is reported already
         hopeless = set()  # or every lap would search the rest of the track again
         visit = 0
         for stage in stages:
@@ -105,7 +179,7 @@ class _Trip:
             minus_spare, visit = heappop(too_short)
             return self._cut_short(stage, -minus_spare, self.enter[visit])
         message = (
-            f"{self._name} does not come to {self.words.vertex(stage.vertex)}"
+            f"{self._name} does not come to {self.names.vertex(stage.vertex)}"
             f" at tick {self.enter[visit]} or later (visit its stops in their order)"
         )
         return self._fault("stop missed", stage.vertex, self.enter[visit], message)
@@ -114,14 +188,14 @@ class _Trip:
         needs = {"working": stage.work, "turning": stage.turn}
         need = " and ".join(f"{duration} {what}" for what, duration in needs.items() if duration)
         message = (
-            f"{self._name} has {ticks(spare)} at {self.words.vertex(stage.vertex)}, it needs"
+            f"{self._name} has {ticks(spare)} at {self.names.vertex(stage.vertex)}, it needs"
             f" {need} (stay {ticks(stage.work + stage.turn - spare)} longer)"
         )
         return self._fault("work cut short", stage.vertex, enter, message)
 
     @property
     def _name(self) -> str:
-        return self.words.robot(self.robot)
+        return self.names.robot(self.robot)
 
     def _fault(self, kind: FaultKind, vertex: int, tick: int, message: str) -> Fault:
         return Fault(

@@ -1,0 +1,83 @@
+"""Plans, delays and oracles of executions."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from functools import cache
+
+import rightofway
+from rightofway.model import NEVER, Plan, Rules, Tick
+from rightofway.precedence import (
+    ActionDependencyGraph,
+    DelayModel,
+    DelaySample,
+    Execution,
+    Stoppage,
+)
+from tests.builders.fleets import random_fleet
+from tests.oracles import execution
+
+__all__ = ["RULES", "oracle_of", "some_delays", "some_plan", "times"]
+
+RULES = (
+    Rules(),
+    Rules(occupancy="both"),
+    Rules(headway=Fraction(1)),
+    Rules(occupancy="both", headway=Fraction(1, 2)),
+    Rules(ends="none"),
+    Rules(laps=2, occupancy="both"),
+)
+RANDOM = (
+    (),
+    (("exponential", 0.5, 0.0),),
+    (("uniform", -0.5, 1.0), ("chance", 0.1, 7.0)),
+    (("normal", 0.2, 0.3), ("breaks", 0.1, 0.0)),
+)
+
+
+@cache
+def some_plan(seed: int, rules: int) -> Plan:
+    """Return a plan of five robots on a small grid."""
+    scenario = random_fleet(seed, size=5, robots=5, rules=RULES[rules])
+    return rightofway.solve(scenario, "lacam" if seed % 2 else "two-level")
+
+
+def some_delays(draw: random.Random, robots: int, makespan: int) -> DelayModel:
+    """Return random delays; 0.1 of the robots break down, others stop, are slow or early."""
+
+    def stoppages() -> tuple[Stoppage, ...]:
+        if draw.random() < 0.6:
+            return ()
+        lasts = draw.choice([1, 5, 30, NEVER])
+        more = [(draw.randint(0, makespan), draw.choice([1, 5, 30])) for _ in range(2)]
+        every = sorted([(draw.randint(0, makespan), lasts), *more])
+        return tuple(Stoppage(Tick(tick), Tick(ticks)) for tick, ticks in every)
+
+    return DelayModel(
+        random=draw.choice(RANDOM),
+        pace=tuple(draw.choice([1.0, 1.0, 1.7, 0.6]) for _ in range(robots)),
+        stoppages=tuple(stoppages() for _ in range(robots)),
+    )
+
+
+def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> execution.Orders:
+    """Return what the oracle executes."""
+    return execution.Orders(
+        first_visit=adg.first_visit.tolist(),
+        vertex=adg.vertex.tolist(),
+        planned=adg.planned.tolist(),
+        nominal_drive=adg.drive.tolist(),
+        before=adg.before.tolist(),
+        since=adg.since.tolist(),
+        headway=int(adg.scenario.problem.headway),
+        books_ahead=adg.scenario.rules.books_ahead,
+        dwell=delay_sample.dwell.tolist(),
+        drive=delay_sample.drive.tolist(),
+        stoppages=[delay_sample.stoppages_of(robot) for robot in range(len(adg.routes))],
+    )
+
+
+def times(found: execution.Times | Execution) -> tuple[list[int], list[int], list[int]]:
+    """Return when visits begin, when they are booked, and when robots complete."""
+    return list(found.enter), list(found.start), list(found.completion)

@@ -1,0 +1,183 @@
+"""A plan that is changed on the way never makes robots collide or deadlock, and never the past."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rightofway
+from rightofway.check import check
+from rightofway.execution.forecast import Forecast
+from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
+from rightofway.model import NEVER, Tick
+from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
+from tests.builders.executions import RULES, oracle_of, some_delays, some_plan, times
+from tests.builders.fleets import random_fleet
+from tests.oracles import execution
+
+POLICIES = (
+    ExecutionPolicy(switch=True),
+    ExecutionPolicy(replan=True),
+    ExecutionPolicy(switch=True, replan=True),
+)
+
+
+@given(
+    seed=st.integers(0, 5),
+    rules=st.integers(0, len(RULES) - 1),
+    chance=st.integers(0, 2**32 - 1),
+    policy=st.sampled_from(POLICIES),
+)
+@settings(max_examples=100, deadline=None)
+def test_robots_that_look_find_the_new_plan_possible(
+    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+) -> None:
+    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
+    delays = some_delays(draw, len(plan.tracks), 20)
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    monitor = ExecutionMonitor(adg, policy, chance, 0)
+    slow = oracle_of(monitor.adg, monitor.delay_sample)
+    expected = execution.by_right_of_way(slow)
+    assert times(monitor.execution) == times(expected)
+    assert execution.collisions(slow, expected)[:3] == (0, 0, 0)
+    assert monitor.adg.deadlocked() == []
+
+
+@given(
+    seed=st.integers(0, 5),
+    rules=st.integers(0, len(RULES) - 1),
+    chance=st.integers(0, 2**32 - 1),
+    policy=st.sampled_from(POLICIES),
+)
+@settings(max_examples=100, deadline=None)
+def test_the_judge_finds_everything_done_and_nobody_meeting(
+    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+) -> None:
+    """Robots are late, never early: the judge would find them too fast."""
+    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
+    delays = DelayModel(
+        random=draw.choice([(("chance", 0.1, 9.0),), (("exponential", 0.5, 0.0),)]),
+        pace=tuple(draw.choice([1.0, 1.0, 2.0]) for _ in plan.tracks),
+        stoppages=tuple(() for _ in plan.tracks),
+    )
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    monitor = ExecutionMonitor(adg, policy, chance, 0)
+    assert (monitor.completion < NEVER).all()
+    found = check(replace(plan, tracks=monitor.adg.tracks_at(monitor.execution.enter)))
+    assert found.ok, found
+
+
+@pytest.mark.parametrize("policy", POLICIES)
+@given(seed=st.integers(0, 5), rules=st.integers(0, len(RULES) - 1))
+def test_nothing_is_changed_where_nobody_is_late(
+    policy: ExecutionPolicy, seed: int, rules: int
+) -> None:
+    plan = some_plan(seed, rules)
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, DelayModel.none(len(plan.tracks)))
+    assert ExecutionMonitor(adg, policy, 0, 0).adg is adg
+
+
+def booked_until(monitor: ExecutionMonitor, tick: int) -> list[list[tuple[int, int]]]:
+    """Return for each robot which vertices it has booked before a tick, since when."""
+    adg, start = monitor.adg, monitor.execution.start
+    ranges = pairwise(adg.first_visit.tolist())
+    visits = [[visit for visit in range(i, j) if start[visit] < tick] for i, j in ranges]
+    return [[(int(adg.vertex[x]), int(start[x])) for x in one] for one in visits]
+
+
+class Witness(ExecutionMonitor):
+    """Looks whether changes leave alone what was before them."""
+
+    seen = 0
+
+    def try_to_reorder(self, forecast: Forecast) -> Forecast:
+        before = booked_until(self, forecast.now)
+        found = super().try_to_reorder(forecast)
+        assert booked_until(self, forecast.now) == before
+        Witness.seen += found is not forecast
+        return found
+
+    def replan(self, forecast: Forecast, limit: int) -> None:
+        before = booked_until(self, forecast.now)
+        super().replan(forecast, limit)
+        assert booked_until(self, forecast.now) == before
+        Witness.seen += self.adg is not forecast.adg
+
+
+@given(
+    seed=st.integers(0, 5),
+    rules=st.integers(0, len(RULES) - 1),
+    chance=st.integers(0, 2**32 - 1),
+    policy=st.sampled_from(POLICIES),
+)
+@settings(max_examples=100, deadline=None)
+def test_no_change_reaches_into_the_past(
+    seed: int, rules: int, chance: int, policy: ExecutionPolicy
+) -> None:
+    """Who has waited until now for its right of way goes now, not when it could have gone."""
+    plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
+    delays = some_delays(draw, len(plan.tracks), 20)
+    Witness(ActionDependencyGraph(plan.scenario, plan.tracks, delays), policy, chance, 0)
+
+
+def test_the_witness_has_seen_changes() -> None:
+    plan = some_plan(0, 1)
+    delays = replace(DelayModel.none(len(plan.tracks)), random=(("chance", 0.1, 20.0),))
+    for run in range(20):
+        Witness(ActionDependencyGraph(plan.scenario, plan.tracks, delays), POLICIES[2], run, 0)
+    assert Witness.seen > 0
+
+
+@given(chance=st.integers(0, 2**32 - 1), cut=st.integers(1, 40), policy=st.sampled_from(POLICIES))
+@settings(max_examples=100, deadline=None)
+def test_what_is_still_to_come_decides_nothing(
+    chance: int, cut: int, policy: ExecutionPolicy
+) -> None:
+    """Runs with the same stops before a tick are the same until that tick."""
+    plan, draw = some_plan(chance % 6, chance % len(RULES)), random.Random(chance)  # noqa: S311
+    stops = [
+        Stoppage(Tick(draw.randint(0, 30)), Tick(draw.choice([3, 10, 20]))) for _ in plan.tracks
+    ]
+    seen = []
+    for later in ([], [Stoppage(Tick(cut), Tick(50))], [Stoppage(Tick(cut), NEVER)]):
+        each = [[stop] for stop in stops]
+        each[0] = sorted([stop for stop in each[0] if sum(stop) < cut] + later)
+        delays = DelayModel.none(len(plan.tracks))
+        stoppages = tuple(tuple(one) for one in each)
+        adg = ActionDependencyGraph(
+            plan.scenario, plan.tracks, replace(delays, stoppages=stoppages)
+        )
+        seen.append(booked_until(ExecutionMonitor(adg, policy, 0, 0), cut))
+    assert seen[0] == seen[1] == seen[2]
+
+
+@pytest.mark.parametrize("policy", POLICIES)
+def test_changes_win_on_average(policy: ExecutionPolicy) -> None:
+    """Robots stop now and then: keeping the order makes the others wait for nothing."""
+    scenario = random_fleet(1, size=12, robots=12)
+    plan = rightofway.solve(scenario, "local-search", None)
+    outcome = rightofway.simulate(
+        plan, "chance:0.03x20", runs=20, switch=policy.switch, replan=policy.replan
+    )
+    assert outcome.gain is not None
+    assert outcome.gain.runs == 20
+    assert outcome.gain.earlier > outcome.gain.later
+    kept = rightofway.simulate(plan, "chance:0.03x20", runs=20)
+    won = (kept.completion.sum(axis=1) - outcome.completion.sum(axis=1)).mean()
+    assert outcome.gain.flowtime.mean == round(won, 6) > 0
+
+
+def test_planning_anew_wins_where_switching_cannot() -> None:
+    """R10 is slow: on the same routes nothing is to be won, by another way 20 ticks."""
+    plan = rightofway.solve(random_fleet(2, size=12, robots=10), "two-level", None)
+    won = []
+    for switch, replan in ((True, False), (False, True)):
+        outcome = rightofway.simulate(plan, "slow:R10x2", runs=1, switch=switch, replan=replan)
+        assert outcome.gain is not None
+        won.append(outcome.gain.flowtime.mean)
+    assert won == [0, 20]

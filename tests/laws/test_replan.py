@@ -1,0 +1,130 @@
+"""When robots break down the rest finish, wherever that is possible at all."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rightofway
+from rightofway.check import check
+from rightofway.errors import NoPlanExists
+from rightofway.execution.commitment import closures_of, commitment_of
+from rightofway.execution.forecast import Forecast
+from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
+from rightofway.execution.replan import replan
+from rightofway.model import NEVER, Plan, Rules, Stage, Tick
+from rightofway.planners import Deadline
+from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
+from tests.builders.fleets import fleet_on
+from tests.oracles.cut_off import most_who_can_finish
+
+GRIDS = (
+    ["...", "@.@", "..."],
+    ["....", ".@@.", "...."],
+    [".....", "@@.@@"],
+    ["...", "..."],
+    ["..@", "...", "@.."],
+)
+MEETINGS = {"vertex conflict", "swap conflict", "headway", "rotation"}
+
+
+def small_plan(draw: random.Random, robots: int) -> Plan | None:
+    rules = Rules(
+        occupancy=draw.choice(["one", "both"]),
+        ends=draw.choice(["home", "home", "none"]),
+        headway=Fraction(draw.choice([0, 0, 1])),
+        laps=1,
+    )
+    try:
+        scenario = fleet_on(draw.choice(GRIDS), draw, robots=robots, rules=rules)
+        return rightofway.solve(scenario, "two-level")
+    except NoPlanExists:
+        return None
+
+
+def with_breakdowns(draw: random.Random, plan: Plan, most: int) -> ActionDependencyGraph:
+    last = max(int(track.enter[-1]) for track in plan.tracks)
+    robots = range(len(plan.tracks))
+    broken = draw.sample(robots, draw.randint(1, most))
+    slow = draw.choice(robots)
+    delays = DelayModel(
+        random=draw.choice([(), (("exponential", 0.3, 0.0),), (("chance", 0.1, 5.0),)]),
+        pace=tuple(1.6 if robot == slow else 1.0 for robot in robots),
+        stoppages=tuple(
+            (Stoppage(Tick(draw.randint(0, last)), NEVER),) if robot in broken else ()
+            for robot in robots
+        ),
+    )
+    return ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+
+
+def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]]) -> int:
+    kept = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
+    goals = [
+        [
+            *([] if one.drives_to is None else [int(one.drives_to)]),
+            *(int(stage.vertex) for stage in one.left),
+        ]
+        or [int(one.vertex)]
+        for one in kept
+    ]
+    scenario = forecast.adg.scenario
+    may_rotate = scenario.rules.occupancy == "one" and scenario.problem.headway == 0
+    return most_who_can_finish(
+        scenario.roadmap,
+        [one.vertex for one in kept],
+        goals,
+        forecast.broken,
+        closures_of(forecast),
+        may_rotate=may_rotate,
+    )
+
+
+@given(chance=st.integers(0, 2**32 - 1))
+@settings(max_examples=80, deadline=None)
+def test_as_many_finish_as_brute_force_finds(chance: int) -> None:
+    """One robot breaks down; no other choice of robots that are cut off would be smaller."""
+    draw = random.Random(chance)  # noqa: S311
+    plan = small_plan(draw, robots=draw.randint(2, 4))
+    if plan is None:
+        return
+    adg = with_breakdowns(draw, plan, most=1)
+    sample = adg.delay_sample(chance, 0)
+    since, broken = min((sample.breakdown(robot), robot) for robot in range(len(plan.tracks)))
+    forecast = Forecast(adg, sample, adg.execute(sample), since, frozenset({broken}))
+    stages = tuple(one.stages for one in plan.scenario.problem.itineraries)
+    found = replan(forecast, stages, 0, Deadline())
+    assert found is not None
+    finishing = len(plan.tracks) - 1 - len(found.cut_off)
+    assert finishing == most_by_brute_force(forecast, stages)
+
+
+@given(chance=st.integers(0, 2**32 - 1), switch=st.booleans())
+@settings(max_examples=60, deadline=None)
+def test_no_robots_collide_over_all_plans_of_a_run_and_the_rest_complete(
+    chance: int, switch: bool
+) -> None:
+    draw = random.Random(chance)  # noqa: S311
+    plan = small_plan(draw, robots=draw.randint(2, 4))
+    if plan is None:
+        return
+    adg = with_breakdowns(draw, plan, most=2)
+    monitor = ExecutionMonitor(adg, ExecutionPolicy(switch=switch, replan=True), chance, 0)
+    tracks = monitor.adg.tracks_at(monitor.execution.enter)
+    report = check(replace(plan, tracks=tracks))
+    assert not MEETINGS & set(report.counts)
+    assert not monitor.execution.collisions[:3].any()
+    for robot, completion in enumerate(monitor.completion.tolist()):
+        assert completion < NEVER or robot in monitor.lost | monitor.cut_off
+        if completion < NEVER:
+            faults = Counter(fault.kind for fault in report.faults if fault.robots == (robot,))
+            assert not faults, report
+            assert completion >= int(tracks[robot].enter[-1])
+    assert all(np.all(np.diff(track.enter) > 0) for track in tracks)

@@ -1,0 +1,98 @@
+"""Time limits and interrupts, as scripts meet them."""
+
+import math
+import signal
+import threading
+from collections.abc import Iterator
+
+import pytest
+
+import rightofway
+from rightofway.errors import InputError
+from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
+from tests.builders.fleets import random_fleet
+
+NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
+
+
+@pytest.fixture(scope="module")
+def scenario() -> Scenario:
+    return random_fleet(1, size=12, robots=10, rules=Rules())
+
+
+@pytest.mark.parametrize("limit", NO_LIMITS)
+def test_a_time_limit_that_is_no_number_of_seconds_is_refused(
+    scenario: Scenario, limit: float
+) -> None:
+    plan = rightofway.solve(scenario, "lacam")
+    for call in (
+        lambda: rightofway.solve(scenario, time_limit=limit),
+        lambda: rightofway.improve(plan, time_limit=limit),
+        lambda: rightofway.run_laps(scenario, time_limit=limit),
+        lambda: rightofway.simulate(plan, time_limit=limit),
+    ):
+        with pytest.raises(InputError, match=r"time_limit: .* is no number of seconds \(give"):
+            call()
+
+
+def test_infinity_is_no_limit(scenario: Scenario) -> None:
+    first = rightofway.solve(scenario, time_limit=math.inf, options={"iterations": 5})
+    again = rightofway.solve(scenario, time_limit=None, options={"iterations": 5})
+    assert [track.enter.tolist() for track in first.tracks] == [
+        track.enter.tolist() for track in again.tracks
+    ]
+
+
+@pytest.fixture
+def interrupted() -> Iterator[None]:
+    """Have this thread interrupted after two seconds, whatever the runner does with interrupts."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    main = threading.main_thread().ident
+    assert main is not None
+    timer = threading.Timer(2, signal.pthread_kill, (main, signal.SIGINT))
+    timer.start()
+    yield
+    timer.cancel()
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="module")
+def crowd() -> Scenario:
+    """Return a fleet that is improved for longer than any test waits."""
+    return random_fleet(1, size=40, robots=200, rules=Rules(occupancy="both"))
+
+
+@pytest.mark.usefixtures("interrupted")
+def test_an_interrupt_of_solve_reaches_the_loop_of_a_script(crowd: Scenario) -> None:
+    """Large neighbourhood search has a plan by then, and must not swallow the interrupt."""
+    with pytest.raises(KeyboardInterrupt):
+        rightofway.solve(crowd, time_limit=60)
+
+
+@pytest.mark.usefixtures("interrupted")
+def test_an_interrupt_hands_out_the_best_plan_where_that_is_asked_for(crowd: Scenario) -> None:
+    plan = rightofway.solve(crowd, time_limit=60, keep_best=True)
+    assert plan.run.status.startswith("interrupted: ")
+    assert rightofway.check(plan).ok
+
+
+def test_the_laps_of_one_robot_alone_do_not_count_as_meetings() -> None:
+    """A robot alone visits each vertex of a corridor 100 000 times or more."""
+    scenario = corridor(laps=40_000, homes=(0,))
+    plan = rightofway.solve(scenario, "two-level", time_limit=None)
+    assert rightofway.measure(plan).gap == 0
+
+
+def test_more_meetings_than_can_be_counted_are_an_input_error() -> None:
+    """Two robots pass the vertices between their places 2 x 40 000 times each."""
+    with pytest.raises(InputError, match=r"^robots: \d+ pairs .* \(plan fewer laps"):
+        rightofway.solve(corridor(laps=40_000, homes=(0, 1)), "two-level", time_limit=None)
+
+
+def corridor(laps: int, homes: tuple[int, ...]) -> Scenario:
+    """Return robots that go to the fourth vertex of a corridor and back home."""
+    robots = tuple(
+        Robot(name=f"R{home}", home=VertexId(home), stops=(Stop(at=VertexId(3)),)) for home in homes
+    )
+    roadmap = roadmap_of_grid(["....."])
+    return Scenario(roadmap=roadmap, robots=robots, rules=Rules(laps=laps))
