@@ -269,36 +269,36 @@ class DistanceTables:
 
 class CyclicSimulator:
     """
-    Robots that repeat their laps under a rule that sees two of them, until a state comes again.
+    Robots that repeat their laps under a rule that considers two of them, until a state recurs.
 
     Parameters
     ----------
     first_place : int32[R + 1]
         Robot ``r`` has the places ``first_place[r]`` up to ``first_place[r + 1]`` of a lap.
     vertex : int32[N]
-        Where each place is; the first of a lap is home.
+        The vertex of each place; the first place of a lap is home.
     least : int64[N]
         The least ticks from the enter of a place to that of the next, round the lap.
     approach : int64[N]
         How long before its enter a visit books its vertex. [ticks]
     first_least : int64[R]
-        The least ticks of the very first visit, which nobody turns for.
+        The least ticks of the very first visit, in which no robot turns.
     headway : int
         How long after its leave a visit books its vertex. [ticks]
     pacemaker, lag : int
-        Cuts are made where this robot is home; what meets less than the lag after that is settled
-        before. [ticks]
+        Cuts are made where this robot is home; conflicts up to the lag after a cut are resolved before
+        all visits up to it are frozen. [ticks]
     most_lag, patience : int
-        How long the lag may get, and how long a pacemaker may stay away. [ticks]
+        The longest lag, and how long a pacemaker may stay away. [ticks]
     reach : int
-        How long before a cut visits may have been left that still matter. [ticks]
+        Visits left so long before a cut still matter. [ticks]
     memory : int
-        How many cuts can be taken back.
+        How many cuts can be undone.
     rule : int
-        Who goes first: who would enter the segment first (0), who is listed first (1), or (2) who would
-        lose more by waiting for the other one.
+        The robot that goes first: the one that would enter the segment first (0), the one listed first
+        (1), or (2) the one that would lose more by waiting.
     loss : int64[R]
-        What a tick of waiting costs each robot, above 0, with rule 2; else it is not looked at.
+        The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
 
     Raises
     ------
@@ -307,47 +307,46 @@ class CyclicSimulator:
 
     Notes
     -----
-    Exact and deterministic: the decisions of ``laps.rolling``. The GIL is released while it goes on;
-    Ctrl-C is obeyed.
+    Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.
     """
 
     def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-    def go_on(self, time_limit: float | None = None) -> int:
+    def advance(self, time_limit: float | None = None) -> int:
         """
-        Go on until a state comes again, a deadlock, or time is over.
+        Simulate until a state recurs, a deadlock, or time is over.
 
         Parameters
         ----------
         time_limit : float or None
-            After so many seconds it stops, and can go on later.
+            Stop after this many seconds; the next call continues.
 
         Returns
         -------
         int
-            0 if time ran out, 1 if a state came again, 2 in a deadlock.
+            0 if time ran out, 1 if a state has recurred, 2 in a deadlock.
         """
 
-    def forget(self) -> None:
-        """Forget the states seen, so that it goes on where one came again."""
+    def reset_states(self) -> None:
+        """Forget the states seen, to advance beyond one that has recurred."""
 
-    def follow(self, rule: int) -> None:
+    def set_rule(self, rule: int) -> None:
         """Decide by another rule from now on."""
 
     @property
     def cut(self) -> int:
-        """Up to when all is settled. [ticks]"""
+        """All conflicts before this tick are resolved. [ticks]"""
 
     @property
-    def came_before(self) -> int:
-        """When the state that came again at the cut was there before. [ticks]"""
+    def first_seen(self) -> int:
+        """When the state that has recurred at the cut was seen first. [ticks]"""
 
-    def begun(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """Return how many visits of each robot have begun, int32[R]."""
+    def started(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Return how many visits of each robot have started, int32[R]."""
 
     def waits(self, robot: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return which visits of a robot were late.
+        Return the visits of a robot that had to wait.
 
         Returns
         -------
@@ -362,13 +361,12 @@ class CyclicSimulator:
 
     def deadlock(self) -> tuple[int, int, int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
         """
-        Return the deadlock that it ran into.
+        Return the conflict that cannot be resolved.
 
         Returns
         -------
         tuple of (int, int, int, int, int32[K])
-            The two robots that cannot be kept apart, the vertex, the tick, and the robots that would each
-            wait for the next.
+            The two robots, the vertex, the tick, and the robots that would each wait for the next.
         """
 
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:

@@ -52,7 +52,7 @@ class Native:
     @property
     def history(self) -> list[VisitTimes]:
         """For each robot when its visits so far began."""
-        begun = self._run.begun()
+        begun = self._run.started()
         return [
             VisitTimes(endless, begun[robot], *self._run.waits(robot))
             for robot, endless in enumerate(self.ground.group)
@@ -68,17 +68,17 @@ class Native:
         GaveUp
             If time runs out; it can be asked again.
         """
-        ends = self._run.go_on(deadline.seconds_left())
+        ends = self._run.advance(deadline.seconds_left())
         if ends == "open":
             raise GaveUp("time ran out before a state came again (give a longer time limit)")
         if ends == "deadlock":
-            raise Deadlock(*self._run.standstill())
-        return self._run.came_again()
+            raise Deadlock(*self._run.deadlock())
+        return self._run.recurrence()
 
     def follow(self, rule: str) -> None:
         """Decide by another rule from now on; states that were seen are forgotten."""
-        self._run.follow(rule)
+        self._run.set_rule(rule)
 
     def forget(self) -> None:
         """Forget the states seen, so that it goes on where one came again."""
-        self._run.forget()
+        self._run.reset_states()

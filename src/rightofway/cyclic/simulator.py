@@ -1,7 +1,7 @@
-"""Laps without an end, under a rule that sees two robots: one precedence graph that rolls along.
+"""Simulation of laps that repeat, under a rule that considers two robots.
 
-What is long past is dropped from the graph, and the laps to come are added, so all times are kept
-up to date and never found anew.
+One precedence graph holds a window of visits that moves with time: past visits are dropped, later
+ones are added, and the times of all others are kept up to date.
 """
 
 from __future__ import annotations
@@ -16,33 +16,33 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Lap, Tick, VertexId
 
-__all__ = ["CyclicSimulator", "Horizon", "Standstill"]
+__all__ = ["CyclicSimulator", "Horizon", "UnresolvedConflict"]
 
 ENDS: tuple[Literal["open", "repeats", "deadlock"], ...] = ("open", "repeats", "deadlock")
-"""How the kernel tells what came of it."""
+"""The outcomes of `advance`, in the order of the kernel."""
 
 KERNEL_RULES = ("first-come", "fixed-order", "least-loss")
-"""The rules that the kernel knows, in its order."""
+"""The rules of the kernel, in its order."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Horizon:
-    """How far robots look ahead and back; all but the first and the last in ticks.
+    """The window of a simulation; all but `pacemaker` and `memory` in ticks.
 
     Attributes
     ----------
     pacemaker
-        Cuts are made where this robot is home, at first.
+        At first, cuts are made where this robot is home.
     lag
-        What meets less than this after a cut is settled before everything up to there is frozen.
+        Conflicts up to this long after a cut are resolved before all visits up to it are frozen.
     most_lag
-        How long the lag may get where it was too short.
+        The longest lag, where shorter ones did not suffice.
     patience
-        How long a pacemaker may stay away.
+        A pacemaker that stays away longer is replaced.
     reach
-        How long before a cut visits may have been left that still matter.
+        Visits left so long before a cut still matter.
     memory
-        How many cuts can be taken back.
+        How many cuts can be undone.
     """
 
     pacemaker: int
@@ -53,42 +53,43 @@ class Horizon:
     memory: int
 
 
-class Standstill(NamedTuple):
-    """A deadlock: two robots that cannot be kept apart, and who would each wait for the next."""
+class UnresolvedConflict(NamedTuple):
+    """A deadlock: two robots in conflict, and the robots that would each wait for the next."""
 
     robots: tuple[int, int]
     vertex: VertexId
     tick: Tick
-    circle: tuple[int, ...]
+    waiting_cycle: tuple[int, ...]
 
 
 class CyclicSimulator:
-    """Robots that repeat their laps until a state comes again.
+    """Robots that repeat their laps until a state recurs.
 
     Parameters
     ----------
     laps
-        What each robot repeats.
+        The lap of each robot.
     first_least
-        For each robot the least ticks of its very first visit, which nobody turns for.
-    look
-        How far ahead and back.
+        For each robot the least ticks of its very first visit, in which it does not turn.
+    horizon
+        The window of the simulation.
     headway
         Ticks that a vertex stays booked after it was left.
     books_ahead
         Whether a robot books a vertex from when it starts to drive there.
     rule
-        Who goes first: who would enter a segment first (``first-come``), who is listed first
-        (``fixed-order``), or who would lose more by waiting for the other one (``least-loss``).
+        The robot that goes first: the one that would enter a segment first (``first-come``), the
+        one listed first (``fixed-order``), or the one that would lose more by waiting
+        (``least-loss``).
     losses
-        What a tick of waiting costs each robot, above 0.
+        The cost of a tick of waiting for each robot, above 0.
     """
 
     def __init__(
         self,
         laps: Sequence[Lap],
         first_least: Sequence[Tick],
-        look: Horizon,
+        horizon: Horizon,
         *,
         headway: Tick,
         books_ahead: bool,
@@ -103,47 +104,47 @@ class CyclicSimulator:
             drive if books_ahead else np.zeros_like(drive),
             np.array(first_least, np.int64),
             headway=int(headway),
-            pacemaker=look.pacemaker,
-            lag=look.lag,
-            most_lag=look.most_lag,
-            patience=look.patience,
-            reach=look.reach,
-            memory=look.memory,
+            pacemaker=horizon.pacemaker,
+            lag=horizon.lag,
+            most_lag=horizon.most_lag,
+            patience=horizon.patience,
+            reach=horizon.reach,
+            memory=horizon.memory,
             rule=KERNEL_RULES.index(rule),
             loss=np.array(losses, np.int64),
         )
 
-    def go_on(self, seconds: float | None) -> Literal["open", "repeats", "deadlock"]:
-        """Go on until a state comes again, a deadlock, or time is over; then it can be asked again.
+    def advance(self, seconds: float | None) -> Literal["open", "repeats", "deadlock"]:
+        """Simulate until a state recurs, a deadlock, or time is over; the next call continues.
 
         Notes
         -----
         Exact and deterministic. Ctrl-C is obeyed.
         """
-        return ENDS[self._kernel.go_on(seconds)]
+        return ENDS[self._kernel.advance(seconds)]
 
-    def forget(self) -> None:
-        """Forget the states seen, so that it goes on where one came again."""
-        self._kernel.forget()
+    def reset_states(self) -> None:
+        """Forget the states seen, to advance beyond one that has recurred."""
+        self._kernel.reset_states()
 
-    def follow(self, rule: str) -> None:
-        """Decide by another rule from now on; states that were seen are forgotten."""
-        self._kernel.follow(KERNEL_RULES.index(rule))
+    def set_rule(self, rule: str) -> None:
+        """Decide by another rule from now on, and reset the states."""
+        self._kernel.set_rule(KERNEL_RULES.index(rule))
 
-    def came_again(self) -> tuple[int, int]:
-        """Return when the state was there first, and when it came again [ticks]."""
-        return self._kernel.came_before, self._kernel.cut
+    def recurrence(self) -> tuple[int, int]:
+        """Return when the recurring state was seen first, and when it recurred [ticks]."""
+        return self._kernel.first_seen, self._kernel.cut
 
-    def begun(self) -> list[int]:
-        """Return how many visits of each robot have begun."""
-        counts: list[int] = self._kernel.begun().tolist()
+    def started(self) -> list[int]:
+        """Return how many visits of each robot have started."""
+        counts: list[int] = self._kernel.started().tolist()
         return counts
 
     def waits(self, robot: int) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-        """Return which visits of a robot were late, and how long it had waited by then [ticks]."""
+        """Return the visits of a robot that had to wait, and its waits by then in all [ticks]."""
         return self._kernel.waits(robot)
 
-    def standstill(self) -> Standstill:
-        """Return the deadlock that it ran into."""
-        i, j, vertex, tick, circle = self._kernel.deadlock()
-        return Standstill((i, j), VertexId(vertex), Tick(tick), tuple(circle.tolist()))
+    def deadlock(self) -> UnresolvedConflict:
+        """Return the conflict that `advance` could not resolve."""
+        i, j, vertex, tick, cycle = self._kernel.deadlock()
+        return UnresolvedConflict((i, j), VertexId(vertex), Tick(tick), tuple(cycle.tolist()))
