@@ -858,7 +858,7 @@ class PrecedenceGraph:
     first_visit : int32[R + 1]
         Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
     vertex : int32[N]
-        Where each visit is; consecutive visits of a robot are at different vertices.
+        The vertex of each visit; consecutive visits of a robot are at different vertices.
     least : int64[N]
         Least time from this enter to the next, above 0; not used on last visits. [ticks]
     approach : int64[N]
@@ -868,106 +868,53 @@ class PrecedenceGraph:
     swaps_conflict : bool
         Whether swaps are conflicts.
     active : uint8[R]
-        Robots with 0 here have times, but meet nobody: they have no conflicts and no rights of way.
+        Robots with 0 here have times, but no conflicts and no rights of way.
 
     Raises
     ------
     ValueError
-        If the arrays do not describe routes; names the array, the index and the value.
+        If the arrays do not describe routes; names the array, the index and the value. The methods
+        raise it for a robot or a visit that does not exist.
 
     Notes
     -----
-    Deterministic. Every answer is kept up to date from what has changed. Calls on a graph are short
-    and keep the GIL, so threads that share one take turns.
+    Deterministic. Every answer is kept up to date incrementally. Calls are short and keep the GIL.
     """
 
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-    @property
-    def n_robots(self) -> int:
-        """The number of robots, R."""
-
-    @property
-    def n_visits(self) -> int:
-        """The number of visits, N."""
-
     def enter_of(self, visit: int) -> int:
-        """Return the tick at which a visit enters (ValueError: no such visit)."""
+        """Return the enter of a visit. [ticks]"""
 
     def enter(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-        """Return a copy of the times at which visits enter, int64[N]. [ticks]"""
+        """Return a copy of the enters of all visits, int64[N]. [ticks]"""
 
     def completion(self, robot: int) -> int:
-        """
-        Return when a robot completes its route.
-
-        Parameters
-        ----------
-        robot : int
-            The robot.
-
-        Returns
-        -------
-        int
-            The enter of its last visit. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
-        """
+        """Return the enter of a robot's last visit. [ticks]"""
 
     def completion_sum(self) -> int:
         """
-        Return the sum of all robots' completions.
-
-        Returns
-        -------
-        int
-            Sum of the enters of the last visits of active robots. [ticks]
+        Return the sum of the enters of the last visits of active robots. [ticks]
         """
 
     def critical_rights(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way that a robot's completion is due to.
-
-        Parameters
-        ----------
-        robot : int
-            The robot.
-
-        Returns
-        -------
-        int32[K, 2]
-            Rights of way ``(a, b)``, the latest first: from the robot's last visit back along what each
-            visit follows from without slack, until a robot ran freely.
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
+        Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the latest first, int32[K, 2].
         """
 
     def conflicts(self) -> int:
-        """
-        Return the weight of all conflicts that are left.
-
-        Returns
-        -------
-        int
-            Sum of what they count, 0 if there are none. [ticks]
-        """
+        """Return the weight of all conflicts left, 0 if there are none. [ticks]"""
 
     def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Return the weight of one robot's conflicts.
+        Return the weight of one robot's conflicts with others.
 
         Parameters
         ----------
         robot : int
             The robot.
         others : uint8[R]
-            Count conflicts with the robots that do not have 0 here.
+            Conflicts count with the robots that do not have 0 here.
 
         Returns
         -------
@@ -987,22 +934,7 @@ class PrecedenceGraph:
 
     def next_conflict_between(self, i: int, j: int) -> tuple[int, int, int, int] | None:
         """
-        Return the earliest conflict of two robots.
-
-        Parameters
-        ----------
-        i, j : int
-            Two different robots, in any order.
-
-        Returns
-        -------
-        tuple[int, int, int, int] or None
-            ``(tick, kind, visit_a, visit_b)``, or None if they have no conflict.
-
-        Raises
-        ------
-        ValueError
-            If a robot does not exist, or both are the same.
+        Return the earliest conflict of two different robots, None if they have none.
         """
 
     def precede(self, a: int, b: int) -> bool:
@@ -1012,51 +944,49 @@ class PrecedenceGraph:
         Parameters
         ----------
         a, b : int
-            Visits of two different robots to the same vertex.
+            Visits of two different active robots to the same vertex.
 
         Returns
         -------
         bool
             Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
-            leaves, ``b`` is a first visit and there from the start, or ``cycle()`` tells the deadlock or
-            swap that would follow. Giving a right of way again is possible and does nothing.
+            leaves, ``b`` is a first visit, or ``cycle()`` has the deadlock or swap that would follow.
+            True if ``a`` has the right of way already.
 
         Raises
         ------
         ValueError
-            If ``a`` or ``b`` is no visit or of an inactive robot, or if they are visits of one robot or
-            to two vertices.
+            If ``a`` and ``b`` are not two such visits.
 
         Notes
         -----
         Times never decrease. A cycle of positive length is always refused; of zero length only if
         ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
-        Takes time in proportion (but for a logarithm) to what changes.
+        Takes time in proportion (but for a logarithm) to the number of changed times.
         """
 
     def cycle(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Explain the last refusal.
+        Return the cycle that the last refused ``precede(a, b)`` would have closed.
 
         Returns
         -------
         int32[n]
-            The visits on the cycle that the last refused ``precede(a, b)`` would have closed, in order,
-            from ``b`` to the visit after ``a``. The enter of each follows from that of the one before:
-            the same robot goes on, or the robot that leaves as it enters has the right of way. Empty if
-            there was another reason, or no refusal yet.
+            Visits in order, from ``b`` to the visit after ``a``. The enter of each follows from that of
+            the one before: the next visit of the same robot, or of a robot that waits for its leave.
+            Empty if there was another reason, or no refusal yet.
         """
 
     def keep_order(self, when: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
         """
-        Let all visits to a vertex take place in an order, all at once.
+        Give the rights of way of all visits to a vertex in an order, all at once.
 
         Parameters
         ----------
         when : int64[N]
             A number for each visit: of two visits to one vertex the one with the smaller number goes
-            first, of equal ones that with the smaller index. Numbers rise along each route, and nobody
-            has to enter before another one leaves with a greater number. The ticks of a plan, or steps.
+            first, of equal ones that with the smaller index. Numbers rise along each route, and no visit
+            has to wait for a leave with a greater number. The ticks of a plan, or steps.
 
         Returns
         -------
@@ -1077,7 +1007,7 @@ class PrecedenceGraph:
         Parameters
         ----------
         a, b : int
-            Visits of two different robots to the same vertex.
+            As for ``precede``.
 
         Returns
         -------
@@ -1091,74 +1021,27 @@ class PrecedenceGraph:
 
         Notes
         -----
-        All get the earliest times that keep the other rights of way. A rollback gives it again.
-        """
-
-    def flip(self, a: int, b: int) -> bool:
-        """
-        Take the right of way of visit a over visit b and give it to b.
-
-        Parameters
-        ----------
-        a, b : int
-            Visits of two different robots to the same vertex.
-
-        Returns
-        -------
-        bool
-            Whether that was possible. If not, nothing has changed: ``a`` had no right of way over ``b``,
-            or ``b`` can not go before ``a``; see ``precede``.
-
-        Raises
-        ------
-        ValueError
-            As for ``precede``.
+        All visits get the earliest times that keep the other rights of way. A rollback gives it again.
         """
 
     def checkpoint(self) -> int:
         """
-        Return a mark for ``rollback``: how many rights of way were given or taken back and not undone since.
+        Return a mark for ``rollback``: the number of rights of way given or taken back, and not undone since.
         """
 
     def rollback(self, mark: int) -> None:
         """
-        Undo everything since the mark.
-
-        Parameters
-        ----------
-        mark : int
-            What ``checkpoint()`` returned: the number of changes at that time. It can be gone back to any
-            number of times, until a rollback goes below it.
-
-        Raises
-        ------
-        ValueError
-            If there are fewer changes now than at the mark.
+        Undo all changes since a mark (ValueError if a rollback has gone below it).
         """
 
     def withdraw(self, robot: int) -> None:
         """
-        Set a robot aside.
-
-        Parameters
-        ----------
-        robot : int
-            It becomes inactive, and its rights of way are taken back.
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
-
-        Notes
-        -----
-        All others get the earliest times that keep their rights of way. Marks from before can not be gone
-        back to.
+        Make a robot inactive and take back its rights of way; there is no rollback below this.
         """
 
     def rights_of(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way ``(a, b)`` that a robot has, or others have over it, int32[K, 2] (ValueError: no such robot).
+        Return the rights of way ``(a, b)`` of which one is a visit of the robot, int32[K, 2].
         """
 
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:

@@ -128,16 +128,6 @@ class PrecedenceGraph:
         """
         return self._kernel.take_back(first, second)
 
-    def flip(self, first: Visit, second: Visit) -> bool:
-        """Take the right of way of ``first`` over ``second``, and give it to ``second``.
-
-        Returns
-        -------
-        bool
-            False, with nothing changed, if there is none to take or `give_way` finds it impossible.
-        """
-        return self._kernel.flip(first, second)
-
     def deadlocked(self) -> list[int]:
         """Return the robots that the last right of way found impossible would have deadlocked.
 
@@ -184,7 +174,7 @@ class PrecedenceGraph:
         return self._kernel.checkpoint()
 
     def rollback(self, mark: int) -> None:
-        """Undo everything since the mark: rights of way given, taken back, flipped."""
+        """Undo everything since the mark: rights of way given or taken back."""
         self._kernel.rollback(mark)
 
     def withdraw(self, robot: int) -> None:
