@@ -1,156 +1,317 @@
-"""A long stretch of a run, closed to a circle: most of it stays as it was, and costs nothing.
+"""Close a stretch of a simulation to a timetable: some laps of each robot, repeated for ever.
 
-Far from the seam all robots do what they did in the run, so that needs no proof. At the seam each
-waits at home, from its last lap before it until its first lap after it, or makes as many laps more
-as there is room for; laps that end or begin there may be given up for that. Where others pass a
-home while its robot would wait there, that robot has to find its way first, and robots that only
-wait make room for it.
+Two ways, for runs that do not repeat themselves in a reasonable time:
 
-What that costs is less than half a lap of each robot on average, however long the stretch is: no
-robot makes a part of a lap. So the more laps the stretch has, the less it is below the run.
+- By orders (`closed_windows`), for groups in which many windows can be tried. The laps that begin
+  from some tick on and end within a period keep the orders of their visits at each vertex, across
+  the seam as well; the cycle time of these orders is exact. Where robots would wait for each other
+  for ever at the seam, the visits keep their times, and robots that overlap leave out a lap or two.
+- By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their times,
+  which needs no search. At the seam each robot waits at home, from its last lap before to its first
+  lap after, or makes as many more laps as there is room for; laps at the seam may be given up for
+  that. Where others pass a home in that time, its robot searches for a way first.
+
+A seam costs about half a lap of each robot, however long the stretch is: the more laps it has, the
+closer its value is to that of the simulation.
 """
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
-from time import monotonic
+from itertools import pairwise, product, zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.cyclic.problem import CyclicProblem, Work
-from rightofway.cyclic.result import GroupRun
-from rightofway.cyclic.visit_times import VisitTimes
+from rightofway.cyclic.pattern import VisitTimes
+from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
+from rightofway.cyclic.result import GroupResult
+from rightofway.cyclic.warmup import homes_of
 from rightofway.model import Lap, VertexId
 from rightofway.precedence import CyclicSchedule
-from rightofway.search import PeriodicBookings
+from rightofway.search import PeriodicBookings, Seam
 
-__all__ = ["Stretch", "closed", "stretches"]
-
-BEGINNINGS, ENDS = 8, 200
-"""How many beginnings and ends of stretches are looked at."""
-
-LATEST, SHORTEST = 0.1, 0.9
-"""The latest beginning, as a part of the run; the shortest stretch, of the longest one."""
-
-MOST_VISITS = 16_000_000
-"""No stretch has many more: all its visits are kept in memory, and told."""
-
-AROUND = 1.75
-"""How many of the longest laps before and after the seam may change."""
-
-FEWER_LAPS, GIVEN_UP = 4, 3
-"""A robot makes less than so many laps fewer than it could, and gives up less than so many of the
-run on each side of the seam."""
-
-MOST_ROUNDS = 6
-"""How often each robot that is not free to wait looks for its way, on average."""
+__all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stretches"]
 
 
-MOST_SECONDS = 4
-"""And for so long at most: another stretch may be closed sooner."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosingParams:
+    """Which stretches are considered, and how much may change at a seam."""
+
+    # Windows are compared within each of these ranges of lengths, in longest laps.
+    window_lengths: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64, 128, 256)
+    # At how many ticks windows of each length begin.
+    window_begins: int = 32
+    # How many windows of each length are closed because of the value of their laps.
+    most_by_value: int = 12
+    # How many are closed because robots wait least at their ends.
+    most_by_calm: int = 4
+    # Longer windows are not considered.
+    most_window_visits: int = 200_000
+    # How many laps a robot may lose where visits at the seam of a window overlap.
+    most_left_out: int = 3
+    # At how many ticks long stretches begin.
+    stretch_begins: int = 8
+    # How many ends of a long stretch are considered for each beginning.
+    stretch_ends: int = 200
+    # The latest beginning of a long stretch, as a part of the simulation.
+    latest_begin: float = 0.1
+    # The shortest long stretch, as a part of the longest one.
+    shortest: float = 0.9
+    # Longer stretches are cut to about so many visits, all of which are kept in memory.
+    most_stretch_visits: int = 16_000_000
+    # The visits this many longest laps before and after the seam may change.
+    around: float = 1.75
+    # A robot makes less than so many laps fewer at the seam than it has time for.
+    fewer_laps: int = 4
+    # A robot gives up less than so many laps on each side of the seam.
+    given_up: int = 3
+    # How often each robot that cannot wait at home searches for a way, on average.
+    rounds: int = 6
+
+
+DEFAULT = ClosingParams()
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Stretch:
-    """A stretch of a run: what its laps may be worth per tick, its first tick, and its length."""
+    """A stretch of a simulation.
 
-    value: float
+    Attributes
+    ----------
+    begins
+        Its first tick.
+    period
+        Its length [ticks].
+    """
+
     begins: int
     period: int
 
 
-def stretches(shift: CyclicProblem, run: GroupRun) -> list[Stretch]:
-    """Return stretches of a run, the best first; none if the run is too short.
+def _first_lap(home: NDArray[np.int64], begins: int) -> int:
+    """Return the first lap that begins from a tick on; never lap 0."""
+    return max(int(np.searchsorted(home, begins)), 1)
 
-    Parameters
-    ----------
-    shift
-        What laps are worth.
-    run
-        What native rules do, so that it has a `VisitTimes` of each robot.
+
+# --- Closing by orders ---
+
+
+def closed_windows(
+    problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
+) -> Iterator[Candidate]:
+    """Yield timetables cut out of a simulation, until all windows are tried or time is over."""
+    routes, homes = run.context.routes, homes_of(run.context.routes, run.history)
+    for window in _promising(problem, run, homes, params):
+        if problem.is_out_of_time:
+            return
+        parts = []
+        for route, past, home in zip(routes, run.history, homes, strict=True):
+            first = _first_lap(home, window.begins)
+            last = int(np.searchsorted(home, home[first] + window.period, side="right")) - 1
+            visits = past[first * len(route) : last * len(route) + 1]
+            enter = np.array(visits, np.int64) - window.begins
+            parts.append(_Laps(route.lap, last - first, enter))
+        found = _closed_by_orders(problem, parts, window.period, params)
+        if found is not None:
+            yield found
+
+
+def _promising(
+    problem: CyclicProblem,
+    run: GroupResult,
+    homes: Sequence[NDArray[np.int64]],
+    params: ClosingParams,
+) -> list[Stretch]:
+    """Return windows of all lengths: the best of each length, then the second best, and so on."""
+    longest, known = max(problem.alone), min(int(home[-1]) for home in homes)
+    ranked: list[list[Stretch]] = []
+    for least, most in pairwise(length * longest for length in params.window_lengths):
+        latest = known - least
+        if latest <= longest:
+            break
+        ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
+        best = [
+            found
+            for begins in ticks
+            if (found := _best_ends(problem, run, homes, begins, least, most, known, params))
+        ]
+        for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
+            in_order = sorted((ends[score] for ends in best), key=lambda found: -found[0])
+            ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
+    in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
+    return list(dict.fromkeys(in_turn))
+
+
+def _best_ends(
+    problem: CyclicProblem,
+    run: GroupResult,
+    homes: Sequence[NDArray[np.int64]],
+    begins: int,
+    least: int,
+    most: int,
+    known: int,
+    params: ClosingParams,
+) -> list[tuple[float, Stretch]]:
+    """Return the best windows from a tick on that end when a robot is home, with their scores.
+
+    One for the value of laps per tick, and one for the least time that robots wait at home for the
+    end of the window (a score of at most 0). Empty if no end is known, long and short enough.
     """
-    known = max(past[-1] for past in run.history)
-    longest = max(endless.lap.duration for endless in run.group)
-    per_tick = sum(map(len, run.history)) / max(known, 1)
-    homes = _homes(run)
+    laps = [home[_first_lap(home, begins) :] for home in homes]
+    ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
+    every = max((int(part[0]) if len(part) else most + 1 for part in ends_of), default=most + 1)
+    ends, sizes = np.concatenate(ends_of), [len(part) for part in ends_of]
+    order = np.argsort(ends, kind="stable")
+    visits = np.repeat([len(route) for route in run.context.routes], sizes)[order]
+    weights = np.repeat([float(weight) for weight in problem.weights], sizes)[order]
+    lasted = np.concatenate([part - np.append(0, part[:-1]) for part in ends_of])[order]
+    ends = ends[order]
+    fit = (ends >= max(least, every)) & (ends <= known - begins)
+    fit &= np.cumsum(visits) <= params.most_window_visits
+    if not fit.any():
+        return []
     found = []
-    beginnings = np.linspace(longest, max(LATEST * known, longest), BEGINNINGS)
-    for begins in np.unique(beginnings.astype(np.int64)).tolist():
-        most = min(known - begins, int(MOST_VISITS / per_tick))
-        least = max(int(SHORTEST * most), int(2 * AROUND * longest) + 1)
+    for score in (np.cumsum(weights) / ends, np.cumsum(lasted) / ends - len(ends_of)):
+        best = int(np.argmax(np.where(fit, score, -np.inf)))
+        found.append((float(score[best]), Stretch(begins, int(ends[best]))))
+    return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Laps:
+    """Some laps of a simulation: the enters of their visits and of the visit home after them."""
+
+    lap: Lap
+    count: int
+    enter: NDArray[np.int64]
+
+    def cycle(self, period: int, *, early: bool = True) -> RobotCycle:
+        """Return the laps in a period, home as early as at their end, or as late as before them."""
+        enter = self.enter[:-1].copy()
+        if early:
+            enter[0] = self.enter[-1] - period
+        return RobotCycle(self.lap, self.count, enter - enter[0] // period * period)
+
+    def without(self, head: int, tail: int) -> _Laps:
+        """Return the same without some laps at the beginning and at the end."""
+        n, count = len(self.lap), self.count - head - tail
+        return _Laps(self.lap, count, self.enter[head * n : (head + count) * n + 1])
+
+
+def _closed_by_orders(
+    problem: CyclicProblem, parts: Sequence[_Laps], period: int, params: ClosingParams
+) -> Candidate | None:
+    """Return the timetable of a window; None if a robot finds no place."""
+    for early in (True, False):
+        cycles = [part.cycle(period, early=early) for part in parts]
+        in_order = problem.candidate_of_orders(problem.timetable(cycles, period))
+        if in_order is not None:
+            return in_order
+    bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
+    # Robots whose homes others pass cannot wait there as long as they like: they come first.
+    users = Counter(vertex for part in parts for vertex in set(part.lap.vertices))
+    for robot in sorted(range(len(parts)), key=lambda one: -users[parts[one].lap.vertices[0]]):
+        cycle = _without_overlap(bookings, robot, parts[robot], period, params)
+        if cycle is None:
+            return None
+        placed[robot] = cycle
+    cycles = [placed[robot] for robot in range(len(parts))]
+    return problem.candidate_of_orders(problem.timetable(cycles, period))
+
+
+def _without_overlap(
+    bookings: PeriodicBookings, robot: int, part: _Laps, period: int, params: ClosingParams
+) -> RobotCycle | None:
+    """Leave out laps at the seam until a robot overlaps no other one, and book it."""
+    for less in range(min(params.most_left_out + 1, part.count)):
+        for head, early in product(range(less + 1), (True, False)):
+            cycle = part.without(head, less - head).cycle(period, early=early)
+            if bookings.add_if_free(robot, cycle.lap, cycle.count, cycle.enter):
+                return cycle
+    return None
+
+
+# --- Closing by a seam ---
+
+
+def stretches(
+    problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
+) -> list[tuple[float, Stretch]]:
+    """Return long stretches of a simulation with an upper bound on their values, the best first."""
+    known, longest = max(past[-1] for past in run.history), run.context.longest
+    visits_per_tick = sum(map(len, run.history)) / max(known, 1)
+    homes = homes_of(run.context.routes, run.history)
+    found = []
+    latest = max(params.latest_begin * known, longest)
+    ticks = np.linspace(longest, latest, params.stretch_begins).astype(np.int64)
+    for begins in np.unique(ticks).tolist():
+        most = min(known - begins, int(params.most_stretch_visits / visits_per_tick))
+        least = max(int(params.shortest * most), int(2 * params.around * longest) + 1)
         if least <= most:
-            periods = np.unique(np.linspace(least, most, ENDS).astype(np.int64))
-            values = _values(shift, run, homes, begins, periods)
+            periods = np.unique(np.linspace(least, most, params.stretch_ends).astype(np.int64))
+            values = _values(problem, run, homes, begins, periods)
             best = int(np.argmax(values))
-            found.append(Stretch(float(values[best]), begins, int(periods[best])))
-    return sorted((one for one in found if one.value > 0), reverse=True)
-
-
-def _homes(run: GroupRun) -> list[NDArray[np.int64]]:
-    """Return for each robot when it came home; at first it is there."""
-    return [
-        np.asarray(past[:: len(endless.lap)], np.int64)
-        for past, endless in zip(run.history, run.group, strict=True)
-    ]
+            found.append((float(values[best]), Stretch(begins, int(periods[best]))))
+    return sorted((one for one in found if one[0] > 0), reverse=True)
 
 
 def _values(
-    shift: CyclicProblem,
-    run: GroupRun,
+    problem: CyclicProblem,
+    run: GroupResult,
     homes: Sequence[NDArray[np.int64]],
     begins: int,
     periods: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """Return what laps are worth per tick, if each robot makes as many as it has time for."""
+    """Return the value of laps per tick if each robot makes as many as it has time for."""
     worth = np.zeros(len(periods))
-    for weight, endless, home in zip(shift.weights, run.group, homes, strict=True):
-        first = _first(home, begins)
+    for weight, lap, home in zip(problem.weights, run.context.laps, homes, strict=True):
+        first = _first_lap(home, begins)
         if first >= len(home):
             return worth * 0
         last = np.searchsorted(home, begins + periods, side="right") - 1
-        more = (home[first] + periods - home[last]) // int(endless.lap.duration)
+        more = (home[first] + periods - home[last]) // int(lap.duration)
         laps = np.where(last >= first, last - first + more, 0)
         worth += np.where(laps > 0, float(weight) * laps, -np.inf)
     return np.maximum(worth, 0) / periods
 
 
-def _first(home: NDArray[np.int64], begins: int) -> int:
-    """Return the first lap that begins from a tick on; never the very first one."""
-    return max(int(np.searchsorted(home, begins)), 1)
+def close_stretch(
+    problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams = DEFAULT
+) -> CyclicSchedule | None:
+    """Return the timetable of a long stretch; None if a robot finds no way through the seam.
 
-
-def closed(shift: CyclicProblem, run: GroupRun, stretch: Stretch) -> CyclicSchedule | None:
-    """Return the timetable of a stretch; None if some robot finds no way through the seam."""
-    around = int(AROUND * max(endless.lap.duration for endless in run.group))
+    The simulation must be by a native rule, so that its history consists of `VisitTimes`.
+    """
+    around = int(params.around * run.context.longest)
     if 2 * around >= stretch.period:
         return None
-    closing = _Closing(shift, run, stretch, around)
-    if not closing.let_all_through():
+    closing = _SeamClosing(problem, run, stretch, around, params)
+    if not closing.connect_all():
         return None
     closing.add_laps()
-    works = [closing.work(place) for place in range(len(run.group))]
-    return shift.timetable(works, stretch.period) if all(work.count for work in works) else None
+    cycles = [closing.cycle(robot) for robot in range(len(run.context))]
+    if not all(cycle.count for cycle in cycles):
+        return None
+    return problem.timetable(cycles, stretch.period)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Part:
-    """What one robot keeps of the run, and how it gets through the seam.
+class _Kept:
+    """The laps that one robot keeps of the simulation, and its way through the seam.
 
     Attributes
     ----------
     lap, past, home
-        What it repeats, when its visits began, and when it came home.
+        Its lap, the enters of its visits, and those of its visits home.
     period
-        How long the circle is [ticks].
+        The length of the stretch [ticks].
     first, last
-        The first lap that it keeps, and the one before which it stops.
+        The first lap that it keeps, and the lap before which it stops.
     through
-        When the visits of the laps that it makes at the seam begin, with the one home after them;
-        None if that is not known.
+        The enters of the visits at the seam, from home to home; None if not known yet.
     """
 
     lap: Lap
@@ -163,167 +324,172 @@ class _Part:
 
     @property
     def begins(self) -> int:
-        """When it comes home before the seam."""
+        """When the robot comes home before the seam."""
         return int(self.home[self.last])
 
     @property
     def until(self) -> int:
-        """By when it has to be home after it."""
+        """By when it must be home after the seam."""
         return int(self.home[self.first]) + self.period
 
     @property
     def leave(self) -> int:
-        """When it sets out from there."""
+        """When it leaves home after the seam."""
         return self.past[self.first * len(self.lap) + 1] + self.period
 
     @property
-    def more(self) -> int:
+    def n_through(self) -> int:
         """How many laps it makes at the seam."""
         return 0 if self.through is None else len(self.through) // len(self.lap)
 
     @property
-    def laps(self) -> int:
-        """How many laps it makes in a period."""
-        return self.last - self.first + self.more
+    def n_kept(self) -> int:
+        """How many laps it keeps."""
+        return self.last - self.first
 
     @property
     def most(self) -> int:
-        """How many laps it has time for."""
-        return self.last - self.first + (self.until - self.begins) // int(self.lap.duration)
+        """How many laps it has time for in a period."""
+        return self.n_kept + (self.until - self.begins) // int(self.lap.duration)
 
 
-class _Closing:
+class _SeamClosing:
     """All robots around the seam of one stretch."""
 
-    def __init__(self, shift: CyclicProblem, run: GroupRun, stretch: Stretch, around: int) -> None:
-        self._period = stretch.period
+    def __init__(
+        self,
+        problem: CyclicProblem,
+        run: GroupResult,
+        stretch: Stretch,
+        around: int,
+        params: ClosingParams,
+    ) -> None:
+        self._problem, self._params, self._period = problem, params, stretch.period
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
-        self._seam = PeriodicBookings(
-            shift.n_vertices, None, headway=shift.headway, books_ahead=shift.books_ahead
+        context = run.context
+        self._seam = Seam(
+            context.scenario.roadmap.n_vertices,
+            headway=context.headway,
+            books_ahead=context.books_ahead,
         )
-        rows = zip(run.group, run.history, _homes(run), strict=True)
-        self._parts = [
-            _Part(
-                lap=endless.lap,
-                past=past,
-                home=home,
-                period=stretch.period,
-                first=_first(home, stretch.begins),
-                last=int(np.searchsorted(home, seam, side="right")) - 1,
-            )
-            for endless, past, home in rows
-            if isinstance(past, VisitTimes)
-        ]
-        for place, part in enumerate(self._parts):
-            self._keep(place, part)
+        self._kept: list[_Kept] = []
+        homes = homes_of(context.routes, run.history)
+        for robot, (lap, past, home) in enumerate(zip(context.laps, run.history, homes, strict=True)):
+            assert isinstance(past, VisitTimes), "native rules have these"
+            first = _first_lap(home, stretch.begins)
+            last = int(np.searchsorted(home, seam, side="right")) - 1
+            self._kept.append(_Kept(lap, past, home, stretch.period, first, last))
+            self._book_kept(robot)
 
-    def let_all_through(self) -> bool:
+    def connect_all(self) -> bool:
         """Let robots wait at home, or make laps where they cannot; tell whether all can."""
-        queue = deque(place for place in range(len(self._parts)) if not self._waits(place))
-        end = monotonic() + MOST_SECONDS
-        for _ in range(MOST_ROUNDS * len(queue) + len(self._parts)):
-            if not queue or monotonic() > end:
+        queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
+        for _ in range(self._params.rounds * len(queue) + len(self._kept)):
+            if not queue or self._problem.is_out_of_time:
                 break
-            place = queue.popleft()
-            near = self._find(place, self._tries(place))
-            if near is None:
+            robot = queue.popleft()
+            blocking = self._connect(robot, self._choices(robot))
+            if blocking is None:
                 continue
-            waiting = sorted(near)
-            for one in waiting:
-                self._put(one, replace(self._parts[one], through=None))
-            queue.extend(waiting)
-            if self._find(place, self._tries(place)) is not None:
-                queue.append(place)
+            for one in sorted(blocking):
+                self._book(one, replace(self._kept[one], through=None))
+            queue.extend(sorted(blocking))
+            if self._connect(robot, self._choices(robot)) is not None:
+                queue.append(robot)
         return not queue
 
     def add_laps(self) -> None:
-        """Let all make as many laps as there is room for, those with short ones first."""
-        for place in sorted(range(len(self._parts)), key=lambda k: self._parts[k].lap.duration):
-            laps = self._parts[place].laps
-            tries = self._tries(place)
-            self._find(place, (one for one in tries if one[0].last - one[0].first + one[1] > laps))
+        """Let all robots make as many laps as there is room for, those with short laps first."""
+        for robot in sorted(range(len(self._kept)), key=lambda one: self._kept[one].lap.duration):
+            if self._problem.is_out_of_time:
+                break
+            n_laps = self._kept[robot].n_kept + self._kept[robot].n_through
+            choices = self._choices(robot)
+            self._connect(robot, (one for one in choices if one[0].n_kept + one[1] > n_laps))
 
-    def work(self, place: int) -> Work:
+    def cycle(self, robot: int) -> RobotCycle:
         """Return what a robot does in a period."""
-        part, n = self._parts[place], len(self._parts[place].lap)
-        assert part.through is not None, "all have found their way"
-        kept = part.past.enters(range(part.first * n, part.last * n))
-        enter = np.concatenate((kept, part.through[:-1]))
-        enter[0] = part.through[-1] - self._period
-        return Work(part.lap, part.laps, enter - enter[0] // self._period * self._period)
+        kept, n = self._kept[robot], len(self._kept[robot].lap)
+        assert kept.through is not None, "all robots are connected"
+        visits = kept.past.enters(range(kept.first * n, kept.last * n))
+        enter = np.concatenate((visits, kept.through[:-1]))
+        enter[0] = kept.through[-1] - self._period
+        enter -= enter[0] // self._period * self._period
+        return RobotCycle(kept.lap, kept.n_kept + kept.n_through, enter)
 
-    def _waits(self, place: int) -> bool:
-        """Let a robot wait at home, and tell whether nobody passes there."""
-        part = self._parts[place]
-        there = self._seam.connect(part.lap, 0, part.begins, part.until, part.leave)
-        self._parts[place] = part = replace(part, through=there)
-        self._book_through(place, part)
-        return there is not None
+    def _waits_at_home(self, robot: int) -> bool:
+        """Let a robot wait at home, and tell whether no other robot passes there."""
+        kept = self._kept[robot]
+        through = self._seam.connect(kept.lap, 0, kept.begins, kept.until, kept.leave)
+        self._kept[robot] = replace(kept, through=through)
+        self._book_through(robot)
+        return through is not None
 
-    def _tries(self, place: int) -> Iterator[tuple[_Part, int]]:
-        """Yield what a robot may keep, and how many laps it makes at the seam then: most first."""
-        part = replace(self._parts[place], through=None)
-        for fewer in range(FEWER_LAPS):
-            for later, sooner in sorted(product(range(GIVEN_UP), repeat=2), key=sum):
-                less = replace(part, first=part.first + later, last=part.last - sooner)
-                more = part.most - fewer - (less.last - less.first)
-                inside = less.first <= less.last and more >= 0
+    def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
+        """Yield what a robot may keep, and how many laps it makes at the seam: most first."""
+        kept, params = replace(self._kept[robot], through=None), self._params
+        given_up = sorted(product(range(params.given_up), repeat=2), key=sum)
+        for fewer in range(params.fewer_laps):
+            for later, sooner in given_up:
+                less = replace(kept, first=kept.first + later, last=kept.last - sooner)
+                n_through = kept.most - fewer - less.n_kept
+                inside = less.n_kept >= 0 and n_through >= 0
                 if inside and self._from <= less.begins and less.until <= self._to:
-                    yield less, more
+                    yield less, n_through
 
-    def _find(self, place: int, tries: Iterator[tuple[_Part, int]]) -> set[int] | None:
-        """Find a robot its way through the seam; if it finds none, return who was in its way."""
-        before, near = self._parts[place], set[int]()
-        self._seam.remove(place)  # what it keeps is never in its own way
-        for part, more in tries:
-            found = self._seam.connect(part.lap, more, part.begins, part.until, part.leave)
-            if found is not None:
-                self._put(place, replace(part, through=found))
+    def _connect(self, robot: int, choices: Iterator[tuple[_Kept, int]]) -> set[int] | None:
+        """Find a robot's way through the seam; if there is none, return the robots in its way."""
+        before, blocking = self._kept[robot], set[int]()
+        self._seam.remove(robot, before.lap)  # what it keeps is never in its own way
+        for kept, n_through in choices:
+            through = self._seam.connect(
+                kept.lap, n_through, kept.begins, kept.until, kept.leave
+            )
+            if through is not None:
+                self._book(robot, replace(kept, through=through))
                 return None
-            vertex = self._seam.stuck_at(part.lap)
-            near |= self._waiting(vertex, self._seam.users([vertex], part.begins, part.leave))
-        self._put(place, before)
-        return near - {place}
+            blocking |= self._movable(*self._seam.stuck(kept.lap, kept.begins, kept.leave))
+        self._book(robot, before)
+        return blocking - {robot}
 
-    def _waiting(self, vertex: VertexId, users: set[int]) -> set[int]:
-        """Return who may make room at a place: who waits at home there, or makes laps past it."""
-        parts = ((place, self._parts[place]) for place in users)
+    def _movable(self, vertex: VertexId, users: set[int]) -> set[int]:
+        """Return the users of a vertex that wait at home there, or pass it at the seam."""
+        rows = ((robot, self._kept[robot]) for robot in users)
         return {
-            place
-            for place, part in parts
-            if part.through is not None and (part.more or part.lap.vertices[0] == vertex)
+            robot
+            for robot, kept in rows
+            if kept.through is not None and (kept.n_through or kept.lap.vertices[0] == vertex)
         }
 
-    def _put(self, place: int, part: _Part) -> None:
-        """Book a robot anew."""
-        self._parts[place] = part
-        self._seam.remove(place)
-        self._keep(place, part)
-        self._book_through(place, part)
+    def _book(self, robot: int, kept: _Kept) -> None:
+        """Replace all bookings of a robot."""
+        self._kept[robot] = kept
+        self._seam.remove(robot, kept.lap)
+        self._book_kept(robot)
+        self._book_through(robot)
 
-    def _keep(self, place: int, part: _Part) -> None:
-        """Book what a robot keeps of the run, as far as it is around the seam."""
-        n = len(part.lap)
-        first = max(int(np.searchsorted(part.home, self._from)) - 1, part.first)
-        last = min(int(np.searchsorted(part.home, self._to - self._period)), part.last)
-        before = range(first * n, part.last * n)
-        after = range(part.first * n + 1, last * n)
+    def _book_kept(self, robot: int) -> None:
+        """Book the laps that a robot keeps, as far as they are around the seam."""
+        kept, n = self._kept[robot], len(self._kept[robot].lap)
+        first = max(int(np.searchsorted(kept.home, self._from)) - 1, kept.first)
+        last = min(int(np.searchsorted(kept.home, self._to - self._period)), kept.last)
+        before = range(first * n, kept.last * n)
+        after = range(kept.first * n + 1, last * n)
         for visits, later in ((before, 0), (after, self._period)):
             if visits:
-                enter = part.past.enters(range(visits.start, visits.stop + 1)) + later
-                self._seam.add_visits(place, part.lap, visits, enter[:-1], int(enter[-1]))
+                enter = kept.past.enters(range(visits.start, visits.stop + 1)) + later
+                self._seam.add(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
 
-    def _book_through(self, place: int, part: _Part) -> None:
-        """Book its way through the seam; if that is not known yet, both times that it is home."""
-        home = np.array([part.begins, part.until])
-        if part.through is not None:
-            visits = range(len(part.through))
-            self._seam.add_visits(place, part.lap, visits, part.through, part.leave)
-        elif part.begins + part.lap.least(0) < part.until:
-            self._seam.add_visits(
-                place, part.lap, range(1), home[:1], part.begins + part.lap.least(0)
-            )
-            self._seam.add_visits(place, part.lap, range(1), home[1:], part.leave)
+    def _book_through(self, robot: int) -> None:
+        """Book the way through the seam; if it is not known yet, both times at home."""
+        kept = self._kept[robot]
+        home, leave = np.array([kept.begins, kept.until]), kept.begins + kept.lap.least(0)
+        if kept.through is not None:
+            visits = range(len(kept.through))
+            self._seam.add(robot, kept.lap, visits, kept.through, kept.leave)
+        elif leave < kept.until:
+            self._seam.add(robot, kept.lap, range(1), home[:1], leave)
+            self._seam.add(robot, kept.lap, range(1), home[1:], kept.leave)
         else:
-            self._seam.add_visits(place, part.lap, range(1), home[:1], part.leave)
+            self._seam.add(robot, kept.lap, range(1), home[:1], kept.leave)
