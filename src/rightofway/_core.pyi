@@ -52,7 +52,7 @@ class PeriodicBookings:
         The last visit that the latest search could enter; it got stuck at the next.
         """
 
-    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> None:
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> bool:
         """
         Book consecutive visits of a robot.
 
@@ -71,11 +71,16 @@ class PeriodicBookings:
         leave : int or None
             When the last one ends; None with a period: when the first one comes again. [ticks]
 
+        Returns
+        -------
+        bool
+            With a period, whether no booking overlaps another robot's; otherwise nothing is booked.
+
         Raises
         ------
         ValueError
-            If the arrays do not fit together; with a period also if the robot has bookings already, or a
-            booking overlaps another robot's. Then nothing is booked.
+            If the arrays do not fit together; with a period also if the robot has bookings already. Then
+            nothing is booked.
 
         Notes
         -----
@@ -382,7 +387,7 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
     length : int64[M]
         How long after its tail the head of each comes at least, not negative. [ticks]
     height : int32[M]
-        How many periods later; may be negative, as long as the height of no circuit is.
+        How many periods later; may be negative.
     time_limit : float or None
         After so many seconds the search stops.
 
@@ -390,13 +395,13 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
     -------
     tuple of (int, int, int32[n]) or None
         Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
-        in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+        in order; 0, 1 and no arcs if every circuit has length 0. Height 0 if the events of the
+        circuit wait for each other for ever. None if time ran out.
 
     Raises
     ------
     ValueError
-        If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
-        lengths times all heights is beyond 2^58.
+        If the arrays do not fit together, or all lengths times all heights is beyond 2^58.
 
     Notes
     -----

@@ -31,7 +31,7 @@ from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.warmup import homes_of
 from rightofway.model import Lap, VertexId
 from rightofway.precedence import CyclicSchedule
-from rightofway.search import PeriodicBookings, Seam
+from rightofway.search import PeriodicBookings
 
 __all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stretches"]
 
@@ -368,14 +368,17 @@ class _SeamClosing:
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
         context = run.context
-        self._seam = Seam(
+        self._seam = PeriodicBookings(
             context.scenario.roadmap.n_vertices,
+            None,
             headway=context.headway,
             books_ahead=context.books_ahead,
         )
         self._kept: list[_Kept] = []
         homes = homes_of(context.routes, run.history)
-        for robot, (lap, past, home) in enumerate(zip(context.laps, run.history, homes, strict=True)):
+        for robot, (lap, past, home) in enumerate(
+            zip(context.laps, run.history, homes, strict=True)
+        ):
             assert isinstance(past, VisitTimes), "native rules have these"
             first = _first_lap(home, stretch.begins)
             last = int(np.searchsorted(home, seam, side="right")) - 1
@@ -441,15 +444,15 @@ class _SeamClosing:
     def _connect(self, robot: int, choices: Iterator[tuple[_Kept, int]]) -> set[int] | None:
         """Find a robot's way through the seam; if there is none, return the robots in its way."""
         before, blocking = self._kept[robot], set[int]()
-        self._seam.remove(robot, before.lap)  # what it keeps is never in its own way
+        self._seam.remove(robot)  # what it keeps is never in its own way
         for kept, n_through in choices:
-            through = self._seam.connect(
-                kept.lap, n_through, kept.begins, kept.until, kept.leave
-            )
+            through = self._seam.connect(kept.lap, n_through, kept.begins, kept.until, kept.leave)
             if through is not None:
                 self._book(robot, replace(kept, through=through))
                 return None
-            blocking |= self._movable(*self._seam.stuck(kept.lap, kept.begins, kept.leave))
+            vertex = self._seam.stuck_at(kept.lap)
+            users = self._seam.users([vertex], kept.begins, kept.leave)
+            blocking |= self._movable(vertex, users)
         self._book(robot, before)
         return blocking - {robot}
 
@@ -465,7 +468,7 @@ class _SeamClosing:
     def _book(self, robot: int, kept: _Kept) -> None:
         """Replace all bookings of a robot."""
         self._kept[robot] = kept
-        self._seam.remove(robot, kept.lap)
+        self._seam.remove(robot)
         self._book_kept(robot)
         self._book_through(robot)
 
@@ -479,7 +482,7 @@ class _SeamClosing:
         for visits, later in ((before, 0), (after, self._period)):
             if visits:
                 enter = kept.past.enters(range(visits.start, visits.stop + 1)) + later
-                self._seam.add(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
+                self._seam.add_visits(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
 
     def _book_through(self, robot: int) -> None:
         """Book the way through the seam; if it is not known yet, both times at home."""
@@ -487,9 +490,9 @@ class _SeamClosing:
         home, leave = np.array([kept.begins, kept.until]), kept.begins + kept.lap.least(0)
         if kept.through is not None:
             visits = range(len(kept.through))
-            self._seam.add(robot, kept.lap, visits, kept.through, kept.leave)
+            self._seam.add_visits(robot, kept.lap, visits, kept.through, kept.leave)
         elif leave < kept.until:
-            self._seam.add(robot, kept.lap, range(1), home[:1], leave)
-            self._seam.add(robot, kept.lap, range(1), home[1:], kept.leave)
+            self._seam.add_visits(robot, kept.lap, range(1), home[:1], leave)
+            self._seam.add_visits(robot, kept.lap, range(1), home[1:], kept.leave)
         else:
-            self._seam.add(robot, kept.lap, range(1), home[:1], kept.leave)
+            self._seam.add_visits(robot, kept.lap, range(1), home[:1], kept.leave)

@@ -89,7 +89,7 @@ class SimulatedRun:
         self._seconds = self.pace = 0.0
         self.known = 0
         self.result = advance(self._simulation, Deadline.after(0))
-        self.value = Fraction(0)
+        self._value: Fraction | None = None
 
     def try_rule(self, rule: str) -> None:
         """Simulate for a short time, first come first served at first."""
@@ -108,7 +108,7 @@ class SimulatedRun:
             self.known = max(past[-1] for past in self.result.history)
             self.pace = (self.known - before) / max(seconds, self._params.least_look)
             self._seconds += seconds
-            self.value = self._value()
+            self._value = None
 
     def advance_laps(self, laps: float, least: float, most: float) -> None:
         """Continue for some of the longest laps, in at least and at most so much time [s]."""
@@ -119,15 +119,17 @@ class SimulatedRun:
             self.advance(max(most * self._params.look_every, look))
         self.pace = (self.known - before) / max(self._seconds - began, look)
 
-    def _value(self) -> Fraction:
-        """Return the value of laps per tick; 0 if a robot makes none, or an unfair number."""
-        problem, result = self._problem, self.result
-        means = result.mean_laps() if result.ends != "deadlock" else (None,)
-        if None in means:
-            return Fraction(0)
-        parts = (alone / mean for alone, mean in zip(problem.alone, means, strict=True) if mean)
-        is_fair = min(parts) >= problem.least_fairness
-        return result.rate(problem.weights) if is_fair else Fraction(0)
+    @property
+    def value(self) -> Fraction:
+        """The value of laps per tick; 0 if a robot makes none, or an unfair number."""
+        if self._value is None:
+            self._value, problem, result = Fraction(0), self._problem, self.result
+            means = result.mean_laps() if result.ends != "deadlock" else (None,)
+            if None not in means:
+                rows = zip(problem.alone, means, strict=True)
+                if min(alone / mean for alone, mean in rows if mean) >= problem.least_fairness:
+                    self._value = result.rate(problem.weights)
+        return self._value
 
 
 def seconds_left(problem: CyclicProblem) -> float:

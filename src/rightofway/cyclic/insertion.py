@@ -80,7 +80,8 @@ def _placed(
         while cycle is None:
             lap = problem.draw.choice(problem.ways[robot])
             bookings.search(lap, 1, problem.draw.randrange(int(bookings.period)))
-            near = sorted(bookings.in_the_way(lap) & cycles.keys()) or sorted(bookings.along(lap))
+            near = sorted(bookings.users([bookings.stuck_at(lap)]) & cycles.keys())
+            near = near or sorted(bookings.users(lap.vertices))
             if not near:
                 return None
             removed = problem.draw.choice(near)
@@ -93,9 +94,7 @@ def _placed(
     return None if queue else (bookings, [cycles[robot] for robot in range(len(problem))])
 
 
-def fill(
-    problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotCycle]
-) -> Candidate:
+def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotCycle]) -> Candidate:
     """Add laps as long as there is room, first for the robot with the least share of its own laps."""
     turns = [
         (cycle.count * alone, robot)

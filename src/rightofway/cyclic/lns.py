@@ -81,9 +81,7 @@ def improve(
     return best
 
 
-def insert_laps(
-    problem: CyclicProblem, candidate: Candidate, params: LnsParams
-) -> Candidate:
+def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate:
     """Return a timetable with at least as many laps, in a period that is not longer.
 
     In each of many small steps, a robot is to make one lap more, or as many as before; it and some
@@ -98,7 +96,7 @@ def insert_laps(
         count = cycles[robot].count + (draw.randrange(params.moves_every) > 0)
         if count * problem.alone[robot] > bookings.period:
             continue
-        near = sorted(bookings.along(cycles[robot].lap) - {robot})
+        near = sorted(bookings.users(cycles[robot].lap.vertices) - {robot})
         others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
         before = {one: cycles[one] for one in (robot, *others)}
         for one in before:

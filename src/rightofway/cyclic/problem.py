@@ -162,9 +162,7 @@ class CyclicProblem:
     def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of a timetable under the rules of the scenario."""
         context = self.context
-        return TimedEventGraph(
-            timetable, headway=context.headway, books_ahead=context.books_ahead
-        )
+        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
 
     def timetable(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
         """Join the cycles of all robots to a timetable."""
@@ -224,11 +222,13 @@ class CyclicProblem:
             return None
         phase = self.draw.randrange(int(bookings.period))
         seconds = self.deadline.seconds_left()
-        way_found = bookings.find_way(self.round_trips[robot], phase, time_limit=seconds)
+        way_found = bookings.find_route(self.round_trips[robot], phase, time_limit=seconds)
         if way_found is None:
             return None
         new_lap, enter = way_found
-        return RobotCycle(new_lap, 1, enter) if count == 1 else self._search(bookings, new_lap, count)
+        return (
+            RobotCycle(new_lap, 1, enter) if count == 1 else self._search(bookings, new_lap, count)
+        )
 
     def _search(self, bookings: PeriodicBookings, lap: Lap, count: int) -> RobotCycle | None:
         phase = self.draw.randrange(int(bookings.period))

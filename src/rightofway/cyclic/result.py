@@ -134,9 +134,7 @@ class GroupResult:
         timetable, context = self.timetable, self.context
         if timetable is None:
             return None
-        return TimedEventGraph(
-            timetable, headway=context.headway, books_ahead=context.books_ahead
-        )
+        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
 
     def bottleneck(self) -> Bottleneck | None:
         """Return the critical circuit of `graph`; None without one."""

@@ -56,7 +56,11 @@ def start(
     def visits_while_waiting(begins: int) -> int:
         """Return how many visits others make to homes whose robots still wait there."""
         return sum(
-            int(np.count_nonzero((ticks - begins) % period < _first_home(timetable, robot, begins)[1]))
+            int(
+                np.count_nonzero(
+                    (ticks - begins) % period < _first_home(timetable, robot, begins)[1]
+                )
+            )
             for robot, ticks in passes.items()
         )
 

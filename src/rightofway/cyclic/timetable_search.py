@@ -310,9 +310,7 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
     return [max(pair, key=problem.value) for pair in zip(kept, filled, strict=True)]
 
 
-def _built(
-    problem: CyclicProblem, rounds: int | None, params: ChoiceParams
-) -> list[Candidate]:
+def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
     """Return the best of many timetables, built by insertion for various periods."""
     is_small = len(problem) <= params.many
     building = problem.sooner(params.building_share if is_small else params.filling_share)

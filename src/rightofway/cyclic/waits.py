@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
-from rightofway.model import Tick, VertexId
+from rightofway.model import NEVER, Tick, VertexId
 
 __all__ = ["LapWait", "waits_in_first_laps", "waits_in_period"]
 
@@ -85,7 +85,7 @@ def _waits(
     seen: Sequence[range],
     asked: Sequence[range],
     begins: int = 0,
-    period: int = 2**62,
+    period: int = NEVER,
 ) -> tuple[LapWait, ...]:
     """Return the waits before visits asked for, for robots whose visits are seen."""
     late: list[tuple[int, VertexId, int, int, int]] = []

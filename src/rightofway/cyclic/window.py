@@ -82,10 +82,12 @@ class Window:
         self.prefix = prefix
         self.begins = max(prefix.tick - context.reach, 0)
         self.starts = [bisect_right(past, self.begins) - 1 for past in prefix.history]
-        self.routes = [self._route(robot, *row) for robot, row in enumerate(zip(ahead, stop))]
+        self.routes = [
+            self._route(robot, *row) for robot, row in enumerate(zip(ahead, stop, strict=True))
+        ]
         lengths = [len(route) for route in self.routes]
         first = np.cumsum([0, *lengths]).tolist()
-        known = zip(first, self.starts, prefix.history)
+        known = zip(first[:-1], self.starts, prefix.history, strict=True)
         self.graph = PrecedenceGraph(
             self.routes,
             headway=context.headway,
@@ -155,7 +157,8 @@ class Window:
 
     def _route(self, robot: int, ahead: int, stop: int) -> Route:
         """Return the stretch of a robot's route that the window holds."""
-        cyclic, start, past = self.context.routes[robot], self.starts[robot], self.prefix.history[robot]
+        cyclic, past = self.context.routes[robot], self.prefix.history[robot]
+        start = self.starts[robot]
         stop = max(len(past) + cyclic.visits_lasting(len(past), ahead), stop)
         visits = range(start, stop)
         places = [visit % len(cyclic) for visit in visits]
@@ -173,7 +176,7 @@ class Window:
         )
 
     def _lasted(self, robot: int, visit: int) -> int:
-        """Return the least duration, within the window, of a visit that began by the cut [ticks]."""
+        """Return the least duration within the window of a visit begun by the cut [ticks]."""
         past = self.prefix.history[robot]
         if visit + 1 < len(past):
             leave = past[visit + 1]
