@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import load
-from rightofway.cli.laps_theory import rival_lines
+from rightofway.cli.laps_theory import comparison_lines
 from rightofway.cyclic import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
@@ -132,9 +132,11 @@ def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
 
 
 def test_a_chosen_timetable_that_is_below_its_rival_says_so(slower: Path) -> None:
-    [chosen] = best_timetable(load(slower), time_limit=None, rounds=2)
-    rival = replace(chosen, first_come_ends="open", first_come=chosen.throughput * 2)
-    said = " ".join(" ".join(rival_lines(rival)).split())
+    [group] = best_timetable(load(slower), time_limit=None, rounds=2).groups
+    assert group.comparison is not None
+    chosen = group.comparison
+    below = replace(chosen, baseline_ends="open", baseline=chosen.throughput * 2)
+    said = " ".join(" ".join(comparison_lines(below)).split())
     assert "not reached: 50.00% below first come first served as far as it was seen" in said
 
 

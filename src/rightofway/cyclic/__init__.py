@@ -1,6 +1,5 @@
-"""Work that repeats: rules on cyclic routes, patterns that recur, and timetables chosen in advance."""
+"""Laps that repeat: simulated under a rule, or by a timetable chosen in advance."""
 
-from rightofway.cyclic.timetable_search import best_timetable
 from rightofway.cyclic.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult
@@ -8,6 +7,7 @@ from rightofway.cyclic.route import ROUTES, CyclicRoute, GroupContext, cyclic_ro
 from rightofway.cyclic.rules import RULES, TIMETABLE
 from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
+from rightofway.cyclic.timetable_search import best_timetable
 from rightofway.cyclic.to_plan import excerpt, plan_of
 from rightofway.cyclic.waits import LapWait
 

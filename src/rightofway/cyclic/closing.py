@@ -6,8 +6,8 @@ Two ways, for runs that do not repeat themselves in a reasonable time:
   from some tick on and end within a period keep the orders of their visits at each vertex, across
   the seam as well; the cycle time of these orders is exact. Where robots would wait for each other
   for ever at the seam, the visits keep their times, and robots that overlap leave out a lap or two.
-- By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their times,
-  which needs no search. At the seam each robot waits at home, from its last lap before to its first
+- By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their
+  times. At the seam each robot waits at home, from its last lap before to its first
   lap after, or makes as many more laps as there is room for; laps at the seam may be given up for
   that. Where others pass a home in that time, its robot searches for a way first.
 

@@ -95,7 +95,7 @@ def _placed(
 
 
 def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotCycle]) -> Candidate:
-    """Add laps as long as there is room, first for the robot with the least share of its own laps."""
+    """Add laps as long as there is room, first for the robot that drives least."""
     turns = [
         (cycle.count * alone, robot)
         for robot, (cycle, alone) in enumerate(zip(cycles, problem.alone, strict=True))

@@ -31,7 +31,7 @@ __all__ = ["LnsParams", "improve", "insert_laps"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LnsParams:
-    """The neighbourhoods of a search, and what is drawn; a value listed twice is twice as likely."""
+    """The neighbourhoods of a search; of listed values one is drawn."""
 
     # A step that would remove more robots than this is given up.
     most_removed: int = 6

@@ -1,4 +1,4 @@
-"""When visits begin: for as long as a group was simulated, and for ever once its pattern repeats."""
+"""When visits begin: in a simulation, and for ever after once its pattern repeats."""
 
 from __future__ import annotations
 

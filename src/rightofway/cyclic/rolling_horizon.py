@@ -216,7 +216,7 @@ class RollingHorizon:
             search.resolve(meeting, self._rule)
 
     def _replace_pacemaker(self, window: Window) -> None:
-        """Make the robot that is home first the pacemaker: the present one seems to wait for ever."""
+        """Choose the robot that is home first: the present pacemaker seems to wait for ever."""
         enter = {
             robot: window.graph.enter(window.visit(robot, self._next_home(robot)))
             for robot in range(len(self.context))

@@ -1,4 +1,4 @@
-"""Cyclic routes: one lap per robot, repeated for ever, and the groups of robots that share vertices."""
+"""Cyclic routes: one lap for each robot, repeated for ever; groups of robots that may meet."""
 
 from __future__ import annotations
 
@@ -234,7 +234,7 @@ def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
 
 
 def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
-    """Replace routes of robots that pass each other's homes: neither could set out before the other.
+    """Replace routes of robots that pass each other's homes: neither could set out first.
 
     The replacement is a shortest route that avoids all homes of other robots. A route without a
     replacement stays.

@@ -1,4 +1,4 @@
-"""A fleet that repeats its laps under one rule: each group until a state recurs, or time is over."""
+"""A fleet that repeats its laps under one rule, until a state recurs or time is over."""
 
 from __future__ import annotations
 
