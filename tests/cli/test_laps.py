@@ -161,3 +161,19 @@ def test_a_timetable_chooses_its_routes_itself(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "timetable", "--routes", "shortest")
     assert ended.code == 2
     assert "--rule timetable chooses routes itself (leave out --routes)" in ended.err
+
+
+def test_a_timetable_that_is_proven_impossible_ends_as_a_plan_does(
+    cli: Cli, tmp_path: Path
+) -> None:
+    """Three cells in a row: each robot would have to pass the other one."""
+    path = tmp_path / "row.yaml"
+    path.write_text(
+        'format: rightofway-scenario/1\nmap: {grid: ["..."]}\nrobots:\n'
+        "  - {name: R1, home: N0, target: N2}\n  - {name: R2, home: N2, target: N0}\n",
+        encoding="utf-8",
+    )
+    planned, laps = cli("plan", path), cli("laps", path, "--rule", "timetable")
+    assert (planned.code, laps.code) == (1, 1)
+    assert "no plan exists" in planned.err
+    assert "no plan exists" in laps.err

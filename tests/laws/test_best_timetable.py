@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import pytest
@@ -9,11 +10,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rightofway.cyclic import Comparison, CyclicResult, best_timetable, plan_of, run_laps
-from rightofway.errors import GaveUp, InputError
+from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
 from rightofway.precedence import critical_circuit
-from tests.builders.fleets import random_fleet
+from tests.builders.fleets import grid_fleet, random_fleet
 from tests.oracles import periodic_bookings as oracle
 
 law = settings(max_examples=30, derandomize=True, deadline=None)
@@ -122,7 +123,9 @@ def test_weights_shift_laps_to_who_is_worth_more() -> None:
         """How many of its laps alone a robot makes."""
         group = next(group for group in result.groups if robot in group.robots)
         place = group.robots.index(robot)
-        return group.context.laps[place].duration * (1 / (group.mean_laps()[place] or 1))
+        mean = group.mean_laps()[place]
+        assert mean is not None
+        return group.context.laps[place].duration / mean
 
     least = min(range(8), key=lambda robot: part(plain, robot))
     weights = [Fraction(100 if robot == least else 1) for robot in range(8)]
@@ -143,3 +146,18 @@ def test_what_does_not_fit_is_refused(options: dict[str, object], message: str) 
     scenario = random_fleet(3, size=5, robots=2)
     with pytest.raises(InputError, match=message):
         best_timetable(scenario, **options)  # type: ignore[arg-type]
+
+
+def test_a_proof_that_no_plan_exists_is_not_reported_as_given_up() -> None:
+    """Three cells in a row: each robot would have to pass the other one."""
+    scenario = grid_fleet(["..."], [("N0", "N2"), ("N2", "N0")])
+    with pytest.raises(NoPlanExists):
+        best_timetable(scenario, time_limit=None, rounds=3)
+
+
+@pytest.mark.parametrize("time_limit", [-5, math.nan])
+def test_a_time_limit_that_is_no_time_is_refused(time_limit: float) -> None:
+    scenario = grid_fleet(["..."], [("N0", "N2")])
+    for call in (run_laps, best_timetable):
+        with pytest.raises(InputError, match=r"time_limit: (-5|nan) is not 0 or more"):
+            call(scenario, time_limit=time_limit)

@@ -193,7 +193,7 @@ def _reinserted(
     if left:
         rest = problem.graph(_part(candidate.timetable, left)).earliest(Tick(period))
         rows = zip(left, rest.laps, rest.counts, rest.enter, strict=True)
-        cycles = {robot: RobotCycle(*row) for robot, *row in rows}
+        cycles = {robot: RobotCycle(lap, n, enter) for robot, lap, n, enter in rows}
     for robot, cycle in cycles.items():
         bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
     for robot in problem.draw.sample(list(removed), len(removed)):

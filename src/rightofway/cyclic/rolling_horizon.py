@@ -105,7 +105,7 @@ class RollingHorizon:
         if pacemaker is not None:
             self._pacemaker = pacemaker
         self._least_lag: int = context.laps[self._pacemaker].duration
-        self._lag = self._least_lag
+        self._lag: int = self._least_lag
         self._prefix = FrozenPrefix(0, [[0] for _ in context.routes])
         self._decisions: tuple[Decision, ...] = ()
         self._trouble = 0  # a deadlock lies before this tick

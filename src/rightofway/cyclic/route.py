@@ -85,7 +85,8 @@ class CyclicRoute:
         if visits.step == 1:
             laps = np.arange(visits.start // length, -(-visits.stop // length))
             place = visits.start % length
-            enter = (laps[:, None] * within[-1] + within[:-1]).ravel()[place : place + len(visits)]
+            free = laps[:, None] * within[-1] + within[:-1]
+            enter: NDArray[np.int64] = free.ravel()[place : place + len(visits)]
         else:
             laps, places = np.divmod(np.arange(visits.start, visits.stop, visits.step), length)
             enter = laps * within[-1] + within[places]
