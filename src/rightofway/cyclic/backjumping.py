@@ -26,17 +26,10 @@ __all__ = ["Deadlock", "Decision", "RightOfWaySearch"]
 
 
 class Deadlock(Exception):
-    """No right of way keeps two robots apart.
+    """No right of way keeps two robots (positions in the group) apart.
 
-    Attributes
-    ----------
-    robots
-        The two robots, as positions in the group.
-    vertex, tick
-        Where and when they meet.
-    circle
-        Robots of which each would wait for the next. Empty if there is no such cycle: then one of
-        the two stays, or is already, where the other has to go.
+    In ``circle`` each robot would wait for the next. It is empty if there is no such cycle: then
+    one of the two stays, or is already, where the other has to go.
     """
 
     def __init__(
@@ -78,15 +71,7 @@ class _Frame:
 
 
 class RightOfWaySearch:
-    """The decisions that hold in a window, in the order in which they were taken.
-
-    Parameters
-    ----------
-    window
-        Where they hold.
-    carried
-        Decisions from before the cut that concern visits after it.
-    """
+    """The decisions that hold in a window, in order; those from before the cut come first."""
 
     def __init__(self, window: Window, carried: Sequence[Decision]) -> None:
         self.window = window

@@ -1,15 +1,15 @@
 """Close a stretch of a simulation to a timetable: some laps of each robot, repeated for ever.
 
-Two ways, for runs that do not repeat themselves in a reasonable time:
+Two ways, for simulations in which no state recurs in a reasonable time:
 
 - By orders (`closed_windows`), for groups in which many windows can be tried. The laps that begin
   from some tick on and end within a period keep the orders of their visits at each vertex, across
   the seam as well; the cycle time of these orders is exact. Where robots would wait for each other
   for ever at the seam, the visits keep their times, and robots that overlap leave out a lap or two.
 - By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their
-  times. At the seam each robot waits at home, from its last lap before to its first
-  lap after, or makes as many more laps as there is room for; laps at the seam may be given up for
-  that. Where others pass a home in that time, its robot searches for a way first.
+  times. At the seam each robot waits at home, from its last lap before to its first lap after, or
+  makes as many more laps as there is room for; laps at the seam may be given up for that. Where
+  others pass a home in that time, its robot searches for a way first.
 
 A seam costs about half a lap of each robot, however long the stretch is: the more laps it has, the
 closer its value is to that of the simulation.
@@ -25,11 +25,11 @@ from itertools import pairwise, product, zip_longest
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.cyclic.pattern import VisitTimes
+from rightofway.cyclic.pattern import Enters, VisitTimes
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.warmup import homes_of
-from rightofway.model import Lap, VertexId
+from rightofway.model import Lap
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import PeriodicBookings
 
@@ -40,36 +40,22 @@ __all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stret
 class ClosingParams:
     """Which stretches are considered, and how much may change at a seam."""
 
-    # Windows are compared within each of these ranges of lengths, in longest laps.
+    # Windows are compared within each of these ranges of lengths [longest laps].
     window_lengths: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64, 128, 256)
-    # At how many ticks windows of each length begin.
-    window_begins: int = 32
-    # How many windows of each length are closed because of the value of their laps.
-    most_by_value: int = 12
-    # How many are closed because robots wait least at their ends.
-    most_by_calm: int = 4
-    # Longer windows are not considered.
-    most_window_visits: int = 200_000
-    # How many laps a robot may lose where visits at the seam of a window overlap.
-    most_left_out: int = 3
-    # At how many ticks long stretches begin.
-    stretch_begins: int = 8
-    # How many ends of a long stretch are considered for each beginning.
-    stretch_ends: int = 200
-    # The latest beginning of a long stretch, as a part of the simulation.
-    latest_begin: float = 0.1
-    # The shortest long stretch, as a part of the longest one.
-    shortest: float = 0.9
-    # Longer stretches are cut to about so many visits, all of which are kept in memory.
-    most_stretch_visits: int = 16_000_000
-    # The visits this many longest laps before and after the seam may change.
-    around: float = 1.75
-    # A robot makes less than so many laps fewer at the seam than it has time for.
-    fewer_laps: int = 4
-    # A robot gives up less than so many laps on each side of the seam.
-    given_up: int = 3
-    # How often each robot that cannot wait at home searches for a way, on average.
-    rounds: int = 6
+    window_begins: int = 32  # Windows of each length begin at this many ticks.
+    most_by_value: int = 12  # This many of each length are closed for the value of their laps.
+    most_by_calm: int = 4  # This many are closed because robots wait least at their ends.
+    most_window_visits: int = 200_000  # Longer windows are not considered.
+    most_left_out: int = 3  # A robot loses up to this many laps where visits overlap at the seam.
+    stretch_begins: int = 8  # Long stretches begin at this many ticks.
+    stretch_ends: int = 200  # For each beginning this many ends are considered.
+    latest_begin: float = 0.1  # They begin in this part of the simulation.
+    shortest: float = 0.9  # They are this part of the longest one, or longer.
+    most_stretch_visits: int = 16_000_000  # They have about this many visits at most, for memory.
+    around: float = 1.75  # Visits this close to the seam may change [longest laps].
+    fewer_laps: int = 4  # A robot makes fewer than this many laps less than it has time for.
+    given_up: int = 3  # A robot gives up fewer than this many laps on each side of the seam.
+    rounds: int = 6  # Each robot that cannot wait at home searches this often, on average.
 
 
 DEFAULT = ClosingParams()
@@ -77,164 +63,124 @@ DEFAULT = ClosingParams()
 
 @dataclass(frozen=True, slots=True, order=True)
 class Stretch:
-    """A stretch of a simulation.
-
-    Attributes
-    ----------
-    begins
-        Its first tick.
-    period
-        Its length [ticks].
-    """
+    """A stretch of a simulation: its first tick, and its length [ticks]."""
 
     begins: int
     period: int
 
 
-def _first_lap(home: NDArray[np.int64], begins: int) -> int:
+def _first_lap(home: Enters, begins: int) -> int:
     """Return the first lap that begins from a tick on; never lap 0."""
     return max(int(np.searchsorted(home, begins)), 1)
-
-
-# --- Closing by orders ---
 
 
 def closed_windows(
     problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
 ) -> Iterator[Candidate]:
     """Yield timetables cut out of a simulation, until all windows are tried or time is over."""
-    routes, homes = run.context.routes, homes_of(run.context.routes, run.history)
-    for window in _promising(problem, run, homes, params):
+    closing = _WindowClosing(problem, run, params)
+    for window in closing.promising():
         if problem.is_out_of_time:
             return
-        parts = []
-        for route, past, home in zip(routes, run.history, homes, strict=True):
-            first = _first_lap(home, window.begins)
-            last = int(np.searchsorted(home, home[first] + window.period, side="right")) - 1
-            visits = past[first * len(route) : last * len(route) + 1]
-            enter = np.array(visits, np.int64) - window.begins
-            parts.append(_Laps(route.lap, last - first, enter))
-        found = _closed_by_orders(problem, parts, window.period, params)
+        found = closing.close(window)
         if found is not None:
             yield found
 
 
-def _promising(
-    problem: CyclicProblem,
-    run: GroupResult,
-    homes: Sequence[NDArray[np.int64]],
-    params: ClosingParams,
-) -> list[Stretch]:
-    """Return windows of all lengths: the best of each length, then the second best, and so on."""
-    longest, known = max(problem.alone), min(int(home[-1]) for home in homes)
-    ranked: list[list[Stretch]] = []
-    for least, most in pairwise(length * longest for length in params.window_lengths):
-        latest = known - least
-        if latest <= longest:
-            break
-        ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
-        best = [
-            found
-            for begins in ticks
-            if (found := _best_ends(problem, run, homes, begins, least, most, known, params))
-        ]
-        for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
-            in_order = sorted((ends[score] for ends in best), key=lambda found: -found[0])
-            ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
-    in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
-    return list(dict.fromkeys(in_turn))
+class _WindowClosing:
+    """A simulation whose windows are closed by the orders of visits."""
+
+    def __init__(self, problem: CyclicProblem, run: GroupResult, params: ClosingParams) -> None:
+        self.problem, self.run, self.params = problem, run, params
+        self.homes = homes_of(run.context.routes, run.history)
+        self.known = min(int(home[-1]) for home in self.homes)
+
+    def promising(self) -> list[Stretch]:
+        """Return windows of all lengths: the best of each length, then the second best ones, ..."""
+        params, longest = self.params, max(self.problem.alone)
+        ranked: list[list[Stretch]] = []
+        for least, most in pairwise(length * longest for length in params.window_lengths):
+            latest = self.known - least
+            if latest <= longest:
+                break
+            ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
+            best = [ends for tick in ticks if (ends := self.best_ends(tick, least, most))]
+            for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
+                in_order = sorted((ends[score] for ends in best), key=lambda found: -found[0])
+                ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
+        in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
+        return list(dict.fromkeys(in_turn))
+
+    def best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
+        """Return the best windows from a tick on that end when a robot is home, with their scores.
+
+        One for the value of laps per tick, and one for the least time that robots wait at home for
+        the end of the window. Empty if no end is known, long and short enough.
+        """
+        laps = [home[_first_lap(home, begins) :] for home in self.homes]
+        ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
+        every = max(int(part[0]) if len(part) else most + 1 for part in ends_of)
+        ends, sizes = np.concatenate(ends_of), [len(part) for part in ends_of]
+        order = np.argsort(ends, kind="stable")
+        visits = np.repeat([len(route) for route in self.run.context.routes], sizes)[order]
+        weights = np.repeat([float(weight) for weight in self.problem.weights], sizes)[order]
+        lasted = np.concatenate([part - np.append(0, part[:-1]) for part in ends_of])[order]
+        ends = ends[order]
+        fit = (ends >= max(least, every)) & (ends <= self.known - begins)
+        fit &= np.cumsum(visits) <= self.params.most_window_visits
+        if not fit.any():
+            return []
+        found = []
+        for score in (np.cumsum(weights) / ends, np.cumsum(lasted) / ends - len(ends_of)):
+            best = int(np.argmax(np.where(fit, score, -np.inf)))
+            found.append((float(score[best]), Stretch(begins, int(ends[best]))))
+        return found
+
+    def close(self, window: Stretch) -> Candidate | None:
+        """Return the timetable of a window; None if a robot finds no place."""
+        problem, period, laps = self.problem, window.period, self.run.context.laps
+        parts = []
+        for lap, past, home in zip(laps, self.run.history, self.homes, strict=True):
+            first = _first_lap(home, window.begins)
+            last = int(np.searchsorted(home, home[first] + period, side="right")) - 1
+            visits = past[first * len(lap) : last * len(lap) + 1]
+            parts.append((lap, np.array(visits, np.int64) - window.begins))
+        for early in (True, False):
+            cycles = [_cycle(lap, enter, period, early=early) for lap, enter in parts]
+            in_order = problem.candidate_of_orders(problem.timetable(cycles, period))
+            if in_order is not None:
+                return in_order
+        bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
+        # Robots whose homes others pass cannot wait there as long as they like: they come first.
+        users = Counter(vertex for lap in laps for vertex in set(lap.vertices))
+        for robot in sorted(range(len(laps)), key=lambda one: -users[laps[one].vertices[0]]):
+            cycle = self.without_overlap(bookings, robot, *parts[robot])
+            if cycle is None:
+                return None
+            placed[robot] = cycle
+        cycles = [placed[robot] for robot in range(len(laps))]
+        return problem.candidate_of_orders(problem.timetable(cycles, period))
+
+    def without_overlap(
+        self, bookings: PeriodicBookings, robot: int, lap: Lap, enter: Enters
+    ) -> RobotCycle | None:
+        """Leave out laps at the seam until a robot overlaps no other one, and book it."""
+        n, period = len(lap), int(bookings.period)
+        for less in range(min(self.params.most_left_out + 1, len(enter) // n)):
+            for head, early in product(range(less + 1), (True, False)):
+                part = enter[head * n : len(enter) - (less - head) * n]
+                cycle = _cycle(lap, part, period, early=early)
+                if bookings.add_if_free(robot, lap, cycle.count, cycle.enter):
+                    return cycle
+        return None
 
 
-def _best_ends(
-    problem: CyclicProblem,
-    run: GroupResult,
-    homes: Sequence[NDArray[np.int64]],
-    begins: int,
-    least: int,
-    most: int,
-    known: int,
-    params: ClosingParams,
-) -> list[tuple[float, Stretch]]:
-    """Return the best windows from a tick on that end when a robot is home, with their scores.
-
-    One for the value of laps per tick, and one for the least time that robots wait at home for the
-    end of the window (a score of at most 0). Empty if no end is known, long and short enough.
-    """
-    laps = [home[_first_lap(home, begins) :] for home in homes]
-    ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
-    every = max((int(part[0]) if len(part) else most + 1 for part in ends_of), default=most + 1)
-    ends, sizes = np.concatenate(ends_of), [len(part) for part in ends_of]
-    order = np.argsort(ends, kind="stable")
-    visits = np.repeat([len(route) for route in run.context.routes], sizes)[order]
-    weights = np.repeat([float(weight) for weight in problem.weights], sizes)[order]
-    lasted = np.concatenate([part - np.append(0, part[:-1]) for part in ends_of])[order]
-    ends = ends[order]
-    fit = (ends >= max(least, every)) & (ends <= known - begins)
-    fit &= np.cumsum(visits) <= params.most_window_visits
-    if not fit.any():
-        return []
-    found = []
-    for score in (np.cumsum(weights) / ends, np.cumsum(lasted) / ends - len(ends_of)):
-        best = int(np.argmax(np.where(fit, score, -np.inf)))
-        found.append((float(score[best]), Stretch(begins, int(ends[best]))))
-    return found
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Laps:
-    """Some laps of a simulation: the enters of their visits and of the visit home after them."""
-
-    lap: Lap
-    count: int
-    enter: NDArray[np.int64]
-
-    def cycle(self, period: int, *, early: bool = True) -> RobotCycle:
-        """Return the laps in a period, home as early as at their end, or as late as before them."""
-        enter = self.enter[:-1].copy()
-        if early:
-            enter[0] = self.enter[-1] - period
-        return RobotCycle(self.lap, self.count, enter - enter[0] // period * period)
-
-    def without(self, head: int, tail: int) -> _Laps:
-        """Return the same without some laps at the beginning and at the end."""
-        n, count = len(self.lap), self.count - head - tail
-        return _Laps(self.lap, count, self.enter[head * n : (head + count) * n + 1])
-
-
-def _closed_by_orders(
-    problem: CyclicProblem, parts: Sequence[_Laps], period: int, params: ClosingParams
-) -> Candidate | None:
-    """Return the timetable of a window; None if a robot finds no place."""
-    for early in (True, False):
-        cycles = [part.cycle(period, early=early) for part in parts]
-        in_order = problem.candidate_of_orders(problem.timetable(cycles, period))
-        if in_order is not None:
-            return in_order
-    bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
-    # Robots whose homes others pass cannot wait there as long as they like: they come first.
-    users = Counter(vertex for part in parts for vertex in set(part.lap.vertices))
-    for robot in sorted(range(len(parts)), key=lambda one: -users[parts[one].lap.vertices[0]]):
-        cycle = _without_overlap(bookings, robot, parts[robot], period, params)
-        if cycle is None:
-            return None
-        placed[robot] = cycle
-    cycles = [placed[robot] for robot in range(len(parts))]
-    return problem.candidate_of_orders(problem.timetable(cycles, period))
-
-
-def _without_overlap(
-    bookings: PeriodicBookings, robot: int, part: _Laps, period: int, params: ClosingParams
-) -> RobotCycle | None:
-    """Leave out laps at the seam until a robot overlaps no other one, and book it."""
-    for less in range(min(params.most_left_out + 1, part.count)):
-        for head, early in product(range(less + 1), (True, False)):
-            cycle = part.without(head, less - head).cycle(period, early=early)
-            if bookings.add_if_free(robot, cycle.lap, cycle.count, cycle.enter):
-                return cycle
-    return None
-
-
-# --- Closing by a seam ---
+def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
+    """Return visits from home to home in a period, home as early as last or as late as first."""
+    visits = enter[:-1].copy()
+    if early:
+        visits[0] = enter[-1] - period
+    return RobotCycle(lap, len(visits) // len(lap), visits - visits[0] // period * period)
 
 
 def stretches(
@@ -261,7 +207,7 @@ def stretches(
 def _values(
     problem: CyclicProblem,
     run: GroupResult,
-    homes: Sequence[NDArray[np.int64]],
+    homes: Sequence[Enters],
     begins: int,
     periods: NDArray[np.int64],
 ) -> NDArray[np.float64]:
@@ -285,10 +231,9 @@ def close_stretch(
 
     The simulation must be by a native rule, so that its history consists of `VisitTimes`.
     """
-    around = int(params.around * run.context.longest)
-    if 2 * around >= stretch.period:
+    if 2 * int(params.around * run.context.longest) >= stretch.period:
         return None
-    closing = _SeamClosing(problem, run, stretch, around, params)
+    closing = _SeamClosing(problem, run, stretch, params)
     if not closing.connect_all():
         return None
     closing.add_laps()
@@ -300,27 +245,15 @@ def close_stretch(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Kept:
-    """The laps that one robot keeps of the simulation, and its way through the seam.
-
-    Attributes
-    ----------
-    lap, past, home
-        Its lap, the enters of its visits, and those of its visits home.
-    period
-        The length of the stretch [ticks].
-    first, last
-        The first lap that it keeps, and the lap before which it stops.
-    through
-        The enters of the visits at the seam, from home to home; None if not known yet.
-    """
+    """The laps that one robot keeps of the simulation, and its way through the seam."""
 
     lap: Lap
     past: VisitTimes
-    home: NDArray[np.int64]
+    home: Enters  # the enters of the visits home
     period: int
-    first: int
-    last: int
-    through: NDArray[np.int64] | None = None
+    first: int  # the first lap that is kept
+    last: int  # the lap before which the robot stops
+    through: Enters | None = None  # the visits at the seam, from home to home; None if not known
 
     @property
     def begins(self) -> int:
@@ -347,38 +280,21 @@ class _Kept:
         """How many laps it keeps."""
         return self.last - self.first
 
-    @property
-    def most(self) -> int:
-        """How many laps it has time for in a period."""
-        return self.n_kept + (self.until - self.begins) // int(self.lap.duration)
-
 
 class _SeamClosing:
-    """All robots around the seam of one stretch."""
+    """All robots around the seam of one stretch, on a line of time."""
 
     def __init__(
-        self,
-        problem: CyclicProblem,
-        run: GroupResult,
-        stretch: Stretch,
-        around: int,
-        params: ClosingParams,
+        self, problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams
     ) -> None:
         self._problem, self._params, self._period = problem, params, stretch.period
+        around = int(params.around * run.context.longest)
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
-        context = run.context
-        self._seam = PeriodicBookings(
-            context.scenario.roadmap.n_vertices,
-            None,
-            headway=context.headway,
-            books_ahead=context.books_ahead,
-        )
+        self._seam = problem.empty_bookings(None)
         self._kept: list[_Kept] = []
-        homes = homes_of(context.routes, run.history)
-        for robot, (lap, past, home) in enumerate(
-            zip(context.laps, run.history, homes, strict=True)
-        ):
+        homes, laps = homes_of(run.context.routes, run.history), run.context.laps
+        for robot, (lap, past, home) in enumerate(zip(laps, run.history, homes, strict=True)):
             assert isinstance(past, VisitTimes), "native rules have these"
             first = _first_lap(home, stretch.begins)
             last = int(np.searchsorted(home, seam, side="right")) - 1
@@ -416,10 +332,7 @@ class _SeamClosing:
         kept, n = self._kept[robot], len(self._kept[robot].lap)
         assert kept.through is not None, "all robots are connected"
         visits = kept.past.enters(range(kept.first * n, kept.last * n))
-        enter = np.concatenate((visits, kept.through[:-1]))
-        enter[0] = kept.through[-1] - self._period
-        enter -= enter[0] // self._period * self._period
-        return RobotCycle(kept.lap, kept.n_kept + kept.n_through, enter)
+        return _cycle(kept.lap, np.concatenate((visits, kept.through)), self._period, early=True)
 
     def _waits_at_home(self, robot: int) -> bool:
         """Let a robot wait at home, and tell whether no other robot passes there."""
@@ -432,38 +345,37 @@ class _SeamClosing:
     def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
         """Yield what a robot may keep, and how many laps it makes at the seam: most first."""
         kept, params = replace(self._kept[robot], through=None), self._params
+        most = kept.n_kept + (kept.until - kept.begins) // int(kept.lap.duration)
         given_up = sorted(product(range(params.given_up), repeat=2), key=sum)
         for fewer in range(params.fewer_laps):
             for later, sooner in given_up:
                 less = replace(kept, first=kept.first + later, last=kept.last - sooner)
-                n_through = kept.most - fewer - less.n_kept
+                n_through = most - fewer - less.n_kept
                 inside = less.n_kept >= 0 and n_through >= 0
                 if inside and self._from <= less.begins and less.until <= self._to:
                     yield less, n_through
 
     def _connect(self, robot: int, choices: Iterator[tuple[_Kept, int]]) -> set[int] | None:
-        """Find a robot's way through the seam; if there is none, return the robots in its way."""
+        """Find a way through the seam; if there is none, return the robots that may make room.
+
+        These wait at home where the search got stuck, or pass that vertex at the seam.
+        """
         before, blocking = self._kept[robot], set[int]()
         self._seam.remove(robot)  # what it keeps is never in its own way
         for kept, n_through in choices:
-            through = self._seam.connect(kept.lap, n_through, kept.begins, kept.until, kept.leave)
+            times = kept.begins, kept.until, kept.leave
+            through = self._seam.connect(kept.lap, n_through, *times)
             if through is not None:
                 self._book(robot, replace(kept, through=through))
                 return None
             vertex = self._seam.stuck_at(kept.lap)
-            users = self._seam.users([vertex], kept.begins, kept.leave)
-            blocking |= self._movable(vertex, users)
+            for one in self._seam.users([vertex], kept.begins, kept.leave):
+                other = self._kept[one]
+                at_home = other.lap.vertices[0] == vertex
+                if other.through is not None and (other.n_through or at_home):
+                    blocking.add(one)
         self._book(robot, before)
         return blocking - {robot}
-
-    def _movable(self, vertex: VertexId, users: set[int]) -> set[int]:
-        """Return the users of a vertex that wait at home there, or pass it at the seam."""
-        rows = ((robot, self._kept[robot]) for robot in users)
-        return {
-            robot
-            for robot, kept in rows
-            if kept.through is not None and (kept.n_through or kept.lap.vertices[0] == vertex)
-        }
 
     def _book(self, robot: int, kept: _Kept) -> None:
         """Replace all bookings of a robot."""
@@ -486,13 +398,11 @@ class _SeamClosing:
 
     def _book_through(self, robot: int) -> None:
         """Book the way through the seam; if it is not known yet, both times at home."""
-        kept = self._kept[robot]
-        home, leave = np.array([kept.begins, kept.until]), kept.begins + kept.lap.least(0)
+        kept, leave = self._kept[robot], self._kept[robot].begins + self._kept[robot].lap.least(0)
+        stays = [(kept.begins, leave), (kept.until, kept.leave)]
         if kept.through is not None:
             visits = range(len(kept.through))
             self._seam.add_visits(robot, kept.lap, visits, kept.through, kept.leave)
-        elif leave < kept.until:
-            self._seam.add_visits(robot, kept.lap, range(1), home[:1], leave)
-            self._seam.add_visits(robot, kept.lap, range(1), home[1:], kept.leave)
-        else:
-            self._seam.add_visits(robot, kept.lap, range(1), home[:1], kept.leave)
+            return
+        for begins, ends in stays if leave < kept.until else [(kept.begins, kept.leave)]:
+            self._seam.add_visits(robot, kept.lap, range(1), np.array([begins]), ends)

@@ -28,57 +28,31 @@ __all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle", "f
 class RunChoiceParams:
     """How the time is divided between simulations; shares are of the time left."""
 
-    # The least share in which a simulation is tried.
-    least_share: float = 0.03
-    # The largest share in which a simulation is tried.
-    most_share: float = 0.15
-    # Between these shares, a simulation is tried for this many of the longest laps.
-    laps_tried: float = 3
-    # Under another rule, robots first disperse for this many laps first come first served.
-    laps_before_rule: float = 1
-    # A simulation this much better than first come first served is not compared with others.
-    good: Fraction = Fraction(1005, 1000)
-    # The share in which the best simulation continues; in the rest it is closed.
-    continuing_share: float = 0.75
-    # In how many slices it continues; the best is chosen again after each.
-    slices: int = 4
-    # How much of a lap each robot loses where a stretch is closed.
-    seam: float = 0.55
-    # The best simulation continues to this many of the longest laps if there is time at all.
-    least_laps: float = 5
-    # The share that this extension may take.
-    extension_share: float = 0.5
-    # How many stretches of one simulation are tried to be closed.
-    stretches_each: int = 2
-    # How many stretches are tried to be closed in all.
-    most_stretches: int = 4
-    # A simulation to a number of laps is looked at after each such part of its time.
-    look_every: float = 0.2
-    # And not more often than this [s].
-    least_look: float = 0.02
+    least_share: float = 0.03  # A simulation is tried in this share, at least.
+    most_share: float = 0.15  # A simulation is tried in this share, at most.
+    laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
+    laps_before_rule: float = 1  # Robots disperse first come first served before [longest laps].
+    good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
+    continuing_share: float = 0.75  # The best simulation continues in this share, then is closed.
+    slices: int = 4  # The best is chosen again after each of this many parts of that.
+    seam: float = 0.55  # Each robot loses this much of a lap where a stretch is closed.
+    least_laps: float = (
+        5  # The best simulation continues to this length in any case [longest laps].
+    )
+    extension_share: float = 0.5  # That may take this share.
+    stretches_each: int = 2  # This many stretches of each simulation are tried to be closed.
+    most_stretches: int = 4  # This many are tried to be closed in all.
+    look_every: float = 0.2  # A simulation is looked at after each such part of its time.
+    least_look: float = 0.02  # But not more often than this [s].
 
 
 DEFAULT = RunChoiceParams()
 
 
 class SimulatedRun:
-    """A simulation of a group, and its result so far.
+    """A simulation of a group on some routes, and its result so far.
 
-    Parameters
-    ----------
-    problem
-        The group, the values of its laps, and the least fairness.
-    context
-        The group on the routes to simulate.
-
-    Attributes
-    ----------
-    result
-        What the group did so far.
-    known
-        Up to when it is simulated [ticks].
-    pace
-        How many ticks it advanced per second last time.
+    It is simulated up to the tick ``known``, last at a pace of so many ticks per second.
     """
 
     def __init__(
@@ -149,14 +123,7 @@ def choose_runs(
 ) -> list[GroupResult]:
     """Return simulations to cut a timetable out of; the most promising one continued.
 
-    Parameters
-    ----------
-    problem
-        The group; the last way of each robot is its direct one.
-    baseline
-        First come first served on the usual routes.
-    params
-        How the time is divided.
+    The last of each robot's ways is its direct one.
     """
     context = problem.context
     ways = zip(context.routes, problem.ways, strict=True)

@@ -22,45 +22,28 @@ __all__ = ["InsertionParams", "fill", "insert_all"]
 class InsertionParams:
     """When a period is given up as too short, and by how much the next one is longer."""
 
-    # How often each robot is placed, on average, before the period counts as too short.
-    placements_per_robot: int = 6
-    # The ratio of a period to the one before it that was too short.
-    growth: Fraction = Fraction(5, 4)
-    # A period of this many times the sum of all laps is the last one that is tried.
-    longest: int = 2
+    placements_per_robot: int = 6  # After more, on average, the period counts as too short.
+    growth: Fraction = Fraction(5, 4)  # The next period is longer by this factor.
+    longest: int = 2  # No longer period is tried [sums of all laps].
 
 
 def insert_all(
     problem: CyclicProblem,
     period: int,
     *,
-    filling: CyclicProblem | None = None,
-    params: InsertionParams | None = None,
+    filling: CyclicProblem,
+    params: InsertionParams = InsertionParams(),
 ) -> Candidate:
-    """Return a timetable in which each robot makes at least one lap.
+    """Return a timetable with at least this period in which each robot makes at least one lap.
 
-    Parameters
-    ----------
-    problem
-        The group, and until when to place its robots.
-    period
-        The least period [ticks].
-    filling
-        The same group, and until when to add laps.
-    params
-        When to give up.
-
-    Raises
-    ------
-    GaveUp
-        If none was found, or time ran out.
+    ``filling`` is the same problem with the deadline for more laps. Raises `GaveUp` if no timetable
+    was found, or time ran out.
     """
-    params = params or InsertionParams()
     period = max(period, *problem.alone)
     while period <= params.longest * sum(problem.alone):
         placed = _placed(problem, period, params)
         if placed is not None:
-            return fill(filling or problem, *placed)
+            return fill(filling, *placed)
         period = period * params.growth.numerator // params.growth.denominator + 1
     raise GaveUp("no timetable was found in which all robots have a place")
 

@@ -19,12 +19,13 @@ before the time does. Not optimal.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unrolled
+from rightofway.search import PeriodicBookings
 
 __all__ = ["LnsParams", "improve", "insert_laps"]
 
@@ -33,24 +34,18 @@ __all__ = ["LnsParams", "improve", "insert_laps"]
 class LnsParams:
     """The neighbourhoods of a search; of listed values one is drawn."""
 
-    # A step that would remove more robots than this is given up.
-    most_removed: int = 6
-    # How many robots are removed beyond those that have to be.
-    extra_removed: tuple[int, ...] = (0, 0, 1, 2)
-    # By how many laps the count of a random robot changes.
-    count_changes: tuple[int, ...] = (0, 0, 1, 1, -1)
-    # Every this many steps, laps are inserted without new times.
-    insert_every: int = 10
-    # After this many steps in vain two periods become one, so that laps are divided more finely.
-    patience: int = 60
-    # No period gets more visits by doubling; longer ones have laps inserted only.
-    most_visits: int = 8_000
-    # How many insertions one step tries for each robot.
-    insertions_per_robot: int = 6
-    # One insertion in this many adds no lap, and only moves robots.
-    moves_every: int = 3
-    # How many other robots make room for an inserted lap.
-    neighbours_moved: tuple[int, ...] = (0, 1, 1, 2)
+    most_removed: int = 6  # A step that would remove more robots is given up.
+    extra_removed: tuple[int, ...] = (0, 0, 1, 2)  # Removed beyond the robots that have to be.
+    count_changes: tuple[int, ...] = (0, 0, 1, 1, -1)  # By how many laps a robot's count changes.
+    insert_every: int = 10  # Every this many steps, laps are inserted without new times.
+    patience: int = 60  # After this many steps in vain, two periods become one.
+    most_visits: int = 8_000  # No period gets longer than this by that; it has laps inserted only.
+    insertions_per_robot: int = 6  # Inserting laps takes this many steps for each robot.
+    moves_every: int = 3  # One of these steps in this many adds no lap, and only moves robots.
+    neighbours_moved: tuple[int, ...] = (0, 1, 1, 2)  # This many others make room for a lap.
+
+
+DEFAULT = LnsParams()
 
 
 def improve(
@@ -58,10 +53,9 @@ def improve(
     candidate: Candidate,
     *,
     steps: int | None = None,
-    params: LnsParams | None = None,
+    params: LnsParams = DEFAULT,
 ) -> Candidate:
     """Return the best timetable found in so many steps, or until the deadline of the problem."""
-    params = params or LnsParams()
     best, in_vain, step = candidate, 0, 0
     while (steps is None or step < steps) and problem.value(best) < problem.bound:
         if problem.is_out_of_time:
@@ -87,37 +81,44 @@ def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams)
     In each of many small steps, a robot is to make one lap more, or as many as before; it and some
     robots whose vertices it shares are removed and placed again. If one finds no place, all return.
     """
-    draw = problem.draw
-    bookings, cycles = problem.booked(candidate)
+    draw, (bookings, cycles) = problem.draw, problem.booked(candidate)
     for _ in range(params.insertions_per_robot * len(cycles)):
         if problem.is_out_of_time:
             break
         robot = draw.randrange(len(cycles))
         count = cycles[robot].count + (draw.randrange(params.moves_every) > 0)
-        if count * problem.alone[robot] > bookings.period:
-            continue
-        near = sorted(bookings.users(cycles[robot].lap.vertices) - {robot})
-        others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
-        before = {one: cycles[one] for one in (robot, *others)}
-        for one in before:
-            bookings.remove(one)
-        placed: dict[int, RobotCycle] = {}
-        for one in draw.sample(list(before), len(before)):
-            wanted = count if one == robot else before[one].count
-            found = problem.place(bookings, one, wanted, tries=2)
-            if found is None:
-                break
-            bookings.add(one, found.lap, found.count, found.enter)
-            placed[one] = found
-        if len(placed) == len(before):
-            for one, cycle in placed.items():
-                cycles[one] = cycle
-            continue
-        for one in placed:
-            bookings.remove(one)
-        for one, cycle in before.items():
-            bookings.add(one, cycle.lap, cycle.count, cycle.enter)
+        if count * problem.alone[robot] <= bookings.period:
+            near = sorted(bookings.users(cycles[robot].lap.vertices) - {robot})
+            others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
+            counts = {robot: count, **{one: cycles[one].count for one in others}}
+            _move(problem, bookings, cycles, counts)
     return problem.candidate(problem.timetable(cycles, candidate.period))
+
+
+def _move(
+    problem: CyclicProblem,
+    bookings: PeriodicBookings,
+    cycles: list[RobotCycle],
+    counts: Mapping[int, int],
+) -> None:
+    """Place some robots again with new numbers of laps; if one finds no place, all return."""
+    for robot in counts:
+        bookings.remove(robot)
+    placed: dict[int, RobotCycle] = {}
+    for robot in problem.draw.sample(list(counts), len(counts)):
+        found = problem.place(bookings, robot, counts[robot], tries=2)
+        if found is None:
+            break
+        bookings.add(robot, found.lap, found.count, found.enter)
+        placed[robot] = found
+    if len(placed) == len(counts):
+        for robot, cycle in placed.items():
+            cycles[robot] = cycle
+        return
+    for robot in placed:
+        bookings.remove(robot)
+    for robot in counts:
+        bookings.add(robot, cycles[robot].lap, cycles[robot].count, cycles[robot].enter)
 
 
 def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate | None:

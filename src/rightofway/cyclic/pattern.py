@@ -25,18 +25,9 @@ Enters = NDArray[np.int64]
 
 
 class VisitTimes(Sequence[int]):
-    """The enters of a robot's visits from visit 0 on, stored as its delays; like a tuple of them.
+    """The enters of a robot's first visits, stored as its delays; like a tuple of them.
 
-    Parameters
-    ----------
-    route
-        The route of the robot.
-    begun
-        How many visits have begun.
-    late
-        The numbers of the visits before which the robot waited, int32[K].
-    waited
-        The total waiting time up to and including each of these, int64[K] [ticks].
+    The robot waited before each visit in ``late``, until then for ``waited`` ticks in all.
     """
 
     __slots__ = ("_begun", "_first", "_late", "_route", "_waited")
@@ -171,16 +162,9 @@ class Pattern:
 
 
 def pattern_of(history: History, lengths: Sequence[int], recurrence: tuple[int, int]) -> Pattern:
-    """Return the pattern with the least period in a history.
+    """Return the pattern with the least period in a history, which ends at a recurrence.
 
-    Parameters
-    ----------
-    history
-        The enters of visits up to the later of two ticks.
-    lengths
-        How many visits a lap of each robot has.
-    recurrence
-        Two ticks with equal states: everything after the first one repeats after the second one.
+    All that follows the first of its two ticks repeats after the second one.
     """
     pasts = [np.asarray(past, np.int64) for past in history]
     begins, again = recurrence

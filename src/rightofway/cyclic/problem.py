@@ -23,21 +23,11 @@ __all__ = ["Candidate", "CyclicProblem", "RobotCycle"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotCycle:
-    """What one robot does in a period.
-
-    Attributes
-    ----------
-    lap
-        The lap that it repeats.
-    count
-        How many laps it makes.
-    enter
-        The enters of its visits [ticks]; int64, shape (count * len(lap),).
-    """
+    """What one robot does in a period."""
 
     lap: Lap
-    count: int
-    enter: NDArray[np.int64]
+    count: int  # how many laps it makes
+    enter: NDArray[np.int64]  # the enters of its visits, shape (count * len(lap),) [ticks]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,35 +50,14 @@ class Candidate:
 
 @dataclass(frozen=True, kw_only=True)
 class CyclicProblem:
-    """A group of robots whose timetable is to be chosen.
+    """A group of robots whose timetable is to be chosen."""
 
-    Attributes
-    ----------
-    context
-        The robots on their usual routes.
-    ways
-        For each robot the laps to choose from; the first is the usual one.
-    round_trips
-        For each robot what it does in a lap, to search for a new lap; empty where that would take
-        too long.
-    forbidden
-        Vertices of other groups.
-    weights
-        The value of a lap of each robot, above 0.
-    least_fairness
-        The least ratio of laps made to laps possible alone that each robot must reach.
-    deadline
-        When to stop.
-    draw
-        The source of random numbers.
-    """
-
-    context: GroupContext
-    ways: tuple[tuple[Lap, ...], ...]
-    round_trips: tuple[RoundTrip, ...]
-    forbidden: frozenset[int]
-    weights: tuple[Fraction, ...]
-    least_fairness: Fraction
+    context: GroupContext  # the robots on their usual routes
+    ways: tuple[tuple[Lap, ...], ...]  # for each robot the laps to choose from, the usual one first
+    round_trips: tuple[RoundTrip, ...]  # what each robot does in a lap; empty to search for no lap
+    forbidden: frozenset[int]  # vertices of other groups
+    weights: tuple[Fraction, ...]  # the value of a lap of each robot, above 0
+    least_fairness: Fraction  # the least ratio of laps made to laps possible alone
     deadline: Deadline
     draw: random.Random
 
@@ -106,13 +75,9 @@ class CyclicProblem:
         alone = zip(self.weights, self.alone, strict=True)
         return sum((weight / ticks for weight, ticks in alone), Fraction(0))
 
-    def until(self, deadline: Deadline) -> Self:
-        """Return the same problem with another deadline."""
-        return replace(self, deadline=deadline)
-
     def sooner(self, share: float) -> Self:
         """Return the same problem with a share of the time left."""
-        return self.until(self.deadline.sooner(share))
+        return replace(self, deadline=self.deadline.sooner(share))
 
     @property
     def is_out_of_time(self) -> bool:
@@ -146,15 +111,17 @@ class CyclicProblem:
         """Tell whether every robot reaches the least fairness."""
         return self.fairness(counts, period) >= self.least_fairness
 
-    def accepts(self, candidate: Candidate) -> bool:
-        """Tell whether a candidate is fair."""
-        return self.is_fair(candidate.timetable.counts, candidate.cycle_time)
+    def accepts(self, one: Candidate | CyclicSchedule) -> bool:
+        """Tell whether a candidate, or a timetable as it stands, is fair."""
+        if isinstance(one, Candidate):
+            return self.is_fair(one.timetable.counts, one.cycle_time)
+        return self.is_fair(one.counts, int(one.period))
 
-    def empty_bookings(self, period: int) -> PeriodicBookings:
-        """Return periodic bookings without any robot."""
+    def empty_bookings(self, period: int | None) -> PeriodicBookings:
+        """Return bookings without any robot, on a line of time if the period is None."""
         return PeriodicBookings(
             self.context.scenario.roadmap.n_vertices,
-            Tick(period),
+            None if period is None else Tick(period),
             headway=self.context.headway,
             books_ahead=self.context.books_ahead,
         )

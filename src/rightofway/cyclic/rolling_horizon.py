@@ -34,16 +34,11 @@ __all__ = ["HorizonParams", "RollingHorizon", "choose_pacemaker", "two_level"]
 class HorizonParams:
     """How far a simulation of repeated laps looks ahead and back."""
 
-    # How many of the longest laps a pacemaker may stay away before another robot replaces it.
-    patience: int = 8
-    # A pacemaker whose lap is at least this part of the longest lap keeps windows short.
-    pacemaker_part: int = 4
-    # To how many of the longest laps the lag may grow.
-    most_lag: int = 4
-    # How many windows can be taken back.
-    memory: int = 32
-    # A window is this many lags long at first.
-    window_lags: int = 3
+    patience: int = 8  # A pacemaker that stays away longer is replaced [longest laps].
+    pacemaker_part: int = 4  # The pacemaker's lap takes a longest lap divided by this, or more.
+    most_lag: int = 4  # The lag grows up to this [longest laps].
+    memory: int = 32  # This many windows can be taken back.
+    window_lags: int = 3  # A window has this length at first [lags].
 
 
 def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
@@ -77,16 +72,7 @@ class _Checkpoint:
 class RollingHorizon:
     """A simulation of a group whose rule needs a window.
 
-    Parameters
-    ----------
-    context
-        The group.
-    rule
-        Which robot of a meeting waits.
-    pacemaker
-        The robot that is home at each cut, at first; if None, one with the longest lap.
-    params
-        How far to look ahead and back.
+    Without a pacemaker given, one with the longest lap is the first.
     """
 
     def __init__(

@@ -32,18 +32,8 @@ def start(
 ) -> GroupResult:
     """Return what a group does that follows a timetable from its first lap on.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    timetable
-        The timetable of the group.
-    comparison
-        How it compares with first come first served.
-    periods
-        How many periods the history holds; one if a period has more than `most_visits`.
-    most_begins
-        How many ticks to consider for the beginning.
+    Up to ``most_begins`` ticks are considered for the beginning. The history holds so many periods,
+    or one if a period has more than ``most_visits``.
     """
     period, robots = int(timetable.period), range(len(timetable.laps))
     homes = [

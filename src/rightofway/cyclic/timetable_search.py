@@ -40,42 +40,24 @@ __all__ = ["ChoiceParams", "best_timetable"]
 class ChoiceParams:
     """How the time of a group is divided; each share is of the time that is left then."""
 
-    # Groups of more robots have a stretch of a simulation closed: they have no time to search.
-    large: int = 100
-    # Fleets of more robots choose between given laps only, and search for no others.
-    most_with_round_trips: int = 200
-    # The share in which first come first served is simulated.
-    baseline_share: float = 0.2
-    # The share in which each other rule is simulated.
-    other_rule_share: float = 0.05
-    # The share for timetables cut out of the baseline.
-    cutting_share: float = 0.25
-    # The share of that in which they are cut; in the rest the best get more laps.
-    closing_share: float = 0.6
-    # How many timetables cut out are kept besides the best.
-    cuts_kept: int = 2
-    # Timetables of more visits improve slowly: only the best of these is kept.
-    short: int = 4_000
-    # The share in which first timetables are built.
-    building_share: float = 0.2
-    # Groups of more robots are built once and filled.
-    many: int = 300
-    # The share for these.
-    filling_share: float = 0.3
-    # The share that the first of them may take to place all robots.
-    placing_share: float = 0.7
-    # The first timetable has a period of this many longest laps.
-    first_period: float = 1.2
-    # The others have periods of at most this many longest laps.
-    longest_period: float = 5
-    # How many first timetables are improved.
-    kept: int = 3
-    # The share in which each of them is improved a little.
-    trying_share: float = 0.5
-    # The share of the rest for the best of these; what remains is for the best of all.
-    continuing_share: float = 0.7
-    # A fractional cycle time becomes whole in several periods, up to this many visits.
-    most_visits: int = 20_000
+    large: int = 100  # Larger groups have a stretch of a simulation closed.
+    most_with_round_trips: int = 200  # Larger fleets search for no laps beyond the given ones.
+    baseline_share: float = 0.2  # First come first served is simulated.
+    other_rule_share: float = 0.05  # Each other rule is simulated.
+    cutting_share: float = 0.25  # Timetables are cut out of the baseline.
+    closing_share: float = 0.6  # In this part of that, windows are closed; then laps are added.
+    cuts_kept: int = 2  # This many timetables cut out are kept besides the best.
+    short: int = 4_000  # Timetables with more visits improve slowly: only the best is kept.
+    building_share: float = 0.2  # First timetables are built.
+    many: int = 300  # Larger groups are built once and filled.
+    filling_share: float = 0.3  # The building share of these.
+    placing_share: float = 0.7  # The first timetable may take this to place all robots.
+    first_period: float = 1.2  # The first timetable has this period [longest laps].
+    longest_period: float = 5  # The others have periods of at most this [longest laps].
+    kept: int = 3  # This many first timetables are improved.
+    trying_share: float = 0.5  # All of them are improved a little.
+    continuing_share: float = 0.7  # The best of these is improved; in the rest, the best of all.
+    most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
 
 
 def best_timetable(

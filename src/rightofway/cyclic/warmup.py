@@ -29,21 +29,11 @@ __all__ = ["MeasuredLaps", "homes_of", "measure"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredLaps:
-    """Mean lap times that were measured, not proven to hold in the long run.
+    """Mean lap times that were measured, not proven to hold in the long run."""
 
-    Attributes
-    ----------
-    warm_up
-        Laps that began before this tick are left out.
-    laps
-        The number of laps of each robot that its mean is of; 0 if it made none.
-    means
-        The mean lap time of each robot [ticks]; None if it made no lap.
-    """
-
-    warm_up: Tick
-    laps: tuple[int, ...]
-    means: tuple[Fraction | None, ...]
+    warm_up: Tick  # laps that began before this tick are left out
+    laps: tuple[int, ...]  # the number of laps of each robot that its mean is of
+    means: tuple[Fraction | None, ...]  # the mean lap time of each robot [ticks]; None without laps
 
 
 def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np.int64]]:
@@ -55,15 +45,6 @@ def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np
 def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
     """Measure the mean lap time of each robot.
 
-    Parameters
-    ----------
-    routes
-        The cyclic routes of the group.
-    history
-        The enters of their visits [ticks].
-
-    Notes
-    -----
     A robot that made no whole lap since the warm-up is represented by its last lap. The unfinished
     lap counts as well as soon as it takes longer than the mean of the others: a robot may stand
     still for ever, which no finished lap would show.
@@ -82,17 +63,7 @@ def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
 
 
 def warm_up_of(homes: Sequence[NDArray[np.int64]], slot: int, until: int) -> int:
-    """Return the tick at which the warm-up is over.
-
-    Parameters
-    ----------
-    homes
-        For each robot the enters of its visits home, the start included [ticks].
-    slot
-        The length of a slot [ticks].
-    until
-        All laps that ended by then are known [ticks].
-    """
+    """Return the tick at which the warm-up is over, where all laps that end by a tick are known."""
     n_slots = until // slot
     if not n_slots:
         return 0

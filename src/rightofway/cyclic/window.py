@@ -47,27 +47,8 @@ class FrozenPrefix:
 class Window:
     """A group of robots that continue from a cut.
 
-    Parameters
-    ----------
-    context
-        The group.
-    deadline
-        When to stop.
-    prefix
-        What is frozen.
-    ahead
-        For each robot how long its visits after the cut last without waiting, at least [ticks].
-    stop
-        For each robot the least number of the first visit beyond the window.
-
-    Attributes
-    ----------
-    fleet
-        The routes and rights of way of the window, as planners see them.
-    begins
-        The tick of the scenario at which time 0 of the graph is.
-    starts
-        For each robot the number of its first visit in the window.
+    For each robot, the visits after the cut last at least for the ticks in ``ahead``, and the
+    window ends with the visit numbered ``stop`` or a later one.
     """
 
     def __init__(
@@ -80,7 +61,7 @@ class Window:
     ) -> None:
         self.context = context
         self.prefix = prefix
-        self.begins = max(prefix.tick - context.reach, 0)
+        self.begins = max(prefix.tick - context.reach, 0)  # time 0 of the graph
         self.starts = [bisect_right(past, self.begins) - 1 for past in prefix.history]
         self.routes = [
             self._route(robot, *row) for robot, row in enumerate(zip(ahead, stop, strict=True))
