@@ -16,7 +16,8 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.problem import CyclicProblem
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext, cyclic_routes, independent_groups
-from rightofway.cyclic.run import NativeSimulation, advance
+from rightofway.cyclic.run import advance
+from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
@@ -110,7 +111,7 @@ def long_runs(draw: st.DrawFn) -> GroupResult:
     group = max(independent_groups(routes), key=len)
     assume(len(group) > 1)
     context = GroupContext(scenario=scenario, routes=tuple(group))
-    simulation = NativeSimulation(context, draw(st.sampled_from(["first-come", "least-loss"])))
+    simulation = CyclicSimulator(context, draw(st.sampled_from(["first-come", "least-loss"])))
     run = advance(simulation, Deadline())
     while run.ends == "repeats" and max(past[-1] for past in run.history) < LAPS * context.longest:
         simulation.reset_states()
@@ -127,9 +128,10 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
     problem, context = problem_of(run), run.context
     stretch = Stretch(begins=begins * context.longest, period=laps * context.longest)
     assume(stretch.begins + stretch.period <= max(past[-1] for past in run.history))
-    timetable = close_stretch(problem, run, stretch)
-    assume(timetable is not None)
-    assert timetable is not None
+    closed = close_stretch(problem, run, stretch)
+    assume(closed is not None)
+    assert closed is not None
+    timetable = closed.timetable
     assert timetable.period == stretch.period
     graph = problem.graph(timetable)
     assert graph.slack().min() >= 0
@@ -144,7 +146,7 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
 def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
     problem = problem_of(run)
     for value, stretch in stretches(problem, run)[:2]:
-        timetable = close_stretch(problem, run, stretch)
-        if timetable is not None:
-            assert float(problem.throughput(timetable)) <= value + 1e-9
+        closed = close_stretch(problem, run, stretch)
+        if closed is not None:
+            assert float(problem.value(closed)) <= value + 1e-9
             assert value <= problem.bound + Fraction(1, 10**9)

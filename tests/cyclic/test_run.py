@@ -2,6 +2,7 @@
 
 import time
 from fractions import Fraction
+from typing import cast
 
 import pytest
 
@@ -10,7 +11,8 @@ from rightofway.cyclic import cyclic_routes
 from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext, independent_groups
-from rightofway.cyclic.run import NativeSimulation, Simulation, share_time
+from rightofway.cyclic.run import share_time
+from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.model import Robot, Rules, Scenario, Stop, roadmap_of_grid
 from rightofway.planners import Deadline
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
@@ -116,7 +118,7 @@ def test_time_that_others_leave_over_goes_to_a_group_that_is_open() -> None:
         GroupContext(scenario=scenario, routes=tuple(group)) for group in (routes, routes[:1])
     )
     restless = Restless(one)
-    simulations: list[Simulation] = [restless, NativeSimulation(two, "first-come")]
+    simulations = [cast(CyclicSimulator, restless), CyclicSimulator(two, "first-come")]
     runs = share_time(simulations, Deadline.after(0.6), lambda _: None)
     assert [run.ends for run in runs] == ["open", "repeats"]
     assert restless.watched[0] < 0.21

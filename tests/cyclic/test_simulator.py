@@ -6,11 +6,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rightofway.cyclic.backjumping import Deadlock
 from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.run import Simulation, simulation_of
+from rightofway.cyclic.simulator import Deadlock
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from rightofway.cyclic.rolling_horizon import HorizonParams, RollingHorizon, choose_pacemaker
+from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.simulator import HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import Window, WindowRule
 from rightofway.planners.conflict_resolution import rights_if_waits
 from rightofway.precedence import Meeting, Segment

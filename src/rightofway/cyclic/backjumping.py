@@ -17,29 +17,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from rightofway.cyclic.simulator import Deadlock
 from rightofway.cyclic.window import NumberedRight, Window, WindowRule
-from rightofway.model import Tick, VertexId
+from rightofway.model import Tick
 from rightofway.planners.conflict_resolution import Right, rights_if_waits
 from rightofway.precedence import Meeting
 
-__all__ = ["Deadlock", "Decision", "RightOfWaySearch"]
-
-
-class Deadlock(Exception):
-    """No right of way keeps two robots (positions in the group) apart.
-
-    In ``circle`` each robot would wait for the next. It is empty if there is no such cycle: then
-    one of the two stays, or is already, where the other has to go.
-    """
-
-    def __init__(
-        self, robots: tuple[int, int], vertex: VertexId, tick: Tick, circle: Iterable[int]
-    ) -> None:
-        self.robots = robots
-        self.vertex = vertex
-        self.tick = tick
-        self.circle = tuple(circle)
-        super().__init__()
+__all__ = ["Decision", "RightOfWaySearch"]
 
 
 @dataclass(frozen=True, slots=True)

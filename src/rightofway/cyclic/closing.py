@@ -30,7 +30,6 @@ from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.warmup import homes_of
 from rightofway.model import Lap
-from rightofway.precedence import CyclicSchedule
 from rightofway.search import PeriodicBookings
 
 __all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stretches"]
@@ -226,7 +225,7 @@ def _values(
 
 def close_stretch(
     problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams = DEFAULT
-) -> CyclicSchedule | None:
+) -> Candidate | None:
     """Return the timetable of a long stretch; None if a robot finds no way through the seam.
 
     The simulation must be by a native rule, so that its history consists of `VisitTimes`.
@@ -240,7 +239,7 @@ def close_stretch(
     cycles = [closing.cycle(robot) for robot in range(len(run.context))]
     if not all(cycle.count for cycle in cycles):
         return None
-    return problem.timetable(cycles, stretch.period)
+    return Candidate.as_it_is(problem.timetable(cycles, stretch.period))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

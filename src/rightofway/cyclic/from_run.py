@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.cyclic.closing import Stretch, close_stretch, stretches
-from rightofway.cyclic.problem import CyclicProblem
+from rightofway.cyclic.problem import Candidate, CyclicProblem
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext
-from rightofway.cyclic.run import NativeSimulation, advance
+from rightofway.cyclic.run import advance
+from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.planners import Deadline
-from rightofway.precedence import CyclicSchedule
 
 __all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle", "first_come_run"]
 
@@ -59,7 +59,7 @@ class SimulatedRun:
         self, problem: CyclicProblem, context: GroupContext, params: RunChoiceParams = DEFAULT
     ) -> None:
         self._problem, self._params = problem, params
-        self._simulation = NativeSimulation(context, "first-come")
+        self._simulation = CyclicSimulator(context, "first-come")
         self._seconds = self.pace = 0.0
         self.known = 0
         self.result = advance(self._simulation, Deadline.after(0))
@@ -157,7 +157,7 @@ def choose_runs(
 
 def extract_cycle(
     problem: CyclicProblem, runs: Sequence[GroupResult], params: RunChoiceParams = DEFAULT
-) -> CyclicSchedule | None:
+) -> Candidate | None:
     """Return the timetable of a long stretch of a run; None if none can be closed and is fair."""
     found: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
@@ -165,7 +165,7 @@ def extract_cycle(
         found += [(value, stretch, number) for value, stretch in some]
     found.sort(key=lambda one: one[:2], reverse=True)
     for _, stretch, number in found[: params.most_stretches]:
-        timetable = close_stretch(problem, runs[number], stretch)
-        if timetable and problem.is_fair(timetable.counts, int(timetable.period)):
-            return timetable
+        closed = close_stretch(problem, runs[number], stretch)
+        if closed is not None and problem.accepts(closed):
+            return closed
     return None

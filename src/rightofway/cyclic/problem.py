@@ -32,10 +32,15 @@ class RobotCycle:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidate:
-    """A timetable of a group and its exact cycle time [ticks]."""
+    """A timetable of a group and its exact cycle time, or a longer period [ticks]."""
 
     timetable: CyclicSchedule
     cycle_time: Fraction
+
+    @classmethod
+    def as_it_is(cls, timetable: CyclicSchedule) -> Self:
+        """Return a timetable with its own period as cycle time."""
+        return cls(timetable, Fraction(int(timetable.period)))
 
     @property
     def period(self) -> int:
@@ -98,10 +103,6 @@ class CyclicProblem:
         """Return the value of laps per tick: the objective to be maximized."""
         return self.worth(candidate.timetable.counts) / candidate.cycle_time
 
-    def throughput(self, timetable: CyclicSchedule) -> Fraction:
-        """Return the value of laps per tick of a timetable as it stands."""
-        return self.worth(timetable.counts) / int(timetable.period)
-
     def fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
         """Return the least ratio of laps made to laps possible alone, over all robots."""
         rows = zip(counts, self.alone, strict=True)
@@ -111,11 +112,9 @@ class CyclicProblem:
         """Tell whether every robot reaches the least fairness."""
         return self.fairness(counts, period) >= self.least_fairness
 
-    def accepts(self, one: Candidate | CyclicSchedule) -> bool:
-        """Tell whether a candidate, or a timetable as it stands, is fair."""
-        if isinstance(one, Candidate):
-            return self.is_fair(one.timetable.counts, one.cycle_time)
-        return self.is_fair(one.counts, int(one.period))
+    def accepts(self, candidate: Candidate) -> bool:
+        """Tell whether a candidate is fair."""
+        return self.is_fair(candidate.timetable.counts, candidate.cycle_time)
 
     def empty_bookings(self, period: int | None) -> PeriodicBookings:
         """Return bookings without any robot, on a line of time if the period is None."""

@@ -19,32 +19,15 @@ from typing import Literal
 
 import numpy as np
 
-from rightofway.cyclic.backjumping import Deadlock, Decision, RightOfWaySearch
+from rightofway.cyclic.backjumping import Decision, RightOfWaySearch
 from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
-from rightofway.model import Lap
 from rightofway.planners import Deadline
 from rightofway.planners.two_level import by_two_levels
 from rightofway.precedence import Meeting, Segment
 
-__all__ = ["HorizonParams", "RollingHorizon", "choose_pacemaker", "two_level"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HorizonParams:
-    """How far a simulation of repeated laps looks ahead and back."""
-
-    patience: int = 8  # A pacemaker that stays away longer is replaced [longest laps].
-    pacemaker_part: int = 4  # The pacemaker's lap takes a longest lap divided by this, or more.
-    most_lag: int = 4  # The lag grows up to this [longest laps].
-    memory: int = 32  # This many windows can be taken back.
-    window_lags: int = 3  # A window has this length at first [lags].
-
-
-def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
-    """Return the robot with the shortest lap of at least so many ticks."""
-    durations = [lap.duration for lap in laps]
-    return durations.index(min(duration for duration in durations if duration >= least))
+__all__ = ["RollingHorizon", "two_level"]
 
 
 def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
@@ -81,10 +64,10 @@ class RollingHorizon:
         rule: WindowRule = two_level,
         *,
         pacemaker: int | None = None,
-        params: HorizonParams | None = None,
+        params: HorizonParams = DEFAULT,
     ) -> None:
         self.context = context
-        self._params = params or HorizonParams()
+        self._params = params
         self._rule = rule
         self._longest = context.longest
         self._pacemaker = choose_pacemaker(context.laps, self._longest)

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
 
-from rightofway.cyclic.backjumping import Deadlock
-from rightofway.cyclic.pattern import VisitTimes, pattern_of
+from rightofway.cyclic.pattern import pattern_of
 from rightofway.cyclic.result import CyclicResult, GroupResult
-from rightofway.cyclic.rolling_horizon import HorizonParams, RollingHorizon, choose_pacemaker
+from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
-from rightofway.cyclic.simulator import CyclicSimulator, Horizon
+from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import Scenario
 from rightofway.planners import Deadline
 
 __all__ = [
-    "NativeSimulation",
     "Simulation",
     "advance",
     "refuse_bad_time_limit",
@@ -26,98 +23,8 @@ __all__ = [
     "simulation_of",
 ]
 
-LAP_LOSS = 1 << 40
-"""The cost of a lost lap: the least power of two that makes a tick's cost exact enough."""
-
-
-class Simulation(Protocol):
-    """A group that repeats its laps under a rule."""
-
-    context: GroupContext
-
-    @property
-    def history(self) -> Sequence[Sequence[int]]:
-        """For each robot the enters of its visits so far [ticks]."""
-        ...
-
-    def advance(self, deadline: Deadline) -> tuple[int, int]:
-        """Continue until a state recurs; return both ticks.
-
-        Raises
-        ------
-        Deadlock
-            If the rule runs into one.
-        GaveUp
-            If time runs out; another call continues.
-        """
-        ...
-
-    def reset_states(self) -> None:
-        """Forget the states seen, so that `advance` continues where one recurred."""
-        ...
-
-
-class NativeSimulation:
-    """A simulation under a rule that considers two robots only.
-
-    Parameters
-    ----------
-    context
-        The group.
-    rule
-        One of `NATIVE_RULES`.
-    params
-        How far to look ahead and back.
-    """
-
-    def __init__(
-        self, context: GroupContext, rule: str, params: HorizonParams | None = None
-    ) -> None:
-        self.context = context
-        params, laps, longest = params or HorizonParams(), context.laps, context.longest
-        pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
-        self._simulator = CyclicSimulator(
-            laps,
-            [route.first_least for route in context.routes],
-            Horizon(
-                pacemaker=pacemaker,
-                lag=laps[pacemaker].duration,
-                most_lag=params.most_lag * longest,
-                patience=params.patience * longest,
-                reach=context.reach,
-                memory=params.memory,
-            ),
-            headway=context.headway,
-            books_ahead=context.books_ahead,
-            rule=rule,
-            losses=[max(LAP_LOSS // lap.duration, 1) for lap in laps],
-        )
-
-    @property
-    def history(self) -> list[VisitTimes]:
-        """For each robot the enters of its visits so far [ticks]."""
-        begun = self._simulator.begun()
-        return [
-            VisitTimes(route, begun[robot], *self._simulator.waits(robot))
-            for robot, route in enumerate(self.context.routes)
-        ]
-
-    def advance(self, deadline: Deadline) -> tuple[int, int]:
-        """See `Simulation.advance`."""
-        ends = self._simulator.go_on(deadline.seconds_left())
-        if ends == "open":
-            raise GaveUp("time ran out before a state came again (give a longer time limit)")
-        if ends == "deadlock":
-            raise Deadlock(*self._simulator.standstill())
-        return self._simulator.came_again()
-
-    def set_rule(self, rule: str) -> None:
-        """Decide by another rule from now on; the states seen are forgotten."""
-        self._simulator.follow(rule)
-
-    def reset_states(self) -> None:
-        """See `Simulation.reset_states`."""
-        self._simulator.forget()
+Simulation = CyclicSimulator | RollingHorizon
+"""A group that repeats its laps under a rule."""
 
 
 def run_laps(
@@ -185,9 +92,9 @@ def refuse_bad_time_limit(time_limit: float | None) -> None:
         raise InputError.at("time_limit", f"{time_limit} is not 0 or more seconds (None: no limit)")
 
 
-def simulation_of(context: GroupContext, rule: str) -> NativeSimulation | RollingHorizon:
+def simulation_of(context: GroupContext, rule: str) -> Simulation:
     """Return the simulation of a group at its beginning."""
-    return NativeSimulation(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
+    return CyclicSimulator(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
 
 
 def share_time(

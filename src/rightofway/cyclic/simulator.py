@@ -1,150 +1,132 @@
-"""Simulation of laps that repeat, under a rule that considers two robots.
+"""Repeated laps under a rule that considers two robots only: the face of the native simulator.
 
-One precedence graph holds a window of visits that moves with time: past visits are dropped, later
-ones are added, and the times of all others are kept up to date.
+One precedence graph rolls along: the past is dropped from it and laps to come are added, so that
+all times are kept up to date and never computed again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.cyclic.pattern import VisitTimes
+from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.rules import NATIVE_RULES
+from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
+from rightofway.planners import Deadline
 
-__all__ = ["CyclicSimulator", "Horizon", "UnresolvedConflict"]
+__all__ = ["CyclicSimulator", "Deadlock", "HorizonParams", "choose_pacemaker"]
 
-ENDS: tuple[Literal["open", "repeats", "deadlock"], ...] = ("open", "repeats", "deadlock")
-"""The outcomes of `advance`, in the order of the kernel."""
+OPEN, REPEATS = 0, 1
+"""Answers of the kernel; any other one is a deadlock."""
 
-KERNEL_RULES = ("first-come", "fixed-order", "least-loss")
-"""The rules of the kernel, in its order."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Horizon:
-    """The window of a simulation; all but `pacemaker` and `memory` in ticks.
-
-    Attributes
-    ----------
-    pacemaker
-        At first, cuts are made where this robot is home.
-    lag
-        Conflicts up to this long after a cut are resolved before all visits up to it are frozen.
-    most_lag
-        The longest lag, where shorter ones did not suffice.
-    patience
-        A pacemaker that stays away longer is replaced.
-    reach
-        Visits left so long before a cut still matter.
-    memory
-        How many cuts can be undone.
-    """
-
-    pacemaker: int
-    lag: int
-    most_lag: int
-    patience: int
-    reach: int
-    memory: int
+LAP_LOSS = 1 << 40
+"""The cost of a lost lap; with this many parts of it, the cost of a tick is accurate enough."""
 
 
-class UnresolvedConflict(NamedTuple):
-    """A deadlock: two robots in conflict, and the robots that would each wait for the next."""
+class Deadlock(Exception):
+    """No right of way keeps two robots (positions in the group) apart.
 
-    robots: tuple[int, int]
-    vertex: VertexId
-    tick: Tick
-    waiting_cycle: tuple[int, ...]
-
-
-class CyclicSimulator:
-    """Robots that repeat their laps until a state recurs.
-
-    Parameters
-    ----------
-    laps
-        The lap of each robot.
-    first_least
-        For each robot the least ticks of its very first visit, in which it does not turn.
-    horizon
-        The window of the simulation.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there.
-    rule
-        The robot that goes first: the one that would enter a segment first (``first-come``), the
-        one listed first (``fixed-order``), or the one that would lose more by waiting
-        (``least-loss``).
-    losses
-        The cost of a tick of waiting for each robot, above 0.
+    In ``circle`` each robot would wait for the next. It is empty if there is no such cycle: then
+    one of the two stays, or is already, where the other has to go.
     """
 
     def __init__(
-        self,
-        laps: Sequence[Lap],
-        first_least: Sequence[Tick],
-        horizon: Horizon,
-        *,
-        headway: Tick,
-        books_ahead: bool,
-        rule: str,
-        losses: Sequence[int],
+        self, robots: tuple[int, int], vertex: VertexId, tick: Tick, circle: Iterable[int]
     ) -> None:
+        self.robots = robots
+        self.vertex = vertex
+        self.tick = tick
+        self.circle = tuple(circle)
+        super().__init__()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HorizonParams:
+    """How far a simulation of repeated laps looks ahead and back."""
+
+    patience: int = 8  # A pacemaker that stays away longer is replaced [longest laps].
+    pacemaker_part: int = 4  # The pacemaker's lap takes a longest lap divided by this, or more.
+    most_lag: int = 4  # The lag grows up to this [longest laps].
+    memory: int = 32  # This many windows can be taken back.
+    window_lags: int = 3  # A window has this length at first [lags].
+
+
+DEFAULT = HorizonParams()
+
+
+def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
+    """Return the robot with the shortest lap of at least so many ticks."""
+    durations = [lap.duration for lap in laps]
+    return durations.index(min(duration for duration in durations if duration >= least))
+
+
+class CyclicSimulator:
+    """A group of robots that repeat their laps under one of `NATIVE_RULES`.
+
+    Cuts are made where the *pacemaker* is home. All meetings less than a *lag* after a cut are
+    resolved before the visits up to the cut are frozen.
+    """
+
+    def __init__(self, context: GroupContext, rule: str, params: HorizonParams = DEFAULT) -> None:
+        self.context = context
+        laps, longest = context.laps, context.longest
+        pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
         drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
         self._kernel = _core.CyclicSimulator(
             np.cumsum([0, *map(len, laps)], dtype=np.int32),
             np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
             np.array([ticks for lap in laps for ticks in lap.leasts()], np.int64),
-            drive if books_ahead else np.zeros_like(drive),
-            np.array(first_least, np.int64),
-            headway=int(headway),
-            pacemaker=horizon.pacemaker,
-            lag=horizon.lag,
-            most_lag=horizon.most_lag,
-            patience=horizon.patience,
-            reach=horizon.reach,
-            memory=horizon.memory,
-            rule=KERNEL_RULES.index(rule),
-            loss=np.array(losses, np.int64),
+            drive if context.books_ahead else np.zeros_like(drive),
+            np.array([route.first_least for route in context.routes], np.int64),
+            headway=int(context.headway),
+            pacemaker=pacemaker,
+            lag=laps[pacemaker].duration,
+            most_lag=params.most_lag * longest,
+            patience=params.patience * longest,
+            reach=context.reach,
+            memory=params.memory,
+            rule=NATIVE_RULES.index(rule),
+            loss=np.array([max(LAP_LOSS // lap.duration, 1) for lap in laps], np.int64),
         )
 
-    def advance(self, seconds: float | None) -> Literal["open", "repeats", "deadlock"]:
-        """Simulate until a state recurs, a deadlock, or time is over; the next call continues.
+    @property
+    def history(self) -> list[VisitTimes]:
+        """For each robot the enters of its visits so far [ticks]."""
+        begun = self._kernel.started().tolist()
+        return [
+            VisitTimes(route, begun[robot], *self._kernel.waits(robot))
+            for robot, route in enumerate(self.context.routes)
+        ]
 
-        Notes
-        -----
-        Exact and deterministic. Ctrl-C is obeyed.
+    def advance(self, deadline: Deadline) -> tuple[int, int]:
+        """Continue until the state at a cut equals that at an earlier cut; return both ticks.
+
+        Exact and deterministic; Ctrl-C is obeyed.
+
+        Raises
+        ------
+        Deadlock
+            If the rule runs into one.
+        GaveUp
+            If time runs out; another call continues.
         """
-        return ENDS[self._kernel.advance(seconds)]
-
-    def reset_states(self) -> None:
-        """Forget the states seen, to advance beyond one that has recurred."""
-        self._kernel.reset_states()
+        answer = self._kernel.advance(deadline.seconds_left())
+        if answer == OPEN:
+            raise GaveUp("time ran out before a state came again (give a longer time limit)")
+        if answer == REPEATS:
+            return self._kernel.first_seen, self._kernel.cut
+        i, j, vertex, tick, circle = self._kernel.deadlock()
+        raise Deadlock((i, j), VertexId(vertex), Tick(tick), circle.tolist())
 
     def set_rule(self, rule: str) -> None:
-        """Decide by another rule from now on, and reset the states."""
-        self._kernel.set_rule(KERNEL_RULES.index(rule))
+        """Decide by another rule from now on; the states seen are forgotten."""
+        self._kernel.set_rule(NATIVE_RULES.index(rule))
 
-    def recurrence(self) -> tuple[int, int]:
-        """Return when the recurring state was seen first, and when it recurred [ticks]."""
-        return self._kernel.first_seen, self._kernel.cut
-
-    def started(self) -> list[int]:
-        """Return how many visits of each robot have started."""
-        counts: list[int] = self._kernel.started().tolist()
-        return counts
-
-    def waits(self, robot: int) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-        """Return the visits of a robot that had to wait, and its waits by then in all [ticks]."""
-        return self._kernel.waits(robot)
-
-    def deadlock(self) -> UnresolvedConflict:
-        """Return the conflict that `advance` could not resolve."""
-        i, j, vertex, tick, cycle = self._kernel.deadlock()
-        return UnresolvedConflict((i, j), VertexId(vertex), Tick(tick), tuple(cycle.tolist()))
+    def reset_states(self) -> None:
+        """Forget the states seen, so that `advance` continues where one recurred."""
+        self._kernel.reset_states()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import count, islice
 
@@ -28,9 +28,9 @@ from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, refuse_bad_time_limit, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError
-from rightofway.model import Lap, Scenario, Tick, VertexId
+from rightofway.model import Scenario, Tick, VertexId
 from rightofway.planners import Deadline
-from rightofway.precedence import CyclicSchedule, unrolled
+from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
 
 __all__ = ["ChoiceParams", "best_timetable"]
@@ -121,90 +121,84 @@ def best_timetable(
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
     refuse_bad_time_limit(time_limit)
-    search = _Search(
-        scenario=scenario,
-        weights=weights or [Fraction(1)] * n_robots,
-        least_fairness=least_fairness,
-        deadline=Deadline.after(time_limit),
-        rounds=rounds,
-        seed=seed,
-        report=report or (lambda _: None),
-        params=ChoiceParams(),
-    )
-    if n_robots > search.params.large:
+    params = ChoiceParams()
+    if n_robots > params.large:
         usual, others = clear_and_direct(scenario)
     else:
         usual, others = cyclic_routes(scenario), cyclic_routes(scenario, "shortest")
+    fleet = CyclicProblem(
+        context=GroupContext(scenario=scenario, routes=tuple(usual)),
+        ways=tuple((one.lap, other.lap) for one, other in zip(usual, others, strict=True)),
+        round_trips=(),
+        forbidden=frozenset(),
+        weights=tuple(weights or [Fraction(1)] * n_robots),
+        least_fairness=least_fairness,
+        deadline=Deadline.after(time_limit),
+        draw=random.Random(),  # noqa: S311 (each group has its own)
+    )
+    found: list[GroupResult] = []
     groups = independent_groups(usual)
-    other_laps = [route.lap for route in others]
-    try:
-        found = search.by_groups(groups, other_laps)
-    except GaveUp:
-        if len(groups) == 1:
-            raise
-        found = search.by_groups([usual], other_laps)  # with the vertices of other groups
+    for partition in (groups, [usual]):  # at last with the vertices of other groups
+        try:
+            found = _by_groups(fleet, partition, rounds, seed, report or (lambda _: None), params)
+            break
+        except GaveUp:
+            if len(partition) == 1:
+                raise
     return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(found))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Search:
-    """The request of a caller of `best_timetable`."""
+def _by_groups(
+    fleet: CyclicProblem,
+    groups: Sequence[Sequence[CyclicRoute]],
+    rounds: int | None,
+    seed: int,
+    report: Callable[[str], None],
+    params: ChoiceParams,
+) -> list[GroupResult]:
+    """Choose a timetable for each group, small ones first, none through vertices of another."""
+    taken = {vertex for lap in fleet.context.laps for vertex in lap.vertices}
+    found: dict[int, GroupResult] = {}
+    left = len(fleet)
+    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
+        group = groups[index]
+        report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
+        taken -= {vertex for route in group for vertex in route.lap.vertices}
+        draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
+        problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
+        left -= len(group)
+        found[index] = _choose(problem, rounds, params)
+        taken |= {vertex for lap in found[index].context.laps for vertex in lap.vertices}
+    return [found[index] for index in range(len(groups))]
 
-    scenario: Scenario
-    weights: Sequence[Fraction]
-    least_fairness: Fraction
-    deadline: Deadline
-    rounds: int | None
-    seed: int
-    report: Callable[[str], None]
-    params: ChoiceParams
 
-    def by_groups(
-        self, groups: Sequence[Sequence[CyclicRoute]], other_laps: Sequence[Lap]
-    ) -> list[GroupResult]:
-        """Choose a timetable for each group, small ones first, none through vertices of another."""
-        taken = {vertex for group in groups for route in group for vertex in route.lap.vertices}
-        found: dict[int, GroupResult] = {}
-        left = sum(map(len, groups))
-        for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
-            group = groups[index]
-            self.report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
-            taken -= {vertex for route in group for vertex in route.lap.vertices}
-            problem = self._problem(index, group, other_laps, taken)
-            share = problem.until(self.deadline.sooner(len(group) / left))
-            left -= len(group)
-            found[index] = _choose(share, self.rounds, self.params)
-            taken |= {v for lap in found[index].context.laps for v in lap.vertices}
-        return [found[index] for index in range(len(groups))]
-
-    def _problem(
-        self,
-        index: int,
-        group: Sequence[CyclicRoute],
-        other_laps: Sequence[Lap],
-        taken: set[VertexId],
-    ) -> CyclicProblem:
-        """Return the problem of a group, where other groups take some vertices."""
-        ways = []
-        for route in group:
-            other = other_laps[route.robot]
-            fits = other != route.lap and not taken.intersection(other.vertices)
-            ways.append((route.lap, other) if fits else (route.lap,))
-        trips: tuple[RoundTrip, ...] = ()
-        if len(self.scenario.robots) <= self.params.most_with_round_trips:
-            distances = Distances(self.scenario.roadmap)
-            once = (one_lap(self.scenario, route.robot) for route in group)
-            trips = tuple(RoundTrip.of(stages, distances, forbidden=taken) for stages in once)
-        return CyclicProblem(
-            context=GroupContext(scenario=self.scenario, routes=tuple(group)),
-            ways=tuple(ways),
-            round_trips=trips,
-            forbidden=frozenset(taken),
-            weights=tuple(self.weights[route.robot] for route in group),
-            least_fairness=self.least_fairness,
-            deadline=self.deadline,
-            draw=random.Random(f"{self.seed} {index}"),  # noqa: S311 (no secret depends on it)
-        )
+def _part(
+    fleet: CyclicProblem,
+    group: Sequence[CyclicRoute],
+    taken: set[VertexId],
+    draw: random.Random,
+    params: ChoiceParams,
+) -> CyclicProblem:
+    """Return the problem of one group, where others take some vertices."""
+    scenario, robots = fleet.context.scenario, [route.robot for route in group]
+    trips: tuple[RoundTrip, ...] = ()
+    if len(fleet) <= params.most_with_round_trips:
+        distances = Distances(scenario.roadmap)
+        once = (one_lap(scenario, robot) for robot in robots)
+        trips = tuple(RoundTrip.of(stages, distances, forbidden=taken) for stages in once)
+    ways = []
+    for usual, other in (fleet.ways[robot] for robot in robots):
+        fits = other != usual and not taken.intersection(other.vertices)
+        ways.append((usual, other) if fits else (usual,))
+    return replace(
+        fleet,
+        context=GroupContext(scenario=scenario, routes=tuple(group)),
+        ways=tuple(ways),
+        round_trips=trips,
+        forbidden=frozenset(taken),
+        weights=tuple(fleet.weights[robot] for robot in robots),
+        draw=draw,
+    )
 
 
 def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> GroupResult:
@@ -212,20 +206,20 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
     if len(problem) == 1:
         lap = min(problem.ways[0], key=lambda lap: lap.duration)
         enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
-        alone = problem.timetable([RobotCycle(lap, 1, enter)], int(lap.duration))
-        return _started(problem, alone, "repeats", problem.throughput(alone))
+        alone = Candidate.as_it_is(problem.timetable([RobotCycle(lap, 1, enter)], lap.duration))
+        return _started(problem, alone, "repeats", problem.value(alone))
     if len(problem) > params.large and (closed := _closed_run(problem)):
         return closed
     baseline = _simulated(problem, "first-come", params.baseline_share)
-    pattern, (ends, worth) = baseline.timetable, _baseline(problem, baseline)
-    is_fair = pattern is not None and problem.is_fair(pattern.counts, int(pattern.period))
+    ends, worth = _baseline(problem, baseline)
+    pattern = _fair_pattern(problem, baseline)
     starts = [
         *_by_other_rules(problem, params),
         *_cut_out(problem, baseline, params),
         *_built(problem, rounds, params),
     ]
-    if pattern is not None and is_fair:
-        starts.append(problem.candidate(pattern))
+    if pattern is not None:
+        starts.append(problem.candidate(pattern.timetable))
     if not starts and (together := repeated_plan(problem)):
         problem = problem.with_ways(together.timetable.laps)
         starts = [together]
@@ -237,7 +231,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
             why = f"for {who} (give more time)"
         raise GaveUp(f"no timetable was found {why}")
     whole = _whole(problem, _improved(problem, starts, rounds, params), params)
-    if pattern is not None and is_fair and worth > problem.throughput(whole):
+    if pattern is not None and worth > problem.value(whole):
         whole = pattern
     return _started(problem, whole, ends, worth)
 
@@ -248,12 +242,16 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
         return None
     baseline = first_come_run(problem)
     found = extract_cycle(problem, choose_runs(problem, baseline))
-    some = [one for one in (found, baseline.result.timetable) if one is not None]
-    fair = [one for one in some if problem.is_fair(one.counts, int(one.period))]
+    fair = [one for one in (found, _fair_pattern(problem, baseline.result)) if one is not None]
     if not fair:
         return None
-    best = max(fair, key=problem.throughput)
-    return _started(problem, best, *_baseline(problem, baseline.result))
+    return _started(problem, max(fair, key=problem.value), *_baseline(problem, baseline.result))
+
+
+def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
+    """Return the pattern of a simulation; None without one, or if it is not fair."""
+    pattern = None if run.timetable is None else Candidate.as_it_is(run.timetable)
+    return None if pattern is None or not problem.accepts(pattern) else pattern
 
 
 def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
@@ -274,9 +272,9 @@ def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Ca
     if problem.deadline.at is None or len(problem) > params.many:
         return
     for rule in ("two-level", "fixed-order"):
-        found = _simulated(problem, rule, params.other_rule_share).timetable
-        if found is not None and problem.is_fair(found.counts, int(found.period)):
-            yield problem.candidate(found)
+        found = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
+        if found is not None:
+            yield problem.candidate(found.timetable)
 
 
 def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> list[Candidate]:
@@ -319,35 +317,31 @@ def _improved(
     """Improve all short timetables a little, then the best of these, then the best of all."""
     net = max(starts, key=problem.value)
     short = [one for one in starts if one.n_visits <= params.short] or [net]
-    trying = problem.deadline.sooner(params.trying_share)
-    tried = []
+    trying, tried = problem.sooner(params.trying_share), []
     for index, one in enumerate(short):
-        share = problem.until(trying.sooner(1 / (len(short) - index)))
-        tried.append(improve(share, one, steps=rounds))
+        tried.append(improve(trying.sooner(1 / (len(short) - index)), one, steps=rounds))
     continuing = problem.sooner(params.continuing_share)
     best = improve(continuing, max(tried, key=problem.value), steps=rounds)
     return improve(problem, max(net, best, key=problem.value), steps=rounds)
 
 
-def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> CyclicSchedule:
+def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> Candidate:
     """Return the timetable in whole ticks, over several periods if its cycle time is a fraction."""
-    timetable, parts = candidate.timetable, candidate.cycle_time.denominator
-    if parts * candidate.n_visits <= params.most_visits:
-        timetable = unrolled(timetable, parts)
-        whole = candidate.cycle_time.numerator
-        return problem.graph(timetable).earliest(Tick(whole), cycle_time=Fraction(whole))
-    return problem.graph(timetable).earliest(
-        Tick(candidate.period), cycle_time=candidate.cycle_time
-    )
+    timetable, cycle_time = candidate.timetable, candidate.cycle_time
+    if cycle_time.denominator * candidate.n_visits <= params.most_visits:
+        timetable = unrolled(timetable, cycle_time.denominator)
+        cycle_time *= cycle_time.denominator
+    period = Tick(Candidate(timetable, cycle_time).period)
+    return Candidate.as_it_is(problem.graph(timetable).earliest(period, cycle_time=cycle_time))
 
 
 def _started(
-    problem: CyclicProblem, timetable: CyclicSchedule, ends: BaselineEnds, baseline: Fraction
+    problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
 ) -> GroupResult:
     comparison = Comparison(
-        throughput=problem.throughput(timetable),
-        fairness=problem.fairness(timetable.counts, int(timetable.period)),
+        throughput=problem.value(chosen),
+        fairness=problem.fairness(chosen.timetable.counts, chosen.cycle_time),
         baseline_ends=ends,
         baseline=baseline,
     )
-    return start(problem.context.scenario, timetable, comparison)
+    return start(problem.context.scenario, chosen.timetable, comparison)
