@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.laps_rows import Row
 from benchmarks.marked import write_tables
-from rightofway.cyclic import Conflict, CyclicResult, run_laps
+from rightofway.cyclic import CyclicResult, LapWait, run_laps
 from tests.builders.fleets import PAPER, paper_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "laps.md"
@@ -56,17 +56,17 @@ def _paper() -> Iterator[str]:
         assert pattern is not None, "every case repeats"
         yield _line(
             case["name"],
-            ", ".join(str(endless.lap.duration) for endless in group.group),
+            ", ".join(str(lap.duration) for lap in group.context.laps),
             str(pattern.transient),
             str(pattern.period),
             ", ".join(map(str, pattern.counts)),
-            _told(run, run.first_conflicts(group)),
-            _told(run, run.conflicts(group)),
+            _told(run, group.first_waits()),
+            _told(run, group.waits()),
             *(_means(one) for one in runs),
         )
 
 
-def _told(run: CyclicResult, conflicts: Sequence[Conflict]) -> str:
+def _told(run: CyclicResult, conflicts: Sequence[LapWait]) -> str:
     name, robots = run.scenario.roadmap.name, run.scenario.robots
     told = Counter(f"{robots[one.waits].name} for {name(one.vertex)}" for one in conflicts)
     times = (f"{wait}, {n} times" if n > 1 else wait for wait, n in told.items())

@@ -49,15 +49,15 @@ def _first_laps(name: str) -> Figure:
     figure = Figure(figsize=(8, 2.6), layout="constrained")
     axes = figure.subplots()
     until = pattern.begins + 2 * pattern.period
-    for robot, endless in enumerate(group.group):
+    for robot, route in enumerate(group.context.routes):
         visits = list(takewhile(lambda v: pattern.enter(robot, v) <= until, count()))  # noqa: B023
         enter = [pattern.enter(robot, visit) for visit in visits]
-        places = [endless.place(visit) for visit in visits]
-        label, colour = run.scenario.robots[endless.robot].name, list(COLOURS.values())[robot]
+        places = [visit % len(route) for visit in visits]
+        label, colour = run.scenario.robots[route.robot].name, list(COLOURS.values())[robot]
         axes.step(enter, places, where="post", label=label, color=colour)
         for visit, begins, leaves in zip(visits, enter, enter[1:], strict=False):
-            ready = begins + endless.least(visit)
-            axes.plot([ready, leaves], [endless.place(visit)] * 2, color=colour, linewidth=4)
+            ready = begins + route.least(visit)
+            axes.plot([ready, leaves], [visit % len(route)] * 2, color=colour, linewidth=4)
     for tick in (pattern.begins, pattern.begins + pattern.period, until):
         axes.axvline(tick, color="#888888", linestyle=":")
     axes.set_xlabel("time [ticks]; thick: waits; dotted: a period begins")

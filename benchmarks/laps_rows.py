@@ -11,7 +11,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from rightofway.cyclic import RULES, CyclicResult, GroupRun, run_laps
+from rightofway.cyclic import RULES, CyclicResult, GroupResult, run_laps
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.builders.fleets import largest_part, random_grid
 
@@ -79,11 +79,10 @@ def measure(seeds: Sequence[int]) -> Iterator[Row]:
 
 
 def _row(
-    run: CyclicResult, group: GroupRun, *, size: int, robots: int, speeds: str, seed: int
+    run: CyclicResult, group: GroupResult, *, size: int, robots: int, speeds: str, seed: int
 ) -> Row:
     first, steady = (
-        {(one.vertex, one.pair) for one in found}
-        for found in (run.first_conflicts(group), run.conflicts(group))
+        {(one.vertex, one.pair) for one in found} for found in (group.first_waits(), group.waits())
     )
     shares = [share for share in group.waiting_shares() if share is not None]
     pattern = group.pattern
@@ -95,7 +94,7 @@ def _row(
         rule=run.rule,
         group=len(group.robots),
         ends=group.ends,
-        longest_lap=max(endless.lap.duration for endless in group.group),
+        longest_lap=group.context.longest,
         transient=pattern.transient if pattern else "",
         period=pattern.period if pattern else "",
         standing=pattern.counts.count(0) if pattern else "",

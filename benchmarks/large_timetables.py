@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.cyclic import best_timetable, run_laps, run_of
+from rightofway.cyclic import best_timetable, run_laps
 from rightofway.io.movingai import read_map
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.builders.fleets import largest_part
@@ -78,15 +78,15 @@ def line(name: str, seed: int, folder: Path, limit: float) -> str:
     row = ROWS[name]
     scenario = fleet(row.floor(folder, seed), row.robots, seed)
     began, used = time.perf_counter(), time.process_time()
-    chosen = best_timetable(scenario, time_limit=limit)
-    run = run_of(scenario, chosen)
+    run = best_timetable(scenario, time_limit=limit)
     seconds, used = time.perf_counter() - began, time.process_time() - used
     rival = run_laps(scenario, time_limit=limit)
-    most = max(chosen, key=lambda one: len(one.timetable.robots)).timetable
+    counts = max((group.pattern.counts for group in run.groups if group.pattern), key=len)
+    fairness = min(group.comparison.fairness for group in run.groups if group.comparison)
     return (
         f"| {name} | {row.robots} | {seed} | {float(run.throughput() / rival.throughput()):.4f} | "
-        f"{sum(most.counts) / len(most.counts):.0f} | "
-        f"{float(min(one.fairness for one in chosen)):.2f} | {seconds:.1f} | {used:.1f} |"
+        f"{sum(counts) / len(counts):.0f} | "
+        f"{float(fairness):.2f} | {seconds:.1f} | {used:.1f} |"
     )
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from statistics import median
 
 from benchmarks.marked import write_tables
-from rightofway.cyclic import CyclicResult, best_timetable, run_laps, run_of
+from rightofway.cyclic import CyclicResult, best_timetable, run_laps
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
 from tests.builders.fleets import random_fleet
@@ -61,9 +61,9 @@ def fleets(robots: int) -> Iterator[Scenario]:
 def fairness(run: CyclicResult) -> float:
     """Return the least part of its laps alone that any robot makes."""
     parts = [
-        Fraction(endless.lap.duration) / mean if mean else Fraction(0)
+        Fraction(lap.duration) / mean if mean else Fraction(0)
         for group in run.groups
-        for endless, mean in zip(group.group, group.mean_laps(), strict=True)
+        for lap, mean in zip(group.context.laps, group.mean_laps(), strict=True)
     ]
     return float(min(parts))
 
@@ -71,7 +71,7 @@ def fairness(run: CyclicResult) -> float:
 def rows(scenario: Scenario) -> dict[str, Row]:
     """Compare one fleet's timetable with all rules; nothing if it has none."""
     try:
-        chosen = run_of(scenario, best_timetable(scenario, time_limit=CHOOSING))
+        chosen = best_timetable(scenario, time_limit=CHOOSING)
     except GaveUp:
         return {}
     return {rule: _row(scenario, rule, chosen) for rule in RULES}

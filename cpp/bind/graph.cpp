@@ -34,7 +34,7 @@ Parameters
 first_visit : int32[R + 1]
     Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
 vertex : int32[N]
-    Where each visit is; consecutive visits of a robot are at different vertices.
+    The vertex of each visit; consecutive visits of a robot are at different vertices.
 least : int64[N]
     Least time from this enter to the next, above 0; not used on last visits. [ticks]
 approach : int64[N]
@@ -44,26 +44,27 @@ headway : int
 swaps_conflict : bool
     Whether swaps are conflicts.
 active : uint8[R]
-    Robots with 0 here have times, but meet nobody: they have no conflicts and no rights of way.
+    Robots with 0 here have times, but no conflicts and no rights of way.
 
 Raises
 ------
 ValueError
-    If the arrays do not describe routes; names the array, the index and the value.
+    If the arrays do not describe routes; names the array, the index and the value. The methods
+    raise it for a robot or a visit that does not exist.
 
 Notes
 -----
-Deterministic. Every answer is kept up to date from what has changed. Calls on a graph are short
-and keep the GIL, so threads that share one take turns.)";
+Deterministic. Every answer is kept up to date incrementally. Calls are short and keep the GIL.)";
 
-constexpr auto keep_order_doc = R"(Let all visits to a vertex take place in an order, all at once.
+constexpr auto keep_order_doc =
+    R"(Give the rights of way of all visits to a vertex in an order, all at once.
 
 Parameters
 ----------
 when : int64[N]
     A number for each visit: of two visits to one vertex the one with the smaller number goes
-    first, of equal ones that with the smaller index. Numbers rise along each route, and nobody
-    has to enter before another one leaves with a greater number. The ticks of a plan, or steps.
+    first, of equal ones that with the smaller index. Numbers rise along each route, and no visit
+    has to wait for a leave with a greater number. The ticks of a plan, or steps.
 
 Returns
 -------
@@ -81,33 +82,32 @@ constexpr auto precede_doc = R"(Give visit a the right of way over visit b.
 Parameters
 ----------
 a, b : int
-    Visits of two different robots to the same vertex.
+    Visits of two different active robots to the same vertex.
 
 Returns
 -------
 bool
     Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
-    leaves, ``b`` is a first visit and there from the start, or ``cycle()`` tells the deadlock or
-    swap that would follow. Giving a right of way again is possible and does nothing.
+    leaves, ``b`` is a first visit, or ``cycle()`` has the deadlock or swap that would follow.
+    True if ``a`` has the right of way already.
 
 Raises
 ------
 ValueError
-    If ``a`` or ``b`` is no visit or of an inactive robot, or if they are visits of one robot or
-    to two vertices.
+    If ``a`` and ``b`` are not two such visits.
 
 Notes
 -----
 Times never decrease. A cycle of positive length is always refused; of zero length only if
 ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
-Takes time in proportion (but for a logarithm) to what changes.)";
+Takes time in proportion (but for a logarithm) to the number of changed times.)";
 
 constexpr auto take_back_doc = R"(Take back one right of way, whenever it was given.
 
 Parameters
 ----------
 a, b : int
-    Visits of two different robots to the same vertex.
+    As for ``precede``.
 
 Returns
 -------
@@ -121,118 +121,26 @@ ValueError
 
 Notes
 -----
-All get the earliest times that keep the other rights of way. A rollback gives it again.)";
+All visits get the earliest times that keep the other rights of way. A rollback gives it again.)";
 
-constexpr auto flip_doc = R"(Take the right of way of visit a over visit b and give it to b.
-
-Parameters
-----------
-a, b : int
-    Visits of two different robots to the same vertex.
-
-Returns
--------
-bool
-    Whether that was possible. If not, nothing has changed: ``a`` had no right of way over ``b``,
-    or ``b`` can not go before ``a``; see ``precede``.
-
-Raises
-------
-ValueError
-    As for ``precede``.)";
-
-constexpr auto completion_doc = R"(Return when a robot completes its route.
-
-Parameters
-----------
-robot : int
-    The robot.
-
-Returns
--------
-int
-    The enter of its last visit. [ticks]
-
-Raises
-------
-ValueError
-    If the robot does not exist.)";
-
-constexpr auto completion_sum_doc = R"(Return the sum of all robots' completions.
-
-Returns
--------
-int
-    Sum of the enters of the last visits of active robots. [ticks])";
-
-constexpr auto critical_rights_doc =
-    R"(Return the rights of way that a robot's completion is due to.
-
-Parameters
-----------
-robot : int
-    The robot.
-
-Returns
--------
-int32[K, 2]
-    Rights of way ``(a, b)``, the latest first: from the robot's last visit back along what each
-    visit follows from without slack, until a robot ran freely.
-
-Raises
-------
-ValueError
-    If the robot does not exist.)";
-
-constexpr auto conflicts_doc = R"(Return the weight of all conflicts that are left.
-
-Returns
--------
-int
-    Sum of what they count, 0 if there are none. [ticks])";
-
-constexpr auto next_doc = R"(Return the earliest conflict.
-
-Returns
--------
-tuple[int, int, int, int] or None
-    ``(tick, kind, visit_a, visit_b)``, or None if no conflict is left.)";
-
-constexpr auto withdraw_doc = R"(Set a robot aside.
-
-Parameters
-----------
-robot : int
-    It becomes inactive, and its rights of way are taken back.
-
-Raises
-------
-ValueError
-    If the robot does not exist.
-
-Notes
------
-All others get the earliest times that keep their rights of way. Marks from before can not be gone
-back to.)";
-
-constexpr auto cycle_doc = R"(Explain the last refusal.
+constexpr auto cycle_doc =
+    R"(Return the cycle that the last refused ``precede(a, b)`` would have closed.
 
 Returns
 -------
 int32[n]
-    The visits on the cycle that the last refused ``precede(a, b)`` would have closed, in order,
-    from ``b`` to the visit after ``a``. The enter of each follows from that of the one before:
-    the same robot goes on, or the robot that leaves as it enters has the right of way. Empty if
-    there was another reason, or no refusal yet.)";
+    Visits in order, from ``b`` to the visit after ``a``. The enter of each follows from that of
+    the one before: the next visit of the same robot, or of a robot that waits for its leave.
+    Empty if there was another reason, or no refusal yet.)";
 
-constexpr auto conflicts_of_doc = R"(Return the weight of one robot's conflicts.
+constexpr auto conflicts_of_doc = R"(Return the weight of one robot's conflicts with others.
 
 Parameters
 ----------
 robot : int
     The robot.
 others : uint8[R]
-    Count conflicts with the robots that do not have 0 here.
+    Conflicts count with the robots that do not have 0 here.
 
 Returns
 -------
@@ -243,36 +151,6 @@ Raises
 ------
 ValueError
     If the robot does not exist or the mask has the wrong length.)";
-
-constexpr auto between_doc = R"(Return the earliest conflict of two robots.
-
-Parameters
-----------
-i, j : int
-    Two different robots, in any order.
-
-Returns
--------
-tuple[int, int, int, int] or None
-    ``(tick, kind, visit_a, visit_b)``, or None if they have no conflict.
-
-Raises
-------
-ValueError
-    If a robot does not exist, or both are the same.)";
-
-constexpr auto rollback_doc = R"(Undo everything since the mark.
-
-Parameters
-----------
-mark : int
-    What ``checkpoint()`` returned: the number of changes at that time. It can be gone back to any
-    number of times, until a rollback goes below it.
-
-Raises
-------
-ValueError
-    If there are fewer changes now than at the mark.)";
 
 using ConflictTuple = std::tuple<Tick, std::int32_t, VisitId, VisitId>;
 
@@ -305,20 +183,23 @@ PairsOut<VisitId> pairs(const std::vector<RightOfWay>& rights) {
 
 void bind_queries(nb::class_<PrecedenceGraph>& graph) {
     using Graph = PrecedenceGraph;
-    graph.def_prop_ro("n_robots", &Graph::n_robots, "The number of robots, R.")
-        .def_prop_ro("n_visits", &Graph::n_visits, "The number of visits, N.")
-        .def("enter_of", &Graph::enter_of, nb::arg("visit"),
-             "Return the tick at which a visit enters (ValueError: no such visit).")
+    graph
+        .def("enter_of", &Graph::enter_of, nb::arg("visit"), "Return the enter of a visit. [ticks]")
         .def(
             "enter", [](const Graph& self) { return to_numpy(self.enters()); },
-            "Return a copy of the times at which visits enter, int64[N]. [ticks]")
-        .def("completion", &Graph::completion, nb::arg("robot"), completion_doc)
-        .def("completion_sum", &Graph::completion_sum, completion_sum_doc)
+            "Return a copy of the enters of all visits, int64[N]. [ticks]")
+        .def("completion", &Graph::completion, nb::arg("robot"),
+             "Return the enter of a robot's last visit. [ticks]")
+        .def("completion_sum", &Graph::completion_sum,
+             "Return the sum of the enters of the last visits of active robots. [ticks]")
         .def(
             "critical_rights",
             [](const Graph& self, RobotId robot) { return pairs(self.critical_rights(robot)); },
-            nb::arg("robot"), critical_rights_doc)
-        .def("conflicts", &Graph::conflicts, conflicts_doc)
+            nb::arg("robot"),
+            "Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the "
+            "latest first, int32[K, 2].")
+        .def("conflicts", &Graph::conflicts,
+             "Return the weight of all conflicts left, 0 if there are none. [ticks]")
         .def(
             "conflicts_of",
             [](const Graph& self, RobotId robot, const ArrayIn<std::uint8_t>& others) {
@@ -334,7 +215,8 @@ void bind_queries(nb::class_<PrecedenceGraph>& graph) {
             [](const Graph& self, RobotId i, RobotId j) {
                 return to_tuple(self.next_conflict_between(i, j));
             },
-            nb::arg("i"), nb::arg("j"), between_doc);
+            nb::arg("i"), nb::arg("j"),
+            "Return the earliest conflict of two different robots, None if they have none.");
 }
 
 void bind_changes(nb::class_<PrecedenceGraph>& graph) {
@@ -347,18 +229,20 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
             [](Graph& self, const ArrayIn<Tick>& when) { return self.keep_order(view(when)); },
             nb::arg("when").noconvert(), keep_order_doc)
         .def("take_back", &Graph::take_back, nb::arg("a"), nb::arg("b"), take_back_doc)
-        .def("flip", &Graph::flip, nb::arg("a"), nb::arg("b"), flip_doc)
         .def("checkpoint", &Graph::checkpoint,
-             "Return a mark for ``rollback``: how many rights of way were given or taken back and "
+             "Return a mark for ``rollback``: the number of rights of way given or taken back, and "
              "not undone since.")
-        .def("rollback", &Graph::rollback, nb::arg("mark"), rollback_doc)
-        .def("withdraw", &Graph::withdraw, nb::arg("robot"), withdraw_doc)
+        .def("rollback", &Graph::rollback, nb::arg("mark"),
+             "Undo all changes since a mark (ValueError if a rollback has gone below it).")
+        .def("withdraw", &Graph::withdraw, nb::arg("robot"),
+             "Make a robot inactive and take back its rights of way; there is no rollback below "
+             "this.")
         .def(
             "rights_of",
             [](const Graph& self, RobotId robot) { return pairs(self.rights_of(robot)); },
             nb::arg("robot"),
-            "Return the rights of way ``(a, b)`` that a robot has, or others have over it, "
-            "int32[K, 2] (ValueError: no such robot).")
+            "Return the rights of way ``(a, b)`` of which one is a visit of the robot, int32[K, "
+            "2].")
         .def(
             "rights_of_way", [](const Graph& self) { return pairs(self.rights_of_way()); },
             "Return the rights of way ``(a, b)`` in the order they were given, int32[K, 2].");

@@ -59,11 +59,16 @@ enter : int64[N]
 leave : int or None
     When the last one ends; None with a period: when the first one comes again. [ticks]
 
+Returns
+-------
+bool
+    With a period, whether no booking overlaps another robot's; otherwise nothing is booked.
+
 Raises
 ------
 ValueError
-    If the arrays do not fit together; with a period also if the robot has bookings already, or a
-    booking overlaps another robot's. Then nothing is booked.
+    If the arrays do not fit together; with a period also if the robot has bookings already. Then
+    nothing is booked.
 
 Notes
 -----
@@ -253,7 +258,7 @@ void bind_periodic_bookings(nb::module_& module) {
             [](PeriodicBookings& self, RobotId robot, const ArrayIn<VertexId>& vertex,
                const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive, const ArrayIn<Tick>& enter,
                std::optional<Tick> leave) {
-                self.add(robot, visits_of(vertex, dwell, drive), view(enter), leave);
+                return self.add(robot, visits_of(vertex, dwell, drive), view(enter), leave);
             },
             nb::arg("robot"), nb::arg("vertex").noconvert(), nb::arg("dwell").noconvert(),
             nb::arg("drive").noconvert(), nb::arg("enter").noconvert(),

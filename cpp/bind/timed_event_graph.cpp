@@ -25,7 +25,7 @@ tail, head : int32[M], int32[M]
 length : int64[M]
     How long after its tail the head of each comes at least, not negative. [ticks]
 height : int32[M]
-    How many periods later; may be negative, as long as the height of no circuit is.
+    How many periods later; may be negative.
 time_limit : float or None
     After so many seconds the search stops.
 
@@ -33,13 +33,13 @@ Returns
 -------
 tuple of (int, int, int32[n]) or None
     Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
-    in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+    in order; 0, 1 and no arcs if every circuit has length 0. Height 0 if the events of the
+    circuit wait for each other for ever. None if time ran out.
 
 Raises
 ------
 ValueError
-    If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
-    lengths times all heights is beyond 2^58.
+    If the arrays do not fit together, or all lengths times all heights is beyond 2^58.
 
 Notes
 -----

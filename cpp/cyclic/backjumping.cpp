@@ -7,107 +7,95 @@
 namespace rightofway {
 
 Backjumping::Backjumping(const CyclicRoutes& routes, RollingTimetable& timetable,
-                         ConflictSweep& meetings, CyclicRule rule,
+                         ConflictSweep& conflicts, CyclicRule rule,
                          std::span<const std::int64_t> loss)
-    : routes_(routes), timetable_(timetable), meetings_(meetings), rule_(rule), loss_(loss) {}
+    : routes_(routes), timetable_(timetable), conflicts_(conflicts), rule_(rule), loss_(loss) {}
 
-Backjumping::Outcome Backjumping::settle(const Conflict& conflict) {
+Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     const CyclicVisit i{conflict.robot_a, conflict.visit_a};
     CyclicVisit j{conflict.robot_b, conflict.visit_b};
     if (conflict.kind == ConflictKind::swap) {
         j = j.before();  // the visit that j ends as i enters
     }
-    met_ = {i, j};
-    circle_.clear();
+    conflict_visits_ = {i, j};
+    waiting_cycle_.clear();
     const Segment segment = segment_of(i, j);
-    if (segment.is_head_on && reaches_the_end(segment)) {
+    const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
+                             segment.j_last.number == timetable_.end(j.robot) - 1;
+    if (segment.kind == Segment::Kind::head_on && reaches_end) {
+        // Two endless routes that run together for as many visits as both laps have do so for ever.
+        // N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
         const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
-        // Two endless routes that run together for as many visits as both laps do so for ever
-        // (Fine and Wilf 1965).
         if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
-            return Outcome::too_short;
+            return Outcome::window_too_short;
         }
-        circle_ = {i.robot, j.robot};
+        waiting_cycle_ = {i.robot, j.robot};
         return Outcome::deadlock;
     }
     const bool waits = i_waits(segment);
     culprits_.clear();
-    for (const bool turned : {false, true}) {
-        BackjumpingOrder order{rights_if(segment, waits != turned),
-                               rights_if(segment, waits == turned)};
-        if (take(std::move(order), turned)) {
-            return Outcome::settled;
+    for (const bool is_turned : {false, true}) {
+        if (decide({rights_if(segment, waits != is_turned), rights_if(segment, waits == is_turned)},
+                   is_turned)) {
+            return Outcome::resolved;
         }
-        blame(next_serial_);
+        add_culprits_of_refusal(next_id_);
     }
-    is_going_back_ = true;
-    return Outcome::going_back;
+    is_backjumping_ = true;
+    return Outcome::backjumping;
 }
 
-Backjumping::Outcome Backjumping::go_back() {
-    is_going_back_ = false;
+Backjumping::Outcome Backjumping::backjump() {
+    is_backjumping_ = false;
     if (culprits_.empty()) {
         return Outcome::deadlock;
     }
-    Step step = forget_from(culprits_.back());
+    Decision decision = undo_from(culprits_.back());
     culprits_.pop_back();
-    culprits_.insert(culprits_.end(), step.culprits.begin(), step.culprits.end());
-    sort_culprits();
-    if (!step.is_turned && !step.order.others.empty()) {
-        std::swap(step.order.rights, step.order.others);
-        if (take(std::move(step.order), true)) {
-            return Outcome::settled;
+    add_culprits(decision.culprits, next_id_);
+    if (!decision.is_turned && !decision.order.others.empty()) {
+        std::swap(decision.order.rights, decision.order.others);
+        if (decide(std::move(decision.order), true)) {
+            return Outcome::resolved;
         }
-        blame(step.serial);
+        add_culprits_of_refusal(decision.id);
     }
-    is_going_back_ = true;
-    return Outcome::going_back;
+    is_backjumping_ = true;
+    return Outcome::backjumping;
 }
 
-// The longest run of vertices around two visits that one has in reverse order of the other, or else
-// in the same.
+// The longest run of vertices around two visits that one robot visits in reverse order of the
+// other, or else in the same order.
 Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const {
-    for (const std::int32_t step : {-1, 1}) {
-        const std::int32_t before = run(i, j, -1, -step);
-        const std::int32_t after = run(i, j, 1, step);
-        if (before == 0 && after == 0) {
-            continue;
+    const auto is_shown = [this](CyclicVisit visit) {
+        return timetable_.start(visit.robot) <= visit.number &&
+               visit.number < timetable_.end(visit.robot);
+    };
+    const auto run_length = [&](std::int32_t i_step, std::int32_t j_step) {
+        for (std::int32_t length = 0;; ++length) {
+            const CyclicVisit one{i.robot, i.number + (length + 1) * i_step};
+            const CyclicVisit other{j.robot, j.number + (length + 1) * j_step};
+            if (!is_shown(one) || !is_shown(other) ||
+                routes_.vertex(one) != routes_.vertex(other)) {
+                return length;
+            }
         }
-        const auto at = [](CyclicVisit visit, std::int32_t later) {
-            return CyclicVisit{visit.robot, visit.number + later};
-        };
-        const bool is_head_on = step < 0;
-        return {is_head_on,
-                !is_head_on,
-                at(i, -before),
-                at(i, after),
-                at(j, is_head_on ? -after : -before),
-                at(j, is_head_on ? before : after)};
+    };
+    const auto at = [](CyclicVisit visit, std::int32_t later) {
+        return CyclicVisit{visit.robot, visit.number + later};
+    };
+    std::int32_t before = run_length(-1, 1);
+    std::int32_t after = run_length(1, -1);
+    if (before > 0 || after > 0) {
+        return {Segment::Kind::head_on, at(i, -before), at(i, after), at(j, -after), at(j, before)};
     }
-    return {false, false, i, i, j, j};
+    before = run_length(-1, -1);
+    after = run_length(1, 1);
+    const auto kind = before > 0 || after > 0 ? Segment::Kind::following : Segment::Kind::vertex;
+    return {kind, at(i, -before), at(i, after), at(j, -before), at(j, after)};
 }
 
-std::int32_t Backjumping::run(CyclicVisit i, CyclicVisit j, std::int32_t i_step,
-                              std::int32_t j_step) const {
-    const auto [i_start, j_start] = std::pair(timetable_.start(i.robot), timetable_.start(j.robot));
-    const auto [i_end, j_end] = std::pair(timetable_.end(i.robot), timetable_.end(j.robot));
-    std::int32_t length = 0;
-    for (;; ++length) {
-        i.number += i_step;
-        j.number += j_step;
-        if (i.number < i_start || i.number >= i_end || j.number < j_start || j.number >= j_end ||
-            routes_.vertex(i) != routes_.vertex(j)) {
-            return length;
-        }
-    }
-}
-
-bool Backjumping::reaches_the_end(const Segment& segment) const {
-    return segment.i_last.number == timetable_.end(segment.i_last.robot) - 1 ||
-           segment.j_last.number == timetable_.end(segment.j_last.robot) - 1;
-}
-
-// On a tie the one that is first goes first, and if both are the first listed.
+// On a tie the robot that enters the segment first goes first, and on a second tie i.
 bool Backjumping::i_waits(const Segment& segment) const {
     if (rule_ == CyclicRule::fixed_order) {
         return false;
@@ -119,28 +107,28 @@ bool Backjumping::i_waits(const Segment& segment) const {
             return of_i < of_j;
         }
     }
-    return seen_enter(segment.j_first) < seen_enter(segment.i_first);
+    return enter_in_window(segment.j_first) < enter_in_window(segment.i_first);
 }
 
-// How much later the one who waits is at a place of the segment, by what that costs it.
+// The longest delay of the waiting robot at a vertex of the segment, times its cost of waiting.
 std::int64_t Backjumping::loss_if(const Segment& segment, bool i_waits) const {
     const auto rights = rights_if(segment, i_waits);
-    Tick later = 0;
+    Tick delay = 0;
     for (const auto& [first, second] : rights) {
         const Tick free = timetable_.enter(first.next()) + routes_.gap_before(second);
-        later = std::max(later, free - seen_enter(second));
+        delay = std::max(delay, free - enter_in_window(second));
     }
-    return later * loss_[static_cast<std::size_t>(rights.front().second.robot)];
+    return delay * loss_[static_cast<std::size_t>(rights.front().second.robot)];
 }
 
-// What was entered before the view begins is there from its beginning.
-Tick Backjumping::seen_enter(CyclicVisit visit) const {
+// A visit entered before the window counts as entered at its beginning.
+Tick Backjumping::enter_in_window(CyclicVisit visit) const {
     return std::max(timetable_.enter(visit), timetable_.begins());
 }
 
-// Head-on, the last visit of one and the first of the other say it all.
+// Head-on, one right of way between the last visit of one and the first of the other is enough.
 std::vector<CyclicRight> Backjumping::rights_if(const Segment& segment, bool i_waits) {
-    if (!segment.is_following) {
+    if (segment.kind != Segment::Kind::following) {
         return {i_waits ? CyclicRight{segment.j_last, segment.i_first}
                         : CyclicRight{segment.i_last, segment.j_first}};
     }
@@ -152,132 +140,126 @@ std::vector<CyclicRight> Backjumping::rights_if(const Segment& segment, bool i_w
     return rights;
 }
 
-bool Backjumping::take(BackjumpingOrder&& order, bool is_turned) {
-    const Owner serial = next_serial_;
+// Gives all rights of way of an order; false, with nothing changed, if one is refused.
+bool Backjumping::decide(SegmentOrder&& order, bool is_turned) {
+    const DecisionId id = next_id_;
     const RollingTimetable::Mark mark = timetable_.mark();
-    auto& changed = timetable_.changed();
-    const std::size_t n_changed = changed.size();
+    const std::size_t n_changed = timetable_.changed().size();
     for (const auto& [first, second] : order.rights) {
-        if (!timetable_.precede(first, second, serial)) {
-            const auto owners = timetable_.cycle_owners();
-            blamed_.assign(owners.begin(), owners.end());
+        if (!timetable_.precede(first, second, id)) {
             timetable_.rollback(mark);
-            changed.resize(n_changed);  // all is as it was
+            timetable_.changed().resize(n_changed);
             return false;
         }
     }
-    ++next_serial_;
-    tell();
-    steps_.push_back({serial, mark, false, is_turned, culprits_, std::move(order)});
+    ++next_id_;
+    report_changes();
+    decisions_.push_back({id, mark, false, is_turned, culprits_, std::move(order)});
     return true;
 }
 
-// Adds the decisions that made the last right of way impossible.
-void Backjumping::blame(Owner below) {
-    const auto cycle = timetable_.cycle();
-    if (!cycle.empty()) {
-        circle_.clear();
-        for (auto x = cycle.rbegin(); x != cycle.rend(); ++x) {
-            if (circle_.empty() || circle_.back() != x->robot) {
-                circle_.push_back(x->robot);
-            }
-        }
-    }
-    for (const Owner owner : blamed_) {
-        if (owner < below) {
-            culprits_.push_back(owner);
-        }
-    }
-    sort_culprits();
-}
-
-void Backjumping::sort_culprits() {
+void Backjumping::add_culprits(std::span<const DecisionId> ids, DecisionId below) {
+    std::copy_if(ids.begin(), ids.end(), std::back_inserter(culprits_),
+                 [below](DecisionId id) { return id < below; });
     std::sort(culprits_.begin(), culprits_.end());
     culprits_.erase(std::unique(culprits_.begin(), culprits_.end()), culprits_.end());
 }
 
-Backjumping::Step Backjumping::forget_from(Owner serial) {
-    const auto from = std::find_if(steps_.begin(), steps_.end(),
-                                   [serial](const Step& step) { return step.serial == serial; });
-    Step step = *from;
-    if (!step.is_carried) {
-        timetable_.rollback(step.mark);
-        steps_.erase(from, steps_.end());
-    } else {
-        for (auto one = from; one != steps_.end(); ++one) {
-            for (const CyclicRight& right : one->order.rights) {
-                timetable_.take_away(right, one->serial);
+// Adds the decisions that made the last refused right of way impossible.
+void Backjumping::add_culprits_of_refusal(DecisionId below) {
+    const auto cycle = timetable_.cycle();
+    if (!cycle.empty()) {
+        waiting_cycle_.clear();
+        for (auto x = cycle.rbegin(); x != cycle.rend(); ++x) {
+            if (waiting_cycle_.empty() || waiting_cycle_.back() != x->robot) {
+                waiting_cycle_.push_back(x->robot);
             }
         }
-        steps_.erase(from, steps_.end());
-        run_again();
     }
-    tell();
-    return step;
+    add_culprits(timetable_.cycle_decisions(), below);
 }
 
-void Backjumping::run_again() {
-    held_.clear();
-    for (const Step& step : steps_) {
-        held_.insert(held_.end(), step.order.rights.begin(), step.order.rights.end());
+Backjumping::Decision Backjumping::undo_from(DecisionId id) {
+    const auto from = std::find_if(decisions_.begin(), decisions_.end(),
+                                   [id](const Decision& decision) { return decision.id == id; });
+    Decision undone = *from;
+    if (!undone.is_older) {
+        timetable_.rollback(undone.mark);
+        decisions_.erase(from, decisions_.end());
+    } else {
+        for (auto one = from; one != decisions_.end(); ++one) {
+            for (const CyclicRight& right : one->order.rights) {
+                timetable_.remove(right, one->id);
+            }
+        }
+        decisions_.erase(from, decisions_.end());
+        std::vector<CyclicRight> kept;
+        for (Decision& decision : decisions_) {
+            const auto& rights = decision.order.rights;
+            kept.insert(kept.end(), rights.begin(), rights.end());
+            decision.is_older = true;
+        }
+        timetable_.recompute(kept);
     }
-    timetable_.run_again(held_);
-    carry_on();
+    report_changes();
+    return undone;
 }
 
-void Backjumping::tell() {
-    meetings_.change(timetable_.changed());
+void Backjumping::report_changes() {
+    conflicts_.times_changed(timetable_.changed());
     timetable_.changed().clear();
 }
 
-// What was given before the view moved on is taken back one by one.
-void Backjumping::carry_on() {
-    for (Step& step : steps_) {
-        step.is_carried = true;
+std::vector<SegmentOrder> Backjumping::orders() const {
+    std::vector<SegmentOrder> orders;
+    for (const Decision& decision : decisions_) {
+        orders.push_back(decision.order);
     }
+    return orders;
 }
 
 void Backjumping::drop_past() {
     const auto is_past = [this](const CyclicRight& right) {
         return timetable_.is_frozen(right.second);
     };
-    const auto is_out = [this](const CyclicRight& right) {
+    const auto is_before_window = [this](const CyclicRight& right) {
         return right.first.number < timetable_.start(right.first.robot);
     };
-    for (Step& step : steps_) {
-        auto& [rights, others] = step.order;
-        std::erase_if(rights, [&](const auto& right) { return is_past(right) || is_out(right); });
+    for (Decision& decision : decisions_) {
+        auto& [rights, others] = decision.order;
+        std::erase_if(rights, is_past);
+        std::erase_if(rights, is_before_window);
         if (std::any_of(others.begin(), others.end(), is_past)) {
             others.clear();
         }
-        std::erase_if(others, is_out);
+        std::erase_if(others, is_before_window);
     }
-    std::erase_if(steps_, [](const Step& step) { return step.order.rights.empty(); });
-    look_again();
+    std::erase_if(decisions_, [](const Decision& one) { return one.order.rights.empty(); });
+    allow_all_turns();
 }
 
-void Backjumping::look_again() {
-    for (Step& step : steps_) {
-        step.is_turned = false;
-        step.culprits.clear();
-    }
-    carry_on();
-}
-
-void Backjumping::put(const std::vector<BackjumpingOrder>& orders) {
-    steps_.clear();
-    for (const BackjumpingOrder& order : orders) {
-        steps_.push_back({next_serial_++, {}, true, false, {}, order});
+void Backjumping::allow_all_turns() {
+    for (Decision& decision : decisions_) {
+        decision.is_turned = false;
+        decision.is_older = true;
+        decision.culprits.clear();
     }
 }
 
-void Backjumping::give() {
-    for (const Step& step : steps_) {
-        for (const auto& [first, second] : step.order.rights) {
-            timetable_.precede(first, second, step.serial);
+void Backjumping::restore(const std::vector<SegmentOrder>& orders) {
+    decisions_.clear();
+    for (const SegmentOrder& order : orders) {
+        decisions_.push_back({next_id_++, {}, true, false, {}, order});
+    }
+}
+
+void Backjumping::give_rights() {
+    for (const Decision& decision : decisions_) {
+        for (const auto& [first, second] : decision.order.rights) {
+            timetable_.precede(first, second, decision.id);
         }
     }
-    tell();
+    report_changes();
 }
 
 }  // namespace rightofway

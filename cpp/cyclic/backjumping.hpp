@@ -1,13 +1,14 @@
-// Settles what meets on endless routes, by a rule that sees the two robots only, and goes back
-// where that ends in a circle.
+// Resolves conflicts of cyclic routes by a rule that considers the two robots only, with
+// conflict-directed backjumping where that closes a cycle.
 //
-// Each meeting is one decision, for a whole segment. Where neither robot can wait, the rights of
-// way that close the circles are the culprits; the latest decision among them that has not been
-// turned is turned, and what was decided after it is forgotten. A turned decision that fails as
-// well passes its culprits on.
-//
-// Reference: P. Prosser, Hybrid algorithms for the constraint satisfaction problem, Computational
+// P. Prosser, Hybrid algorithms for the constraint satisfaction problem, Computational
 // Intelligence 9, 1993.
+//
+// Each conflict is one decision, for a whole segment: the longest run of vertices that one robot
+// visits in reverse order of the other, or in the same order. Where neither robot can wait, the
+// decisions whose rights of way close the cycles are the *culprits*. The latest culprit that has
+// not been turned is turned, which gives the rights of way to the other robot, and all later
+// decisions are undone. If the turned decision fails as well, its culprits are added to the others.
 #pragma once
 
 #include <array>
@@ -26,59 +27,63 @@ namespace rightofway {
 enum class CyclicRule : std::int32_t { first_come = 0, fixed_order = 1, least_loss = 2 };
 constexpr std::int32_t n_cyclic_rules = 3;
 
-// A decision: these rights of way, where those others were possible.
-struct BackjumpingOrder {
+// The rights of way on a segment, and those that the other robot could have instead.
+struct SegmentOrder {
     std::vector<CyclicRight> rights;
     std::vector<CyclicRight> others;
 };
 
 class Backjumping {
   public:
-    enum class Outcome { settled, going_back, too_short, deadlock };
+    enum class Outcome { resolved, backjumping, window_too_short, deadlock };
 
-    // All are borrowed and must outlive this. `loss` is what a tick of waiting costs each robot.
-    Backjumping(const CyclicRoutes& routes, RollingTimetable& timetable, ConflictSweep& meetings,
+    // All are borrowed and must outlive this. `loss` is the cost of a tick of waiting for each
+    // robot.
+    Backjumping(const CyclicRoutes& routes, RollingTimetable& timetable, ConflictSweep& conflicts,
                 CyclicRule rule, std::span<const std::int64_t> loss);
 
-    // Decides by another rule from now on.
-    void follow(CyclicRule rule) { rule_ = rule; }
+    void set_rule(CyclicRule rule) { rule_ = rule; }
 
-    // Keeps two robots apart. Going back: that takes other decisions than so far. Too short: the
-    // view does not show whether the segment ends. In a deadlock, circle() has who would wait for
-    // whom.
-    Outcome settle(const Conflict& conflict);
-    // Goes back to the latest decision that may help, and turns it if it can be.
-    Outcome go_back();
-    bool is_going_back() const { return is_going_back_; }
-    std::span<const RobotId> circle() const { return circle_; }
-    std::array<CyclicVisit, 2> met() const { return met_; }
+    // Decides which robot goes first on the segment of a conflict. Backjumping: earlier decisions
+    // have to change. Window too short: it does not show whether the segment ends. Deadlock:
+    // waiting_cycle() has the robots that would each wait for the next.
+    Outcome resolve(const Conflict& conflict);
+    // Undoes all from the latest culprit on, and turns that one if it can be turned.
+    Outcome backjump();
+    bool is_backjumping() const { return is_backjumping_; }
+    std::span<const RobotId> waiting_cycle() const { return waiting_cycle_; }
+    // The two visits of the last conflict, at one vertex.
+    std::array<CyclicVisit, 2> conflict_visits() const { return conflict_visits_; }
 
-    std::size_t n_orders() const { return steps_.size(); }
-    const BackjumpingOrder& order(std::size_t index) const { return steps_[index].order; }
+    std::vector<SegmentOrder> orders() const;
+    // Calls use(rights) for the rights of way of each decision, and for those of the other robot.
+    template <class Use>
+    void for_each_order(Use&& use) const {
+        for (const Decision& decision : decisions_) {
+            use(decision.order.rights);
+            use(decision.order.others);
+        }
+    }
 
-    // Drops what does not reach beyond the cut any more; what is left can be turned once more.
+    // Drops rights of way that end before the cut; the decisions left can be turned once more.
     void drop_past();
     // Lets all decisions be turned once more.
-    void look_again();
-    // Puts these decisions in place of all others; they hold when they are given, in a view that
-    // shows them.
-    void put(const std::vector<BackjumpingOrder>& orders);
-    void give();
+    void allow_all_turns();
+    // Replaces all decisions; give_rights() applies them, in a window that shows their visits.
+    void restore(const std::vector<SegmentOrder>& orders);
+    void give_rights();
 
   private:
-    using Owner = RollingTimetable::Owner;
-
-    struct Step {
-        Owner serial;
+    struct Decision {
+        DecisionId id;
         RollingTimetable::Mark mark;
-        bool is_carried;
+        bool is_older;  // than the window: its rights of way are removed one by one
         bool is_turned;
-        std::vector<Owner> culprits;  // in order
-        BackjumpingOrder order;
+        std::vector<DecisionId> culprits;  // rising
+        SegmentOrder order;
     };
     struct Segment {
-        bool is_head_on = false;
-        bool is_following = false;
+        enum class Kind { vertex, head_on, following } kind;
         CyclicVisit i_first;
         CyclicVisit i_last;
         CyclicVisit j_first;
@@ -86,33 +91,27 @@ class Backjumping {
     };
 
     Segment segment_of(CyclicVisit i, CyclicVisit j) const;
-    std::int32_t run(CyclicVisit i, CyclicVisit j, std::int32_t i_step, std::int32_t j_step) const;
-    bool reaches_the_end(const Segment& segment) const;
     bool i_waits(const Segment& segment) const;
     std::int64_t loss_if(const Segment& segment, bool i_waits) const;
-    Tick seen_enter(CyclicVisit visit) const;
+    Tick enter_in_window(CyclicVisit visit) const;
     static std::vector<CyclicRight> rights_if(const Segment& segment, bool i_waits);
-    bool take(BackjumpingOrder&& order, bool is_turned);
-    void blame(Owner below);
-    void sort_culprits();
-    Step forget_from(Owner serial);
-    void carry_on();
-    void run_again();
-    void tell();
+    bool decide(SegmentOrder&& order, bool is_turned);
+    void add_culprits(std::span<const DecisionId> ids, DecisionId below);
+    void add_culprits_of_refusal(DecisionId below);
+    Decision undo_from(DecisionId id);
+    void report_changes();
 
     const CyclicRoutes& routes_;
     RollingTimetable& timetable_;
-    ConflictSweep& meetings_;
+    ConflictSweep& conflicts_;
     CyclicRule rule_;
     std::span<const std::int64_t> loss_;
-    std::vector<Step> steps_;
-    Owner next_serial_ = 0;
-    std::vector<RobotId> circle_;
-    std::vector<Owner> blamed_;
-    std::vector<Owner> culprits_;  // in order; of the meeting that is being settled
-    bool is_going_back_ = false;
-    std::vector<CyclicRight> held_;
-    std::array<CyclicVisit, 2> met_{};
+    std::vector<Decision> decisions_;
+    DecisionId next_id_ = 0;
+    std::vector<RobotId> waiting_cycle_;
+    std::vector<DecisionId> culprits_;  // of the conflict that is being resolved; rising
+    bool is_backjumping_ = false;
+    std::array<CyclicVisit, 2> conflict_visits_{};
 };
 
 }  // namespace rightofway

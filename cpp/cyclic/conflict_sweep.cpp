@@ -17,35 +17,35 @@ void ConflictSweep::restart() {
     for (Place& place : at_) {
         place.booked.clear();
     }
-    ahead_.clear();
+    upcoming_.clear();
     conflicts_.clear();
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
         sweeps_[r].number = timetable_.start(r);
-        look_ahead(r);
-        push_ahead(r);
+        find_next(r);
+        push_upcoming(r);
     }
 }
 
-void ConflictSweep::show(RobotId robot, std::int32_t old_end) {
+void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
     const std::int32_t swept = sweeps_[robot].number;
     if (timetable_.end(robot) < swept) {
-        take_out(robot, timetable_.end(robot));
+        unsweep(robot, timetable_.end(robot));
     } else if (swept == old_end || swept == timetable_.end(robot)) {
-        look_ahead(robot);
-        push_ahead(robot);
+        find_next(robot);
+        push_upcoming(robot);
     }
 }
 
-// A visit that is entered at another time was left at another one before.
-void ConflictSweep::change(std::span<const RollingTimetable::Changed> changed) {
+// A changed enter changes the leave of the visit before it, too.
+void ConflictSweep::times_changed(std::span<const RollingTimetable::Changed> changed) {
     for (const auto& [robot, from] : changed) {
         if (from <= sweeps_[robot].number) {
-            take_out(robot, from - 1);
+            unsweep(robot, from - 1);
         }
     }
 }
 
-void ConflictSweep::take_out(RobotId robot, std::int32_t from) {
+void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
     std::int32_t& swept = sweeps_[robot].number;
     for (; swept > from; --swept) {
         const CyclicVisit visit{robot, swept - 1};
@@ -53,11 +53,11 @@ void ConflictSweep::take_out(RobotId robot, std::int32_t from) {
         const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
         booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
     }
-    look_ahead(robot);
-    push_ahead(robot);
+    find_next(robot);
+    push_upcoming(robot);
 }
 
-void ConflictSweep::look_ahead(RobotId robot) {
+void ConflictSweep::find_next(RobotId robot) {
     Sweep& sweep = sweeps_[robot];
     const CyclicVisit visit{robot, sweep.number};
     sweep.place = routes_.place_in_lap(visit);
@@ -66,28 +66,29 @@ void ConflictSweep::look_ahead(RobotId robot) {
                       : never;
 }
 
-void ConflictSweep::push_ahead(RobotId robot) {
+void ConflictSweep::push_upcoming(RobotId robot) {
     const Sweep& sweep = sweeps_[robot];
     if (sweep.start < never) {
-        ahead_.push_back({sweep.start, {robot, sweep.number}});
-        std::push_heap(ahead_.begin(), ahead_.end(), std::greater<>());
+        upcoming_.push_back({sweep.start, {robot, sweep.number}});
+        std::push_heap(upcoming_.begin(), upcoming_.end(), std::greater<>());
     }
 }
 
-// The robot that was swept goes on, most often by little: one way down the heap will do.
-void ConflictSweep::replace_first_ahead(RobotId robot) {
-    const Ahead own{sweeps_[robot].start, {robot, sweeps_[robot].number}};
-    const std::size_t size = ahead_.size();
+// Replaces the top of the heap by the robot's next visit, which mostly belongs near the top: one
+// way down the heap.
+void ConflictSweep::replace_first_upcoming(RobotId robot) {
+    const Upcoming own{sweeps_[robot].start, {robot, sweeps_[robot].number}};
+    const std::size_t size = upcoming_.size();
     std::size_t at = 0;
     for (std::size_t child = 1; child < size; child = 2 * at + 1) {
-        child += child + 1 < size && ahead_[child + 1] < ahead_[child];
-        if (own <= ahead_[child]) {
+        child += child + 1 < size && upcoming_[child + 1] < upcoming_[child];
+        if (own <= upcoming_[child]) {
             break;
         }
-        ahead_[at] = ahead_[child];
+        upcoming_[at] = upcoming_[child];
         at = child;
     }
-    ahead_[at] = own;
+    upcoming_[at] = own;
 }
 
 Booking ConflictSweep::booking(CyclicVisit visit) const {
@@ -95,7 +96,7 @@ Booking ConflictSweep::booking(CyclicVisit visit) const {
             timetable_.enter(visit.next()) + routes_.headway()};
 }
 
-bool ConflictSweep::is_shown(CyclicVisit visit) const {
+bool ConflictSweep::is_in_window(CyclicVisit visit) const {
     return timetable_.start(visit.robot) <= visit.number &&
            visit.number < timetable_.end(visit.robot);
 }
@@ -103,7 +104,7 @@ bool ConflictSweep::is_shown(CyclicVisit visit) const {
 bool ConflictSweep::holds(const Conflict& conflict) const {
     const CyclicVisit a{conflict.robot_a, conflict.visit_a};
     const CyclicVisit b{conflict.robot_b, conflict.visit_b};
-    if (!is_shown(a) || !is_shown(b)) {
+    if (!is_in_window(a) || !is_in_window(b)) {
         return false;
     }
     if (conflict.kind == ConflictKind::swap) {
@@ -121,27 +122,26 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
             conflicts_.pop_back();
         }
         const Tick known = conflicts_.empty() ? never : conflicts_.front().tick;
-        const Tick swept_to = ahead_.empty() ? never : ahead_.front().start;
+        const Tick swept_to = upcoming_.empty() ? never : upcoming_.front().start;
         if (known < swept_to) {
             return known < limit ? std::optional(conflicts_.front()) : std::nullopt;
         }
         if (swept_to >= limit) {
             return std::nullopt;
         }
-        const auto& [start, visit] = ahead_.front();
+        const auto& [start, visit] = upcoming_.front();
         const Sweep& own = sweeps_[visit.robot];
         if (start < never && start == own.start && visit.number == own.number) {
             sweep(visit.robot);
         } else {
-            std::pop_heap(ahead_.begin(), ahead_.end(), std::greater<>());
-            ahead_.pop_back();
+            std::pop_heap(upcoming_.begin(), upcoming_.end(), std::greater<>());
+            upcoming_.pop_back();
         }
     }
 }
 
-// Sweeps the visit that is first of all ahead.
+// Sweeps the visit on top of the heap.
 void ConflictSweep::sweep(RobotId robot) {
-    ++n_swept_;
     Sweep& sweep = sweeps_[robot];
     const Tick leave = timetable_.enter({robot, sweep.number + 1});
     const Booked own{{robot, sweep.number}, {sweep.start, leave + routes_.headway()}};
@@ -149,7 +149,7 @@ void ConflictSweep::sweep(RobotId robot) {
     auto& booked = place.booked;
     place.longest = std::max(place.longest, own.booking.end - own.booking.start);
     if (booked.size() == booked.capacity()) {
-        forget_past(booked);
+        drop_past(booked);
     }
     std::size_t after = booked.size();
     for (std::size_t k = after; k-- > 0;) {
@@ -168,13 +168,13 @@ void ConflictSweep::sweep(RobotId robot) {
     sweep.start = sweep.number < timetable_.end(robot)
                       ? leave - routes_.approach_at(robot, sweep.place)
                       : never;
-    replace_first_ahead(robot);
-    prepare(robot);
+    replace_first_upcoming(robot);
+    prefetch_next(robot);
 }
 
-// Each visit is at another place in memory. Others are swept before this robot's next one, time
-// enough to fetch what that needs; and the list of the one after it, to see where its entries are.
-void ConflictSweep::prepare(RobotId robot) const {
+// Visits are scattered in memory. Other robots are swept before this robot's next visit, so its
+// list and its enter are fetched meanwhile, and the head of the list after it.
+void ConflictSweep::prefetch_next(RobotId robot) const {
     const std::int32_t place = sweeps_[robot].place;
     const std::int32_t next = place + 1 == routes_.length(robot) ? 0 : place + 1;
     const auto& booked = at_[routes_.vertex_at(robot, place)].booked;
@@ -182,17 +182,17 @@ void ConflictSweep::prepare(RobotId robot) const {
         prefetch(&booked.back());
     }
     prefetch(&at_[routes_.vertex_at(robot, next)]);
-    timetable_.prepare({robot, sweeps_[robot].number + 1});
+    timetable_.prefetch_enter({robot, sweeps_[robot].number + 1});
 }
 
-// Before a list grows: most often the first ones in it are long over.
-void ConflictSweep::forget_past(std::vector<Booked>& booked) const {
+// Before a list grows: its first bookings have mostly ended before the window.
+void ConflictSweep::drop_past(std::vector<Booked>& booked) const {
     const Tick begins = timetable_.begins();
     const auto is_now = [begins](const Booked& one) { return one.booking.end > begins; };
     booked.erase(booked.begin(), std::find_if(booked.begin(), booked.end(), is_now));
 }
 
-// A swap shows at the vertex that the other one leaves as this one enters.
+// A swap is found at the vertex that the other robot leaves as this one enters.
 void ConflictSweep::compare(const Booked& own, const Booked& other) {
     if (own.visit.robot == other.visit.robot) {
         return;
@@ -204,7 +204,7 @@ void ConflictSweep::compare(const Booked& own, const Booked& other) {
     }
     const CyclicVisit there = other.visit.next();
     if (own.booking.start == other.booking.end && routes_.gap_before(own.visit) == 0 &&
-        own.visit.number > timetable_.start(own.visit.robot) && is_shown(there) &&
+        own.visit.number > timetable_.start(own.visit.robot) && is_in_window(there) &&
         routes_.gap_before(there) == 0 &&
         routes_.vertex(there) == routes_.vertex(own.visit.before())) {
         add(own.visit, there, own.booking.start, ConflictKind::swap);

@@ -1,10 +1,11 @@
-// Who meets next on endless routes: a sweep in order of time that goes no further than it is asked.
+// The next conflict of cyclic routes, by a sweep in order of time.
 //
-// Visits are swept in the order in which their bookings start, into a list for each vertex. A visit
-// that is swept finds its conflicts with those in the list; they wait in a heap until everything
-// that starts before them is swept too. Where times change, the robot's visits from there on are
-// taken out and swept anew, so a conflict is known as soon as both its visits are. What is in the
-// heap and does not hold any more is dropped when it comes out on top.
+// Visits are swept in the order in which their bookings start, into a list for each vertex, up to
+// the tick that is asked for. A swept visit finds its conflicts with those in the list; they wait
+// in a heap until all bookings that start earlier are swept. Where times change, the visits of that
+// robot from there on are removed and swept again, so a conflict is known as soon as both its
+// visits are. A conflict that does not hold any more is dropped when it reaches the top of the
+// heap. (ConflictIndex, for routes of fixed length, counts conflicts instead: it has no order.)
 #pragma once
 
 #include <cstdint>
@@ -24,18 +25,16 @@ class ConflictSweep {
     // Both are borrowed and must outlive this.
     ConflictSweep(const CyclicRoutes& routes, const RollingTimetable& timetable);
 
-    // The earliest conflict in view before a tick, in the order of `Conflict`; visits by number.
+    // The earliest conflict in the window before a tick, in the order of `Conflict`; visits by
+    // number.
     std::optional<Conflict> next(Tick limit);
 
-    // Must be told where times have changed,
-    void change(std::span<const RollingTimetable::Changed> changed);
-    // how far a robot's visits were shown before the view has moved,
-    void show(RobotId robot, std::int32_t old_end);
-    // and when everything is another.
+    // The caller reports visits whose times have changed,
+    void times_changed(std::span<const RollingTimetable::Changed> changed);
+    // a new end of a robot's window,
+    void end_changed(RobotId robot, std::int32_t old_end);
+    // and a timetable that was restarted.
     void restart();
-
-    // How many visits were swept so far.
-    std::int64_t n_swept() const { return n_swept_; }
 
   private:
     struct Booked {
@@ -44,29 +43,29 @@ class ConflictSweep {
     };
     struct Place {
         std::vector<Booked> booked;  // in order of start
-        Tick longest = 0;            // of all bookings that were ever here
+        Tick longest = 0;            // of all bookings that were ever in the list
     };
-    struct Ahead {
+    struct Upcoming {
         Tick start;
         CyclicVisit visit;
-        auto operator<=>(const Ahead&) const = default;
+        auto operator<=>(const Upcoming&) const = default;
     };
-    struct Sweep {  // of a robot: the first visit that is not swept
+    struct Sweep {  // the first visit of a robot that is not swept
         std::int32_t number = 0;
         std::int32_t place = 0;
-        Tick start = never;  // of its booking; never, if it is not shown
+        Tick start = never;  // of its booking; `never` if it is not in the window
     };
 
     Booking booking(CyclicVisit visit) const;
-    bool is_shown(CyclicVisit visit) const;
+    bool is_in_window(CyclicVisit visit) const;
     bool holds(const Conflict& conflict) const;
-    void look_ahead(RobotId robot);
-    void take_out(RobotId robot, std::int32_t from);
+    void find_next(RobotId robot);
+    void unsweep(RobotId robot, std::int32_t from);
     void sweep(RobotId robot);
-    void push_ahead(RobotId robot);
-    void replace_first_ahead(RobotId robot);
-    void prepare(RobotId robot) const;
-    void forget_past(std::vector<Booked>& booked) const;
+    void push_upcoming(RobotId robot);
+    void replace_first_upcoming(RobotId robot);
+    void prefetch_next(RobotId robot) const;
+    void drop_past(std::vector<Booked>& booked) const;
     void compare(const Booked& own, const Booked& other);
     void add(CyclicVisit one, CyclicVisit other, Tick tick, ConflictKind kind);
 
@@ -74,9 +73,8 @@ class ConflictSweep {
     const RollingTimetable& timetable_;
     std::vector<Place> at_;            // per vertex
     std::vector<Sweep> sweeps_;        // per robot
-    std::vector<Ahead> ahead_;         // a heap
+    std::vector<Upcoming> upcoming_;   // a heap
     std::vector<Conflict> conflicts_;  // a heap
-    std::int64_t n_swept_ = 0;
 };
 
 }  // namespace rightofway

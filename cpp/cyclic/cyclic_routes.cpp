@@ -9,7 +9,7 @@
 namespace rightofway {
 namespace {
 
-// A lap takes no longer than this, so that no sum of laps that anybody can watch overflows.
+// A lap takes no longer than this, so that no sum of laps overflows.
 constexpr Tick longest_lap = Tick{1} << 40;
 
 template <class T>
@@ -83,7 +83,7 @@ void CyclicRoutes::check(RobotId robot) const {
     }
 }
 
-Tick CyclicRoutes::free(CyclicVisit visit) const {
+Tick CyclicRoutes::unimpeded_enter(CyclicVisit visit) const {
     if (visit.number == 0) {
         return 0;
     }
@@ -93,7 +93,7 @@ Tick CyclicRoutes::free(CyclicVisit visit) const {
     return later - within[1] + first_least_[r];
 }
 
-std::int32_t CyclicRoutes::lasting(CyclicVisit visit, Tick ticks) const {
+std::int32_t CyclicRoutes::n_visits_in(CyclicVisit visit, Tick ticks) const {
     const RobotId r = visit.robot;
     const Tick* within = &within_[first_place_[r] + r];
     const std::int32_t place = place_in_lap(visit);

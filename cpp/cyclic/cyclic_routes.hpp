@@ -1,6 +1,7 @@
-// Laps one behind the other, without an end: where each robot is at any visit, and how long.
+// Cyclic routes: each robot repeats its lap for ever.
 //
-// Visits are numbered from 0 on for each robot; at home before the first lap, nobody turns.
+// Visits of each robot are numbered from 0 on. Visit 0, at home before the first lap, is shorter
+// than later visits there: no robot turns in it.
 #pragma once
 
 #include <compare>
@@ -26,7 +27,7 @@ struct CyclicRight {
     CyclicVisit second;  // ... before this one enters it
 };
 
-// What laps are made of; n places of r laps. Borrowed, read once.
+// n places of r laps. Borrowed, read once.
 struct LapArrays {
     std::span<const std::int32_t> first_place;  // r + 1: lap k is first_place[k] .. [k + 1] - 1
     std::span<const VertexId> vertex;           // n
@@ -46,7 +47,6 @@ class CyclicRoutes {
     std::int32_t length(RobotId robot) const {
         return first_place_[robot + 1] - first_place_[robot];
     }
-    Tick duration(RobotId robot) const { return within_[end_of(robot)]; }
     Tick headway() const { return headway_; }
 
     VertexId vertex(CyclicVisit visit) const { return vertex_[place(visit)]; }
@@ -56,12 +56,12 @@ class CyclicRoutes {
         return visit.number == 0 ? first_least_[visit.robot] : least_[place(visit)];
     }
 
-    // When a visit begins if nobody is ever in the way.
-    Tick free(CyclicVisit visit) const;
-    // How many visits from a later one than 0 on last that long at least.
-    std::int32_t lasting(CyclicVisit visit, Tick ticks) const;
+    // The enter of a visit if the robot never waits.
+    Tick unimpeded_enter(CyclicVisit visit) const;
+    // How many visits, from one after visit 0 on, it takes to last so many ticks.
+    std::int32_t n_visits_in(CyclicVisit visit, Tick ticks) const;
 
-    // For loops along one route: all by place, and the place of a visit.
+    // For loops along one route, by place in the lap.
     std::span<const Tick> leasts(RobotId robot) const {
         return std::span(least_).subspan(first_place_[robot], length(robot));
     }
@@ -79,7 +79,6 @@ class CyclicRoutes {
     std::int32_t place(CyclicVisit visit) const {
         return first_place_[visit.robot] + place_in_lap(visit);
     }
-    std::int32_t end_of(RobotId robot) const { return first_place_[robot + 1] + robot; }
     void check(RobotId robot) const;
 
     std::vector<std::int32_t> first_place_;

@@ -12,11 +12,11 @@ RollingTimetable::RollingTimetable(const CyclicRoutes& routes)
       before_(routes.n_robots()) {
     const Tick zero = 0;
     for (RobotId r = 0; r < routes.n_robots(); ++r) {
-        put(r, 0, std::span(&zero, 1));
+        restart(r, 0, std::span(&zero, 1));
     }
 }
 
-void RollingTimetable::put(RobotId robot, std::int32_t start, std::span<const Tick> enters) {
+void RollingTimetable::restart(RobotId robot, std::int32_t start, std::span<const Tick> enters) {
     Line& line = lines_[robot];
     forget_rights(line, line.base + static_cast<std::int32_t>(line.nodes.size()));
     line.base = line.start = start;
@@ -31,7 +31,7 @@ void RollingTimetable::put(RobotId robot, std::int32_t start, std::span<const Ti
     given_.clear();
 }
 
-void RollingTimetable::show(RobotId robot, std::int32_t end) {
+void RollingTimetable::set_end(RobotId robot, std::int32_t end) {
     Line& line = lines_[robot];
     runs_.clear();
     given_.clear();
@@ -41,7 +41,7 @@ void RollingTimetable::show(RobotId robot, std::int32_t end) {
     run_freely(robot, old_end);
 }
 
-// Lets a robot run freely from a visit on.
+// Lets a robot run freely from a visit to the end of its window.
 void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
     Line& line = lines_[robot];
     const auto least = routes_.leasts(robot);
@@ -49,7 +49,7 @@ void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
     for (std::int32_t k = from; k < line.end; ++k) {
         Node* const own = &line.nodes[k - line.base];
         Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[place];
-        if (k + 1 == line.frozen) {  // by the cut it has not left
+        if (k + 1 == line.frozen) {  // it has not left by the cut
             lasts = std::max(lasts, cut_ + 1 - own->enter);
         }
         (own + 1)->enter = own->enter + lasts;
@@ -64,7 +64,7 @@ void RollingTimetable::freeze(RobotId robot, Tick tick) {
     }
 }
 
-void RollingTimetable::begin_at(Tick tick, Tick cut) {
+void RollingTimetable::start_window(Tick tick, Tick cut) {
     begins_ = tick;
     cut_ = cut;
     for (Line& line : lines_) {
@@ -99,14 +99,14 @@ std::int32_t RollingTimetable::find(CyclicVisit a, CyclicVisit b) const {
     return arc;
 }
 
-void RollingTimetable::link(CyclicVisit a, CyclicVisit b, Owner owner) {
+void RollingTimetable::link(CyclicVisit a, CyclicVisit b, DecisionId decision) {
     if (free_arcs_.empty()) {
         free_arcs_.push_back(static_cast<std::int32_t>(arcs_.size()));
         arcs_.emplace_back();
     }
     const std::int32_t arc = free_arcs_.back();
     free_arcs_.pop_back();
-    arcs_[arc] = {b, node(a).rights, owner};
+    arcs_[arc] = {b, node(a).rights, decision};
     node(a).rights = arc;
     given_.push_back(a);
 }
@@ -117,9 +117,9 @@ void RollingTimetable::unlink_latest(CyclicVisit a) {
     free_arcs_.push_back(arc);
 }
 
-bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, Owner owner) {
+bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision) {
     cycle_.clear();
-    cycle_owners_.clear();
+    cycle_decisions_.clear();
     if (is_frozen(b)) {
         return false;
     }
@@ -130,32 +130,32 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, Owner owner) {
     // A swap is a cycle of two robots and zero length; see Timetable.
     if (find(b.before(), source) != none) {
         cycle_ = {b, source};
-        cycle_owners_ = {arcs_[find(b.before(), source)].owner};
+        cycle_decisions_ = {arcs_[find(b.before(), source)].decision};
         return false;
     }
     const Tick delta = enter(source) + routes_.gap_before(b) - enter(b);
     if (delta > 0 && !spread(b, delta, source)) {
         explain(source);
-        explain_owners();
+        explain_decisions();
         forget_raises();
         return false;
     }
-    link(a, b, owner);
+    link(a, b, decision);
     if (delta > 0) {
         accept();
     }
     return true;
 }
 
-void RollingTimetable::explain_owners() {
+void RollingTimetable::explain_decisions() {
     for (std::size_t k = 1; k < cycle_.size(); ++k) {
         if (cycle_[k - 1].robot != cycle_[k].robot) {
-            cycle_owners_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].owner);
+            cycle_decisions_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].decision);
         }
     }
 }
 
-// What was tried is done; what comes after it is raised now. No raise leads back to what was tried.
+// Applies the raises up to the source; later visits are raised now. None leads back.
 void RollingTimetable::accept() {
     for (const CyclicVisit x : raised_) {
         const Tick delta = trial(x).raise;
@@ -198,7 +198,7 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
     std::int32_t place = routes_.place_in_lap(visit);
     Node* own = &line.nodes[visit.number - line.base];
     std::int32_t k = visit.number;
-    CyclicVisit last{nobody, 0};  // pushed from here, and until when its robot stays there
+    CyclicVisit last{nobody, 0};  // pushed from here, and when its robot leaves it
     Tick last_leave = 0;
     for (;; ++k, ++own) {
         own->enter += delta;
@@ -207,7 +207,7 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
             const Tick least_enter = own->enter + routes_.gap_before(second);
             const Tick raise = least_enter - enter(second);
             const bool follows = last.next() == second && last_leave >= least_enter;
-            if (raise > 0 && !follows) {  // else the push before will lead there
+            if (raise > 0 && !follows) {  // else the push before it leads there
                 push(raise, second);
             }
             if (raise > 0) {
@@ -247,19 +247,19 @@ void RollingTimetable::rollback(const Mark& mark) {
     }
 }
 
-void RollingTimetable::take_away(const CyclicRight& right, Owner owner) {
+void RollingTimetable::remove(const CyclicRight& right, DecisionId decision) {
     std::int32_t* link = &node(right.first).rights;
     while (*link != none && arcs_[*link].second != right.second) {
         link = &arcs_[*link].next;
     }
-    if (*link != none && arcs_[*link].owner == owner) {
+    if (*link != none && arcs_[*link].decision == decision) {
         const std::int32_t arc = *link;
         *link = arcs_[arc].next;
         free_arcs_.push_back(arc);
     }
 }
 
-void RollingTimetable::run_again(std::span<const CyclicRight> rights) {
+void RollingTimetable::recompute(std::span<const CyclicRight> rights) {
     runs_.clear();
     given_.clear();
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
@@ -280,10 +280,10 @@ void RollingTimetable::run_again(std::span<const CyclicRight> rights) {
     }
     runs_.clear();
     changed_.resize(n_changed);
-    tell_changes();
+    note_changes();
 }
 
-void RollingTimetable::tell_changes() {
+void RollingTimetable::note_changes() {
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
         const Line& line = lines_[r];
         for (std::int32_t k = line.frozen; k <= line.end; ++k) {

@@ -1,8 +1,8 @@
-// The earliest times of endless routes that keep the rights of way, for the stretch in view.
+// The earliest times of cyclic routes that keep the rights of way, for a window of visits.
 //
-// Of each robot a stretch of visits is in view: `start` .. `end` - 1, and the enter of `end`, when
-// it leaves the view. Visits below `frozen` have begun by the cut; nothing delays them any more.
-// The view moves on with the cut; what is in it already is kept, not made anew.
+// The window holds visits `start` .. `end` - 1 of each robot, and the enter of `end`. Visits below
+// `frozen` have started by the cut; nothing delays them any more. The window moves with the cut;
+// the times that stay in it are kept.
 //
 // A right of way raises visits as in `Timetable` (raise_search.hpp), up to the enter of its source.
 // Later visits cannot lead back to the source: they are raised for good at once, in runs along a
@@ -22,19 +22,21 @@
 
 namespace rightofway {
 
+// The decision for which a right of way was given; later decisions have larger numbers.
+using DecisionId = std::int64_t;
+
 class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
   public:
-    using Owner = std::int64_t;  // what a right of way was given for; later ones are larger
     struct Mark {
         std::size_t n_runs = 0;
         std::size_t n_given = 0;
     };
     struct Changed {
         RobotId robot;
-        std::int32_t from;  // visits from here on may have other times
+        std::int32_t from;  // visits from this one on may have other times
     };
 
-    // Everybody begins visit 0 at tick 0, and that is frozen. The routes must outlive this.
+    // Every robot starts visit 0 at tick 0, which is frozen. The routes must outlive this.
     explicit RollingTimetable(const CyclicRoutes& routes);
 
     std::int32_t start(RobotId robot) const { return lines_[robot].start; }
@@ -42,41 +44,41 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     std::int32_t end(RobotId robot) const { return lines_[robot].end; }
     Tick begins() const { return begins_; }
     Tick enter(CyclicVisit visit) const { return node(visit).enter; }
-    // Makes it quick to ask soon when a visit enters, or the last one in view.
-    void prepare(CyclicVisit visit) const {
+    // Fetches the enter of a visit, or of the last one in the window, into the cache.
+    void prefetch_enter(CyclicVisit visit) const {
         prefetch(&node({visit.robot, std::min(visit.number, end(visit.robot))}));
     }
     bool is_frozen(CyclicVisit visit) const { return visit.number < lines_[visit.robot].frozen; }
 
-    // Shows the visits below `end`, which is beyond all that is frozen or has a right of way.
-    void show(RobotId robot, std::int32_t end);
-    // Freezes a robot's visits that have begun by a tick; they are all in view.
+    // Sets the end of a robot's window, beyond all visits that are frozen or have a right of way.
+    void set_end(RobotId robot, std::int32_t end);
+    // Freezes a robot's visits that have started by a tick; all of them are in the window.
     void freeze(RobotId robot, Tick tick);
-    // Drops what was left by a tick, after freezing all that has begun by the cut.
-    void begin_at(Tick tick, Tick cut);
-    // Begins anew at a tick, where `enters` are those of visits from `start` on, all frozen. Gives
-    // up all rights of way of the robot and shows nothing more.
-    void put(RobotId robot, std::int32_t start, std::span<const Tick> enters);
+    // Drops visits left by a tick, after all visits started by the cut have been frozen.
+    void start_window(Tick tick, Tick cut);
+    // Replaces a robot's window by visits from `start` on with these enters, all frozen, and
+    // removes its rights of way.
+    void restart(RobotId robot, std::int32_t start, std::span<const Tick> enters);
 
     // Lets visit a go before visit b of another robot at the same vertex. False, with nothing
     // changed, if b is frozen or the fleet would be deadlocked or swap; cycle() then explains.
-    bool precede(CyclicVisit a, CyclicVisit b, Owner owner);
+    bool precede(CyclicVisit a, CyclicVisit b, DecisionId decision);
 
     // The cycle that the last refused right of way would have closed, b first; empty if b is
-    // frozen. And the owners of the rights of way on it.
+    // frozen. And the decisions of the rights of way on it.
     std::span<const CyclicVisit> cycle() const { return cycle_; }
-    std::span<const Owner> cycle_owners() const { return cycle_owners_; }
+    std::span<const DecisionId> cycle_decisions() const { return cycle_decisions_; }
 
-    // Undoes what was done since a mark, as long as the view has not moved.
+    // Undoes all changes since a mark, as long as the window has not changed.
     Mark mark() const { return {runs_.size(), given_.size()}; }
     void rollback(const Mark& mark);
 
-    // For changes further back: takes rights of way away one by one, and then finds all times anew
-    // from what is frozen and from those that are left.
-    void take_away(const CyclicRight& right, Owner owner);
-    void run_again(std::span<const CyclicRight> rights);
+    // For older changes: removes rights of way one by one, and then recomputes all times from the
+    // frozen visits and the rights of way that are left.
+    void remove(const CyclicRight& right, DecisionId decision);
+    void recompute(std::span<const CyclicRight> rights);
 
-    // Where times have changed since this was last emptied.
+    // The visits whose times have changed since the caller last cleared this.
     std::vector<Changed>& changed() { return changed_; }
 
   private:
@@ -101,7 +103,7 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     struct Arc {
         CyclicVisit second;
         std::int32_t next;
-        Owner owner;
+        DecisionId decision;
     };
     struct Push {
         Tick delta;
@@ -129,11 +131,11 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
         return lines_[visit.robot].trials[visit.number - lines_[visit.robot].base];
     }
     std::int32_t find(CyclicVisit a, CyclicVisit b) const;
-    void link(CyclicVisit a, CyclicVisit b, Owner owner);
+    void link(CyclicVisit a, CyclicVisit b, DecisionId decision);
     void unlink_latest(CyclicVisit a);
     void forget_rights(Line& line, std::int32_t below);
     void run_freely(RobotId robot, std::int32_t from);
-    void tell_changes();
+    void note_changes();
     Tick& raise(CyclicVisit visit) { return trial(visit).raise; }
     CyclicVisit& cause(CyclicVisit visit) { return trial(visit).cause; }
     template <class Use>
@@ -145,7 +147,7 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
             use(arcs_[k].second, routes_.gap_before(arcs_[k].second));
         }
     }
-    void explain_owners();
+    void explain_decisions();
     void accept();
     void push(Tick delta, CyclicVisit visit);
     void run_on();
@@ -158,9 +160,9 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     std::vector<Arc> arcs_;
     std::vector<std::int32_t> free_arcs_;
     std::vector<Run> runs_;
-    std::vector<CyclicVisit> given_;  // the first visits of rights of way, in order
+    std::vector<CyclicVisit> given_;  // first visits of rights of way, in the order of giving
     std::vector<Changed> changed_;
-    std::vector<Owner> cycle_owners_;
+    std::vector<DecisionId> cycle_decisions_;
 
     // What a change works on; reused, so that no step allocates.
     std::vector<Push> pushes_;               // a heap

@@ -1,8 +1,8 @@
-// States by what they hold: was there the same one before, and when?
+// The states seen so far, to find the tick at which an equal one was seen.
 //
-// A hash finds, a full comparison decides. Memory is bounded: when it is full, every second state
-// is dropped, then every second of those, and so on. A state that comes again is followed by the
-// same ones as before, so one that was kept comes again soon after.
+// A hash finds candidates, a full comparison decides. Memory is bounded: when it is full, every
+// second state is dropped, then every second of the rest, and so on. States recur in sequence, so a
+// kept state recurs soon after a dropped one.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace rightofway {
 
 class SeenStates {
   public:
-    // Keeps at most so many numbers (but always one state).
+    // Keeps at most `most` numbers, but always one state.
     explicit SeenStates(std::size_t most = std::size_t{1} << 24) : most_(most) {}
 
-    // The tick of the same state, if it was seen before; otherwise this one is seen from now on.
+    // The tick of an equal state seen before; otherwise this one is added.
     std::optional<Tick> find_or_add(std::span<const std::int32_t> state, Tick tick);
 
     // Forgets those seen later than a tick, or all.

@@ -8,26 +8,26 @@
 namespace rightofway {
 namespace {
 
-constexpr int asked_every = 32;  // decisions
+constexpr int decisions_between_questions = 32;
 
 }  // namespace
 
-CyclicSimulator::CyclicSimulator(const LapArrays& laps, const Horizon& pace, CyclicRule rule,
+CyclicSimulator::CyclicSimulator(const LapArrays& laps, const Horizon& horizon, CyclicRule rule,
                                  std::vector<std::int64_t> loss)
     : routes_(laps),
-      pace_(pace),
+      horizon_(horizon),
       timetable_(routes_),
-      meetings_(routes_, timetable_),
+      conflicts_(routes_, timetable_),
       loss_(std::move(loss)),
-      giving_(routes_, timetable_, meetings_, rule, loss_),
-      waits_(routes_),
-      lag_(pace.lag),
-      ahead_(routes_.n_robots()),
-      shown_(routes_.n_robots()) {
-    follow(rule);
+      decisions_(routes_, timetable_, conflicts_, rule, loss_),
+      past_(routes_),
+      lag_(horizon.lag),
+      lookahead_(routes_.n_robots()),
+      ends_(routes_.n_robots()) {
+    set_rule(rule);
 }
 
-void CyclicSimulator::follow(CyclicRule rule) {
+void CyclicSimulator::set_rule(CyclicRule rule) {
     if (rule == CyclicRule::least_loss) {
         require_length("loss", loss_.size(), static_cast<std::size_t>(n_robots()));
         for (std::size_t r = 0; r < loss_.size(); ++r) {
@@ -36,107 +36,94 @@ void CyclicSimulator::follow(CyclicRule rule) {
             }
         }
     }
-    giving_.follow(rule);
-    forget();
+    decisions_.set_rule(rule);
+    reset_states();
 }
 
-CyclicSimulator::End CyclicSimulator::go_on(const StopCondition& is_over) {
+CyclicSimulator::End CyclicSimulator::advance(const StopCondition& is_over) {
     while (true) {
-        if (!has_begun_) {
+        if (!has_window_) {
             if (is_over()) {
                 return End::open;
             }
-            if (!begin()) {
+            if (!start_window()) {
                 return End::repeats;
             }
         }
-        switch (settle(is_over)) {
+        switch (resolve_conflicts(is_over)) {
             case Step::over:
                 return End::open;
-            case Step::go_on:
-                freeze();
+            case Step::done:
+                freeze_to_next_cut();
                 break;
             case Step::deadlock:
-                if (!go_back()) {
+                if (!undo_cuts()) {
                     return End::deadlock;
                 }
         }
-        has_begun_ = false;
+        has_window_ = false;
     }
 }
 
-// Moves the view on to the cut; false if its state has come before.
-bool CyclicSimulator::begin() {
-    if (!is_in_trouble()) {
-        lag_ = pace_.lag;
-        back_ = 1;
+// Moves the window to the cut; false if the state there has recurred.
+bool CyclicSimulator::start_window() {
+    if (!is_retrying()) {
+        lag_ = horizon_.lag;
+        n_to_undo_ = 1;
     }
-    timetable_.begin_at(std::max(cut_ - pace_.reach, Tick{0}), cut_);
-    std::fill(ahead_.begin(), ahead_.end(), 3 * lag_);
-    show();
-    if (has_returned_) {
-        giving_.give();
-        has_returned_ = false;
-        end_ = earliest_end();
+    timetable_.start_window(std::max(cut_ - horizon_.reach, Tick{0}), cut_);
+    std::fill(lookahead_.begin(), lookahead_.end(), 3 * lag_);
+    extend_window();
+    if (is_restored_) {
+        decisions_.give_rights();
+        is_restored_ = false;
+        window_end_ = window_end();
     }
-    giving_.drop_past();
-    Moment moment{cut_, {}, {}};
+    decisions_.drop_past();
+    Snapshot snapshot{cut_, {}, decisions_.orders()};
     for (RobotId r = 0; r < n_robots(); ++r) {
-        moment.n_begun.push_back(timetable_.frozen(r));
+        snapshot.n_started.push_back(timetable_.frozen(r));
     }
-    for (std::size_t k = 0; k < giving_.n_orders(); ++k) {
-        moment.orders.push_back(giving_.order(k));
+    snapshots_.push_back(std::move(snapshot));
+    if (snapshots_.size() > static_cast<std::size_t>(horizon_.memory)) {
+        snapshots_.pop_front();
     }
-    past_.push_back(std::move(moment));
-    if (past_.size() > static_cast<std::size_t>(pace_.memory)) {
-        past_.pop_front();
-    }
-    if (!is_in_trouble()) {
+    if (!is_retrying()) {
         write_state();
-        if (const auto before = seen_.find_or_add(state_, cut_)) {
-            came_before_ = *before;
+        if (const auto seen = seen_.find_or_add(state_, cut_)) {
+            first_seen_ = *seen;
             return false;
         }
     }
-    has_begun_ = true;
+    has_window_ = true;
     return true;
 }
 
-// Shows as much as lasts as long as it has to, and all that has been decided.
-void CyclicSimulator::show() {
+// Extends the window by the lookahead, and to all visits that have been decided.
+void CyclicSimulator::extend_window() {
     for (RobotId r = 0; r < n_robots(); ++r) {
-        const std::int32_t n_begun = timetable_.frozen(r);
-        shown_[r] = n_begun + routes_.lasting({r, n_begun}, ahead_[r]);
+        const std::int32_t n_started = timetable_.frozen(r);
+        ends_[r] = n_started + routes_.n_visits_in({r, n_started}, lookahead_[r]);
     }
     const auto include = [this](CyclicVisit visit) {
-        shown_[visit.robot] = std::max(shown_[visit.robot], visit.number + 1);
+        ends_[visit.robot] = std::max(ends_[visit.robot], visit.number + 1);
     };
-    include({pace_.pacemaker, next_home(pace_.pacemaker)});
-    for (std::size_t k = 0; k < giving_.n_orders(); ++k) {
-        for (const auto* rights : {&giving_.order(k).rights, &giving_.order(k).others}) {
-            for (const auto& [first, second] : *rights) {
-                include(first);
-                include(second);
-            }
+    include({horizon_.pacemaker, next_home(horizon_.pacemaker)});
+    decisions_.for_each_order([&](const std::vector<CyclicRight>& rights) {
+        for (const auto& [first, second] : rights) {
+            include(first);
+            include(second);
         }
-    }
+    });
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t old_end = timetable_.end(r);
-        timetable_.show(r, shown_[r]);
-        meetings_.show(r, old_end);
+        timetable_.set_end(r, ends_[r]);
+        conflicts_.end_changed(r, old_end);
     }
-    end_ = earliest_end();
+    window_end_ = window_end();
 }
 
-void CyclicSimulator::show_longer(Tick until) {
-    for (RobotId r = 0; r < n_robots(); ++r) {
-        if (timetable_.enter({r, timetable_.end(r)}) <= until) {
-            ahead_[r] *= 2;
-        }
-    }
-}
-
-Tick CyclicSimulator::earliest_end() const {
+Tick CyclicSimulator::window_end() const {
     Tick end = never;
     for (RobotId r = 0; r < n_robots(); ++r) {
         end = std::min(end, timetable_.enter({r, timetable_.end(r)}));
@@ -144,106 +131,110 @@ Tick CyclicSimulator::earliest_end() const {
     return end;
 }
 
-// Settles what has to be before the next cut.
-CyclicSimulator::Step CyclicSimulator::settle(const StopCondition& is_over) {
+// Resolves all conflicts up to the lag after the next cut.
+CyclicSimulator::Step CyclicSimulator::resolve_conflicts(const StopCondition& is_over) {
     for (int count = 1;; ++count) {
-        if (giving_.is_going_back()) {
+        if (decisions_.is_backjumping()) {
             if (is_over()) {
                 return Step::over;
             }
-            if (giving_.go_back() == Backjumping::Outcome::deadlock) {
+            if (decisions_.backjump() == Backjumping::Outcome::deadlock) {
                 return Step::deadlock;
             }
             continue;
         }
-        if (count % asked_every == 0 && is_over()) {
+        if (count % decisions_between_questions == 0 && is_over()) {
             return Step::over;
         }
-        if (next_cut() - timetable_.begins() > pace_.patience) {
-            change_pacemaker();
+        if (next_cut() - timetable_.begins() > horizon_.patience) {
+            replace_pacemaker();
         }
         const Tick limit = next_cut() + lag_;
-        const auto meeting = meetings_.next(limit);
-        const Tick tick = meeting ? meeting->tick : limit;
-        if (!is_far_enough(tick)) {
-            show_longer(tick);
-        } else if (!meeting) {
-            return Step::go_on;
+        const auto found = conflicts_.next(limit);
+        const Tick tick = found ? found->tick : limit;
+        if (!is_in_window(tick)) {
+            for (RobotId r = 0; r < n_robots(); ++r) {
+                if (timetable_.enter({r, timetable_.end(r)}) <= tick) {
+                    lookahead_[r] *= 2;
+                }
+            }
+        } else if (!found) {
+            return Step::done;
         } else {
-            met_ = *meeting;
-            const auto outcome = giving_.settle(met_);
+            conflict_ = *found;
+            const auto outcome = decisions_.resolve(conflict_);
             if (outcome == Backjumping::Outcome::deadlock) {
                 return Step::deadlock;
             }
-            if (outcome != Backjumping::Outcome::too_short) {
+            if (outcome != Backjumping::Outcome::window_too_short) {
                 continue;
             }
-            ahead_[met_.robot_a] *= 2;
-            ahead_[met_.robot_b] *= 2;
+            lookahead_[conflict_.robot_a] *= 2;
+            lookahead_[conflict_.robot_b] *= 2;
         }
-        giving_.look_again();
-        show();
+        decisions_.allow_all_turns();
+        extend_window();
     }
 }
 
-bool CyclicSimulator::is_far_enough(Tick tick) {
-    if (tick >= end_) {
-        end_ = earliest_end();
+bool CyclicSimulator::is_in_window(Tick tick) {
+    if (tick >= window_end_) {
+        window_end_ = window_end();
     }
-    return tick < end_;
+    return tick < window_end_;
 }
 
-void CyclicSimulator::freeze() {
+void CyclicSimulator::freeze_to_next_cut() {
     cut_ = next_cut();
     for (RobotId r = 0; r < n_robots(); ++r) {
         timetable_.freeze(r, cut_);
-        for (std::int32_t k = waits_.n_begun(r); k < timetable_.frozen(r); ++k) {
-            waits_.add(r, timetable_.enter({r, k}));
+        for (std::int32_t k = past_.n_started(r); k < timetable_.frozen(r); ++k) {
+            past_.add(r, timetable_.enter({r, k}));
         }
     }
 }
 
-// Takes some cuts back and looks further ahead from now on; false if it is no use.
-bool CyclicSimulator::go_back() {
-    if (lag_ >= pace_.most_lag) {
+// Undoes some cuts and uses a longer lag from there on; false if no longer one is allowed.
+bool CyclicSimulator::undo_cuts() {
+    if (lag_ >= horizon_.most_lag) {
         return false;
     }
-    trouble_ = std::max(trouble_, cut_ + 1);
-    const std::size_t n_back = std::min(back_, past_.size());
-    past_.resize(past_.size() - n_back + 1);
-    const Moment moment = std::move(past_.back());
-    past_.pop_back();
-    return_to(moment);
+    retried_until_ = std::max(retried_until_, cut_ + 1);
+    const std::size_t n_undone = std::min(n_to_undo_, snapshots_.size());
+    snapshots_.resize(snapshots_.size() - n_undone + 1);
+    const Snapshot snapshot = std::move(snapshots_.back());
+    snapshots_.pop_back();
+    restore(snapshot);
     lag_ *= 2;
-    back_ *= 2;
+    n_to_undo_ *= 2;
     seen_.forget_after(cut_);
     return true;
 }
 
-void CyclicSimulator::return_to(const Moment& moment) {
-    cut_ = moment.tick;
-    const Tick begins = std::max(cut_ - pace_.reach, Tick{0});
+void CyclicSimulator::restore(const Snapshot& snapshot) {
+    cut_ = snapshot.cut;
+    const Tick begins = std::max(cut_ - horizon_.reach, Tick{0});
     std::vector<Tick> enters;
     for (RobotId r = 0; r < n_robots(); ++r) {
-        waits_.cut(r, moment.n_begun[r]);
-        std::int32_t start = moment.n_begun[r] - 1;
-        while (start > 0 && waits_.enter({r, start}) > begins) {
+        past_.truncate(r, snapshot.n_started[r]);
+        std::int32_t start = snapshot.n_started[r] - 1;
+        while (start > 0 && past_.enter({r, start}) > begins) {
             --start;
         }
         enters.clear();
-        for (std::int32_t k = start; k < moment.n_begun[r]; ++k) {
-            enters.push_back(waits_.enter({r, k}));
+        for (std::int32_t k = start; k < snapshot.n_started[r]; ++k) {
+            enters.push_back(past_.enter({r, k}));
         }
-        timetable_.put(r, start, enters);
+        timetable_.restart(r, start, enters);
     }
-    timetable_.begin_at(begins, cut_);
-    meetings_.restart();
-    giving_.put(moment.orders);
-    has_returned_ = true;
+    timetable_.start_window(begins, cut_);
+    conflicts_.restart();
+    decisions_.restore(snapshot.orders);
+    is_restored_ = true;
 }
 
-// The robot that is home again first sets the pace; this one seems to wait for ever.
-void CyclicSimulator::change_pacemaker() {
+// The present pacemaker seems to wait for ever: the robot that is home first replaces it.
+void CyclicSimulator::replace_pacemaker() {
     RobotId first = nobody;
     Tick earliest = never;
     for (RobotId r = 0; r < n_robots(); ++r) {
@@ -253,7 +244,7 @@ void CyclicSimulator::change_pacemaker() {
             first = r;
         }
     }
-    pace_.pacemaker = first;
+    horizon_.pacemaker = first;
     seen_.clear();
 }
 
@@ -263,12 +254,16 @@ std::int32_t CyclicSimulator::next_home(RobotId robot) const {
 }
 
 Tick CyclicSimulator::next_cut() const {
-    return timetable_.enter({pace_.pacemaker, next_home(pace_.pacemaker)});
+    return timetable_.enter({horizon_.pacemaker, next_home(horizon_.pacemaker)});
 }
 
-// All that decides what comes, counted from the beginning of the view.
+// Writes all that decides the future, relative to the beginning of the window.
 void CyclicSimulator::write_state() {
     state_.clear();
+    const auto write_tick = [this](Tick ticks) {
+        state_.push_back(static_cast<std::int32_t>(ticks >> 32));
+        state_.push_back(static_cast<std::int32_t>(ticks));
+    };
     write_tick(cut_ - timetable_.begins());
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t start = timetable_.start(r);
@@ -283,25 +278,15 @@ void CyclicSimulator::write_state() {
             write_tick(std::max(leave - enter, Tick{1}));
         }
     }
-    for (std::size_t k = 0; k < giving_.n_orders(); ++k) {
-        for (const auto* rights : {&giving_.order(k).rights, &giving_.order(k).others}) {
-            state_.push_back(static_cast<std::int32_t>(rights->size()));
-            for (const auto& [first, second] : *rights) {
-                write_visit(first);
-                write_visit(second);
+    decisions_.for_each_order([this](const std::vector<CyclicRight>& rights) {
+        state_.push_back(static_cast<std::int32_t>(rights.size()));
+        for (const auto& [first, second] : rights) {
+            for (const CyclicVisit visit : {first, second}) {
+                state_.push_back(visit.robot);
+                state_.push_back(visit.number - timetable_.start(visit.robot));
             }
         }
-    }
-}
-
-void CyclicSimulator::write_visit(CyclicVisit visit) {
-    state_.push_back(visit.robot);
-    state_.push_back(visit.number - timetable_.start(visit.robot));
-}
-
-void CyclicSimulator::write_tick(Tick ticks) {
-    state_.push_back(static_cast<std::int32_t>(ticks >> 32));
-    state_.push_back(static_cast<std::int32_t>(ticks));
+    });
 }
 
 }  // namespace rightofway

@@ -1,10 +1,11 @@
-// A group of robots that repeat their laps under a rule, until a state comes again.
+// Simulates a group of robots that repeat their laps under a rule, until a state recurs.
 //
-// What a rule sees is a view that begins at a *cut*: all that has begun by then is frozen. It goes
-// on until the *pacemaker* is home again, and what meets less than a *lag* after that is settled
-// too before everything up to there is frozen, so that whoever still has to wait before a segment
-// has not entered it yet. Where that was too little, some cuts are taken back and tried with a
-// longer lag. The state at each cut is looked up among the earlier ones.
+// The rule works on a window of visits that begins at a *cut*: all visits that have started by the
+// cut are frozen. Conflicts are resolved up to a *lag* after the *pacemaker* is home again, so that
+// a robot which still has to wait before a segment has not entered it yet; then everything up to
+// that homecoming is frozen, and it is the next cut. Where the lag was too short, some cuts are
+// undone and tried again with a longer one. The state at each cut is looked up among the earlier
+// ones.
 #pragma once
 
 #include <cstdint>
@@ -24,93 +25,93 @@
 namespace rightofway {
 
 struct Horizon {
-    RobotId pacemaker;    // cuts are made where this one is home, and at first
-    Tick lag;             // how long after that meetings are settled
-    Tick most_lag;        // no longer is tried
-    Tick patience;        // a pacemaker that stays away longer is no pacemaker any more
-    Tick reach;           // how long before a cut visits may have been left that still matter
-    std::int32_t memory;  // how many cuts can be taken back
+    RobotId pacemaker;    // at first, cuts are made where this robot is home
+    Tick lag;             // conflicts are resolved so long after the next cut
+    Tick most_lag;        // no longer lag is tried
+    Tick patience;        // a pacemaker that stays away longer is replaced
+    Tick reach;           // visits left so long before a cut still matter
+    std::int32_t memory;  // how many cuts can be undone
 };
 
 class CyclicSimulator {
   public:
     enum class End : std::int32_t { open = 0, repeats = 1, deadlock = 2 };
-    // `loss` is what a tick of waiting costs each robot, above 0; only least_loss asks for it.
+
+    // `loss` is the cost of a tick of waiting for each robot, above 0; only least_loss needs it.
     // Throws std::invalid_argument if that does not fit.
-    CyclicSimulator(const LapArrays& laps, const Horizon& pace, CyclicRule rule,
+    CyclicSimulator(const LapArrays& laps, const Horizon& horizon, CyclicRule rule,
                     std::vector<std::int64_t> loss = {});
     CyclicSimulator(const CyclicSimulator&) = delete;  // its parts refer to each other
     CyclicSimulator& operator=(const CyclicSimulator&) = delete;
 
-    // Goes on until a state comes again, or the rule runs into a deadlock, or it is over; it can go
-    // on after that.
-    End go_on(const StopCondition& is_over);
+    // Simulates until a state recurs, the rule runs into a deadlock, or it is over. It can be
+    // called again after each of these.
+    End advance(const StopCondition& is_over);
 
-    // Forgets the states that were seen, so that it goes on where one came again.
-    void forget() { seen_.clear(); }
+    // Forgets the states seen, so that it advances beyond one that has recurred.
+    void reset_states() { seen_.clear(); }
 
-    // Decides by another rule from now on, and forgets the states: they led elsewhere.
-    void follow(CyclicRule rule);
+    // Decides by another rule from now on, and resets the states: they led elsewhere.
+    void set_rule(CyclicRule rule);
 
     RobotId n_robots() const { return routes_.n_robots(); }
+    // Of a state that has recurred: when it was seen first, and the present cut.
+    Tick first_seen() const { return first_seen_; }
     Tick cut() const { return cut_; }
-    Tick came_before() const { return came_before_; }  // the tick of the state that came again
-    const VisitTimes& waits() const { return waits_; }
+    const VisitTimes& visit_times() const { return past_; }
 
-    // Of a deadlock: where and when two robots cannot be kept apart, and who would wait for whom.
-    const Conflict& deadlock() const { return met_; }
-    VertexId deadlock_at() const { return routes_.vertex(giving_.met()[0]); }
-    std::span<const RobotId> circle() const { return giving_.circle(); }
+    // Of a deadlock: the conflict that cannot be resolved, its vertex, and the robots that would
+    // each wait for the next.
+    const Conflict& deadlock() const { return conflict_; }
+    VertexId deadlock_at() const { return routes_.vertex(decisions_.conflict_visits()[0]); }
+    std::span<const RobotId> waiting_cycle() const { return decisions_.waiting_cycle(); }
 
   private:
-    enum class Step { go_on, over, deadlock };
+    enum class Step { done, over, deadlock };
 
-    // All that is needed to go back to a cut.
-    struct Moment {
-        Tick tick;
-        std::vector<std::int32_t> n_begun;
-        std::vector<BackjumpingOrder> orders;
+    // All that is needed to return to a cut.
+    struct Snapshot {
+        Tick cut;
+        std::vector<std::int32_t> n_started;
+        std::vector<SegmentOrder> orders;
     };
 
-    bool begin();
-    void show();
-    void show_longer(Tick until);
-    Step settle(const StopCondition& is_over);
-    bool is_far_enough(Tick tick);
-    void freeze();
-    bool go_back();
-    void return_to(const Moment& moment);
-    void change_pacemaker();
-    bool is_in_trouble() const { return cut_ < trouble_; }
+    bool start_window();
+    void extend_window();
+    Step resolve_conflicts(const StopCondition& is_over);
+    bool is_in_window(Tick tick);
+    void freeze_to_next_cut();
+    bool undo_cuts();
+    void restore(const Snapshot& snapshot);
+    void replace_pacemaker();
+    bool is_retrying() const { return cut_ < retried_until_; }
     std::int32_t next_home(RobotId robot) const;
     Tick next_cut() const;
-    Tick earliest_end() const;
+    Tick window_end() const;
     void write_state();
-    void write_visit(CyclicVisit visit);
-    void write_tick(Tick ticks);
 
     CyclicRoutes routes_;
-    Horizon pace_;
+    Horizon horizon_;
     RollingTimetable timetable_;
-    ConflictSweep meetings_;
+    ConflictSweep conflicts_;
     std::vector<std::int64_t> loss_;
-    Backjumping giving_;
-    VisitTimes waits_;
+    Backjumping decisions_;
+    VisitTimes past_;
     SeenStates seen_;
-    std::deque<Moment> past_;
+    std::deque<Snapshot> snapshots_;
 
     Tick cut_ = 0;
     Tick lag_;
-    Tick trouble_ = 0;  // no cut before this is looked up
-    std::size_t back_ = 1;
-    bool has_begun_ = false;     // the view is at the cut
-    bool has_returned_ = false;  // its rights of way have to be given again
-    Tick end_ = 0;  // the earliest end of the view, as it was when it was last asked for
-    std::vector<Tick> ahead_;
-    std::vector<std::int32_t> shown_;
+    Tick retried_until_ = 0;  // no cut before this is looked up
+    std::size_t n_to_undo_ = 1;
+    bool has_window_ = false;   // the window is at the cut
+    bool is_restored_ = false;  // its rights of way have to be given again
+    Tick window_end_ = 0;       // as it was when last asked for; it only moves later
+    std::vector<Tick> lookahead_;
+    std::vector<std::int32_t> ends_;
     std::vector<std::int32_t> state_;
-    Tick came_before_ = 0;
-    Conflict met_{};  // settled last
+    Tick first_seen_ = 0;
+    Conflict conflict_{};  // resolved last
 };
 
 }  // namespace rightofway

@@ -14,12 +14,12 @@ Tick VisitTimes::enter(CyclicVisit visit) const {
     const Line& line = lines_[visit.robot];
     const auto next = std::upper_bound(line.late.begin(), line.late.end(), visit.number);
     const Tick waited = next == line.late.begin() ? 0 : line.waited[next - line.late.begin() - 1];
-    return routes_.free(visit) + waited;
+    return routes_.unimpeded_enter(visit) + waited;
 }
 
 void VisitTimes::add(RobotId robot, Tick enter) {
     Line& line = lines_[robot];
-    const CyclicVisit visit{robot, line.n_begun++};
+    const CyclicVisit visit{robot, line.n_started++};
     const Tick waited = enter - line.free;
     if (waited > (line.waited.empty() ? 0 : line.waited.back())) {
         line.late.push_back(visit.number);
@@ -28,11 +28,11 @@ void VisitTimes::add(RobotId robot, Tick enter) {
     line.free += routes_.least(visit);
 }
 
-void VisitTimes::cut(RobotId robot, std::int32_t n_begun) {
+void VisitTimes::truncate(RobotId robot, std::int32_t n_started) {
     Line& line = lines_[robot];
-    line.n_begun = n_begun;
-    line.free = routes_.free({robot, n_begun});
-    const auto kept = std::lower_bound(line.late.begin(), line.late.end(), n_begun);
+    line.n_started = n_started;
+    line.free = routes_.unimpeded_enter({robot, n_started});
+    const auto kept = std::lower_bound(line.late.begin(), line.late.end(), n_started);
     line.waited.resize(static_cast<std::size_t>(kept - line.late.begin()));
     line.late.erase(kept, line.late.end());
 }

@@ -1,6 +1,6 @@
-// All times of the past, by the few visits that were late.
+// The enters of all past visits, stored by the few visits that had to wait.
 //
-// A visit begins when it would if nobody was ever in the way, plus all that its robot has waited.
+// A visit's enter is that of a robot that never waits, plus all ticks that its robot has waited.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ class VisitTimes {
   public:
     explicit VisitTimes(const CyclicRoutes& routes);
 
-    std::int32_t n_begun(RobotId robot) const { return lines_[robot].n_begun; }
-    Tick enter(CyclicVisit visit) const;  // of a visit that has begun
+    std::int32_t n_started(RobotId robot) const { return lines_[robot].n_started; }
+    Tick enter(CyclicVisit visit) const;  // of a visit that has started
 
     void add(RobotId robot, Tick enter);  // of the next visit
-    void cut(RobotId robot, std::int32_t n_begun);
+    void truncate(RobotId robot, std::int32_t n_started);
 
-    // The visits that were late, and how much their robots had waited by then.
+    // The visits that had to wait, and the ticks that the robot had waited by then in all.
     std::span<const std::int32_t> late(RobotId robot) const { return lines_[robot].late; }
     std::span<const Tick> waited(RobotId robot) const { return lines_[robot].waited; }
 
   private:
     struct Line {
-        std::int32_t n_begun = 0;
-        Tick free = 0;  // when the next visit would begin
+        std::int32_t n_started = 0;
+        Tick free = 0;  // the next visit's enter without any wait
         std::vector<std::int32_t> late;
         std::vector<Tick> waited;
     };

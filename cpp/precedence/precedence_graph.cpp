@@ -122,18 +122,6 @@ bool PrecedenceGraph::take_back(VisitId a, VisitId b) {
     return true;
 }
 
-bool PrecedenceGraph::flip(VisitId a, VisitId b) {
-    const std::int64_t mark = checkpoint();
-    if (!take_back(a, b)) {
-        return false;
-    }
-    if (!precede(b, a)) {
-        rollback(mark);
-        return false;
-    }
-    return true;
-}
-
 void PrecedenceGraph::check_pair(VisitId a, VisitId b) const {
     require_id("a", a, n_visits());
     require_id("b", b, n_visits());

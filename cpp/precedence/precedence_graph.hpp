@@ -64,10 +64,6 @@ class PrecedenceGraph {
     // keep theirs. False if there is none.
     bool take_back(VisitId a, VisitId b);
 
-    // Takes back the right of way of a over b and gives b that over a; false, with nothing changed,
-    // if there is none or that is impossible.
-    bool flip(VisitId a, VisitId b);
-
     // A mark is the number of changes so far: rights of way given or taken back, and not undone
     // since. It stays good for as long as no rollback goes below it. Throws std::invalid_argument
     // if one has.

@@ -63,6 +63,9 @@ class PolicyIteration {
                 return std::nullopt;
             }
             if (find_longer_circuit()) {
+                if (best_.height <= 0) {
+                    return best_;
+                }
                 hang_on_circuit();
             } else {
                 value_policy();
@@ -119,6 +122,9 @@ class PolicyIteration {
             }
             if (node != none && seen_[static_cast<std::size_t>(node)] == walk) {
                 is_found |= take_if_longer(node);
+                if (best_.height <= 0) {
+                    return true;
+                }
             }
         }
         return is_found;
@@ -135,9 +141,8 @@ class PolicyIteration {
             node = after(node);
         } while (node != start);
         if (circuit.height <= 0) {
-            throw std::invalid_argument(
-                "height: a circuit of length " + std::to_string(circuit.length) + " has height " +
-                std::to_string(circuit.height) + ", but must have one above 0");
+            best_ = {circuit.length, 0, std::move(circuit.arcs)};
+            return true;
         }
         const Tick divisor = std::gcd(circuit.length, circuit.height);
         const Tick length = circuit.length / std::max<Tick>(divisor, 1);

@@ -42,12 +42,12 @@ void require_event_arcs(const TimedEventGraph& arcs);
 
 struct CriticalCircuit {
     Tick length = 0;
-    std::int64_t height = 1;
+    std::int64_t height = 1;         // 0 if its events wait for each other for ever
     std::vector<std::int32_t> arcs;  // in order; empty if every circuit has length 0
 };
 
-// Nothing if `is_over` said so. Throws std::invalid_argument if a circuit of positive length has
-// height 0 or less: what these arcs ask for can never take place.
+// Nothing if `is_over` said so. If a circuit of positive length has height 0 or less, the events
+// can never take place: the answer is that circuit, with height 0.
 std::optional<CriticalCircuit> critical_circuit(const TimedEventGraph& arcs,
                                                 const StopCondition& is_over);
 

@@ -70,7 +70,7 @@ bool PeriodicBookings::is_free(VertexId vertex, const Booking& booking) const {
     return ends_before <= booking.start && booking.end <= starts_next;
 }
 
-void PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
+bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
                            std::optional<Tick> leave) {
     require_visits(visits, n_vertices(), has_period() ? 2 : 0);
     const std::size_t n = visits.vertex.size();
@@ -92,7 +92,7 @@ void PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
         const Tick folded = fold(start);
         bookings.push_back({folded, folded + (ends + headway_ - start), robot});
         if (has_period() && !is_free(visits.vertex[k], bookings.back())) {
-            reject_entry("enter", k, enter[k], "overlaps the booking of another robot");
+            return false;
         }
     }
     for (std::size_t k = 0; k < n; ++k) {
@@ -102,6 +102,7 @@ void PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
     std::vector<VertexId>& vertices = vertices_of_[robot];
     vertices.insert(vertices.end(), visits.vertex.begin(), visits.vertex.end());
     sort_unique(vertices);
+    return true;
 }
 
 void PeriodicBookings::remove(RobotId robot) {

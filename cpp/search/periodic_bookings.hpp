@@ -62,11 +62,11 @@ class PeriodicBookings {
     Tick fold(Tick tick) const;
 
     // Books visits that begin at these ticks. With a period, the last one lasts until the first one
-    // comes again; the robot must not have bookings yet, and no booking may overlap another
-    // robot's. Without, it lasts until `leave`; a robot may book more than once, and overlaps are
-    // allowed: they leave no gap. Throws std::invalid_argument otherwise, or if the arrays do not
-    // fit (nothing is booked then).
-    void add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
+    // comes again, and the robot must not have bookings yet; false, with nothing booked, if a
+    // booking overlaps another robot's. Without, it lasts until `leave`; a robot may book more than
+    // once, and overlaps are allowed: they leave no gap. Throws std::invalid_argument if the robot
+    // has bookings already, or the arrays do not fit (nothing is booked then).
+    bool add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
              std::optional<Tick> leave = std::nullopt);
 
     // Removes all bookings of a robot.

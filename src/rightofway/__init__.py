@@ -51,14 +51,7 @@ from rightofway.planners import (
 from rightofway.solve import improve, solve
 
 if _TYPE_CHECKING:
-    from rightofway.cyclic import (
-        CyclicResult,
-        GroupTimetable,
-        best_timetable,
-        plan_of,
-        run_laps,
-        run_of,
-    )
+    from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
     from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, write_plan, write_scenario
     from rightofway.metrics import Metrics, Wait, measure, waits
@@ -68,7 +61,7 @@ if _TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _ROOMS = {
-    "cyclic": ("CyclicResult", "GroupTimetable", "best_timetable", "plan_of", "run_laps", "run_of"),
+    "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
     "execution": ("Outcome", "simulate"),
     "io": ("load", "load_plan", "write_plan", "write_scenario"),
     "metrics": ("Metrics", "Wait", "measure", "waits"),
@@ -86,7 +79,6 @@ __all__ = [
     "Film",
     "FleetBuilder",
     "GaveUp",
-    "GroupTimetable",
     "InputError",
     "InvalidPlan",
     "LacamOptions",
@@ -124,7 +116,6 @@ __all__ = [
     "measure",
     "plan_of",
     "run_laps",
-    "run_of",
     "simulate",
     "solve",
     "waits",

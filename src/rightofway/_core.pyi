@@ -52,7 +52,7 @@ class PeriodicBookings:
         The last visit that the latest search could enter; it got stuck at the next.
         """
 
-    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> None:
+    def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> bool:
         """
         Book consecutive visits of a robot.
 
@@ -71,11 +71,16 @@ class PeriodicBookings:
         leave : int or None
             When the last one ends; None with a period: when the first one comes again. [ticks]
 
+        Returns
+        -------
+        bool
+            With a period, whether no booking overlaps another robot's; otherwise nothing is booked.
+
         Raises
         ------
         ValueError
-            If the arrays do not fit together; with a period also if the robot has bookings already, or a
-            booking overlaps another robot's. Then nothing is booked.
+            If the arrays do not fit together; with a period also if the robot has bookings already. Then
+            nothing is booked.
 
         Notes
         -----
@@ -269,36 +274,36 @@ class DistanceTables:
 
 class CyclicSimulator:
     """
-    Robots that repeat their laps under a rule that sees two of them, until a state comes again.
+    Robots that repeat their laps under a rule that considers two of them, until a state recurs.
 
     Parameters
     ----------
     first_place : int32[R + 1]
         Robot ``r`` has the places ``first_place[r]`` up to ``first_place[r + 1]`` of a lap.
     vertex : int32[N]
-        Where each place is; the first of a lap is home.
+        The vertex of each place; the first place of a lap is home.
     least : int64[N]
         The least ticks from the enter of a place to that of the next, round the lap.
     approach : int64[N]
         How long before its enter a visit books its vertex. [ticks]
     first_least : int64[R]
-        The least ticks of the very first visit, which nobody turns for.
+        The least ticks of the very first visit, in which no robot turns.
     headway : int
         How long after its leave a visit books its vertex. [ticks]
     pacemaker, lag : int
-        Cuts are made where this robot is home; what meets less than the lag after that is settled
-        before. [ticks]
+        Cuts are made where this robot is home; conflicts up to the lag after a cut are resolved before
+        all visits up to it are frozen. [ticks]
     most_lag, patience : int
-        How long the lag may get, and how long a pacemaker may stay away. [ticks]
+        The longest lag, and how long a pacemaker may stay away. [ticks]
     reach : int
-        How long before a cut visits may have been left that still matter. [ticks]
+        Visits left so long before a cut still matter. [ticks]
     memory : int
-        How many cuts can be taken back.
+        How many cuts can be undone.
     rule : int
-        Who goes first: who would enter the segment first (0), who is listed first (1), or (2) who would
-        lose more by waiting for the other one.
+        The robot that goes first: the one that would enter the segment first (0), the one listed first
+        (1), or (2) the one that would lose more by waiting.
     loss : int64[R]
-        What a tick of waiting costs each robot, above 0, with rule 2; else it is not looked at.
+        The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
 
     Raises
     ------
@@ -307,47 +312,46 @@ class CyclicSimulator:
 
     Notes
     -----
-    Exact and deterministic: the decisions of ``laps.rolling``. The GIL is released while it goes on;
-    Ctrl-C is obeyed.
+    Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.
     """
 
     def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-    def go_on(self, time_limit: float | None = None) -> int:
+    def advance(self, time_limit: float | None = None) -> int:
         """
-        Go on until a state comes again, a deadlock, or time is over.
+        Simulate until a state recurs, a deadlock, or time is over.
 
         Parameters
         ----------
         time_limit : float or None
-            After so many seconds it stops, and can go on later.
+            Stop after this many seconds; the next call continues.
 
         Returns
         -------
         int
-            0 if time ran out, 1 if a state came again, 2 in a deadlock.
+            0 if time ran out, 1 if a state has recurred, 2 in a deadlock.
         """
 
-    def forget(self) -> None:
-        """Forget the states seen, so that it goes on where one came again."""
+    def reset_states(self) -> None:
+        """Forget the states seen, to advance beyond one that has recurred."""
 
-    def follow(self, rule: int) -> None:
+    def set_rule(self, rule: int) -> None:
         """Decide by another rule from now on."""
 
     @property
     def cut(self) -> int:
-        """Up to when all is settled. [ticks]"""
+        """All conflicts before this tick are resolved. [ticks]"""
 
     @property
-    def came_before(self) -> int:
-        """When the state that came again at the cut was there before. [ticks]"""
+    def first_seen(self) -> int:
+        """When the state that has recurred at the cut was seen first. [ticks]"""
 
-    def begun(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """Return how many visits of each robot have begun, int32[R]."""
+    def started(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Return how many visits of each robot have started, int32[R]."""
 
     def waits(self, robot: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return which visits of a robot were late.
+        Return the visits of a robot that had to wait.
 
         Returns
         -------
@@ -362,13 +366,12 @@ class CyclicSimulator:
 
     def deadlock(self) -> tuple[int, int, int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
         """
-        Return the deadlock that it ran into.
+        Return the conflict that cannot be resolved.
 
         Returns
         -------
         tuple of (int, int, int, int, int32[K])
-            The two robots that cannot be kept apart, the vertex, the tick, and the robots that would each
-            wait for the next.
+            The two robots, the vertex, the tick, and the robots that would each wait for the next.
         """
 
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
@@ -384,7 +387,7 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
     length : int64[M]
         How long after its tail the head of each comes at least, not negative. [ticks]
     height : int32[M]
-        How many periods later; may be negative, as long as the height of no circuit is.
+        How many periods later; may be negative.
     time_limit : float or None
         After so many seconds the search stops.
 
@@ -392,13 +395,13 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
     -------
     tuple of (int, int, int32[n]) or None
         Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
-        in order; 0, 1 and no arcs if every circuit has length 0. None if time ran out.
+        in order; 0, 1 and no arcs if every circuit has length 0. Height 0 if the events of the
+        circuit wait for each other for ever. None if time ran out.
 
     Raises
     ------
     ValueError
-        If the arrays do not fit together, a circuit of positive length has height 0 or less, or all
-        lengths times all heights is beyond 2^58.
+        If the arrays do not fit together, or all lengths times all heights is beyond 2^58.
 
     Notes
     -----
@@ -864,7 +867,7 @@ class PrecedenceGraph:
     first_visit : int32[R + 1]
         Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
     vertex : int32[N]
-        Where each visit is; consecutive visits of a robot are at different vertices.
+        The vertex of each visit; consecutive visits of a robot are at different vertices.
     least : int64[N]
         Least time from this enter to the next, above 0; not used on last visits. [ticks]
     approach : int64[N]
@@ -874,106 +877,53 @@ class PrecedenceGraph:
     swaps_conflict : bool
         Whether swaps are conflicts.
     active : uint8[R]
-        Robots with 0 here have times, but meet nobody: they have no conflicts and no rights of way.
+        Robots with 0 here have times, but no conflicts and no rights of way.
 
     Raises
     ------
     ValueError
-        If the arrays do not describe routes; names the array, the index and the value.
+        If the arrays do not describe routes; names the array, the index and the value. The methods
+        raise it for a robot or a visit that does not exist.
 
     Notes
     -----
-    Deterministic. Every answer is kept up to date from what has changed. Calls on a graph are short
-    and keep the GIL, so threads that share one take turns.
+    Deterministic. Every answer is kept up to date incrementally. Calls are short and keep the GIL.
     """
 
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-    @property
-    def n_robots(self) -> int:
-        """The number of robots, R."""
-
-    @property
-    def n_visits(self) -> int:
-        """The number of visits, N."""
-
     def enter_of(self, visit: int) -> int:
-        """Return the tick at which a visit enters (ValueError: no such visit)."""
+        """Return the enter of a visit. [ticks]"""
 
     def enter(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-        """Return a copy of the times at which visits enter, int64[N]. [ticks]"""
+        """Return a copy of the enters of all visits, int64[N]. [ticks]"""
 
     def completion(self, robot: int) -> int:
-        """
-        Return when a robot completes its route.
-
-        Parameters
-        ----------
-        robot : int
-            The robot.
-
-        Returns
-        -------
-        int
-            The enter of its last visit. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
-        """
+        """Return the enter of a robot's last visit. [ticks]"""
 
     def completion_sum(self) -> int:
         """
-        Return the sum of all robots' completions.
-
-        Returns
-        -------
-        int
-            Sum of the enters of the last visits of active robots. [ticks]
+        Return the sum of the enters of the last visits of active robots. [ticks]
         """
 
     def critical_rights(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way that a robot's completion is due to.
-
-        Parameters
-        ----------
-        robot : int
-            The robot.
-
-        Returns
-        -------
-        int32[K, 2]
-            Rights of way ``(a, b)``, the latest first: from the robot's last visit back along what each
-            visit follows from without slack, until a robot ran freely.
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
+        Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the latest first, int32[K, 2].
         """
 
     def conflicts(self) -> int:
-        """
-        Return the weight of all conflicts that are left.
-
-        Returns
-        -------
-        int
-            Sum of what they count, 0 if there are none. [ticks]
-        """
+        """Return the weight of all conflicts left, 0 if there are none. [ticks]"""
 
     def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Return the weight of one robot's conflicts.
+        Return the weight of one robot's conflicts with others.
 
         Parameters
         ----------
         robot : int
             The robot.
         others : uint8[R]
-            Count conflicts with the robots that do not have 0 here.
+            Conflicts count with the robots that do not have 0 here.
 
         Returns
         -------
@@ -993,22 +943,7 @@ class PrecedenceGraph:
 
     def next_conflict_between(self, i: int, j: int) -> tuple[int, int, int, int] | None:
         """
-        Return the earliest conflict of two robots.
-
-        Parameters
-        ----------
-        i, j : int
-            Two different robots, in any order.
-
-        Returns
-        -------
-        tuple[int, int, int, int] or None
-            ``(tick, kind, visit_a, visit_b)``, or None if they have no conflict.
-
-        Raises
-        ------
-        ValueError
-            If a robot does not exist, or both are the same.
+        Return the earliest conflict of two different robots, None if they have none.
         """
 
     def precede(self, a: int, b: int) -> bool:
@@ -1018,51 +953,49 @@ class PrecedenceGraph:
         Parameters
         ----------
         a, b : int
-            Visits of two different robots to the same vertex.
+            Visits of two different active robots to the same vertex.
 
         Returns
         -------
         bool
             Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
-            leaves, ``b`` is a first visit and there from the start, or ``cycle()`` tells the deadlock or
-            swap that would follow. Giving a right of way again is possible and does nothing.
+            leaves, ``b`` is a first visit, or ``cycle()`` has the deadlock or swap that would follow.
+            True if ``a`` has the right of way already.
 
         Raises
         ------
         ValueError
-            If ``a`` or ``b`` is no visit or of an inactive robot, or if they are visits of one robot or
-            to two vertices.
+            If ``a`` and ``b`` are not two such visits.
 
         Notes
         -----
         Times never decrease. A cycle of positive length is always refused; of zero length only if
         ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
-        Takes time in proportion (but for a logarithm) to what changes.
+        Takes time in proportion (but for a logarithm) to the number of changed times.
         """
 
     def cycle(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Explain the last refusal.
+        Return the cycle that the last refused ``precede(a, b)`` would have closed.
 
         Returns
         -------
         int32[n]
-            The visits on the cycle that the last refused ``precede(a, b)`` would have closed, in order,
-            from ``b`` to the visit after ``a``. The enter of each follows from that of the one before:
-            the same robot goes on, or the robot that leaves as it enters has the right of way. Empty if
-            there was another reason, or no refusal yet.
+            Visits in order, from ``b`` to the visit after ``a``. The enter of each follows from that of
+            the one before: the next visit of the same robot, or of a robot that waits for its leave.
+            Empty if there was another reason, or no refusal yet.
         """
 
     def keep_order(self, when: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
         """
-        Let all visits to a vertex take place in an order, all at once.
+        Give the rights of way of all visits to a vertex in an order, all at once.
 
         Parameters
         ----------
         when : int64[N]
             A number for each visit: of two visits to one vertex the one with the smaller number goes
-            first, of equal ones that with the smaller index. Numbers rise along each route, and nobody
-            has to enter before another one leaves with a greater number. The ticks of a plan, or steps.
+            first, of equal ones that with the smaller index. Numbers rise along each route, and no visit
+            has to wait for a leave with a greater number. The ticks of a plan, or steps.
 
         Returns
         -------
@@ -1083,7 +1016,7 @@ class PrecedenceGraph:
         Parameters
         ----------
         a, b : int
-            Visits of two different robots to the same vertex.
+            As for ``precede``.
 
         Returns
         -------
@@ -1097,74 +1030,27 @@ class PrecedenceGraph:
 
         Notes
         -----
-        All get the earliest times that keep the other rights of way. A rollback gives it again.
-        """
-
-    def flip(self, a: int, b: int) -> bool:
-        """
-        Take the right of way of visit a over visit b and give it to b.
-
-        Parameters
-        ----------
-        a, b : int
-            Visits of two different robots to the same vertex.
-
-        Returns
-        -------
-        bool
-            Whether that was possible. If not, nothing has changed: ``a`` had no right of way over ``b``,
-            or ``b`` can not go before ``a``; see ``precede``.
-
-        Raises
-        ------
-        ValueError
-            As for ``precede``.
+        All visits get the earliest times that keep the other rights of way. A rollback gives it again.
         """
 
     def checkpoint(self) -> int:
         """
-        Return a mark for ``rollback``: how many rights of way were given or taken back and not undone since.
+        Return a mark for ``rollback``: the number of rights of way given or taken back, and not undone since.
         """
 
     def rollback(self, mark: int) -> None:
         """
-        Undo everything since the mark.
-
-        Parameters
-        ----------
-        mark : int
-            What ``checkpoint()`` returned: the number of changes at that time. It can be gone back to any
-            number of times, until a rollback goes below it.
-
-        Raises
-        ------
-        ValueError
-            If there are fewer changes now than at the mark.
+        Undo all changes since a mark (ValueError if a rollback has gone below it).
         """
 
     def withdraw(self, robot: int) -> None:
         """
-        Set a robot aside.
-
-        Parameters
-        ----------
-        robot : int
-            It becomes inactive, and its rights of way are taken back.
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist.
-
-        Notes
-        -----
-        All others get the earliest times that keep their rights of way. Marks from before can not be gone
-        back to.
+        Make a robot inactive and take back its rights of way; there is no rollback below this.
         """
 
     def rights_of(self, robot: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
         """
-        Return the rights of way ``(a, b)`` that a robot has, or others have over it, int32[K, 2] (ValueError: no such robot).
+        Return the rights of way ``(a, b)`` of which one is a visit of the robot, int32[K, 2].
         """
 
     def rights_of_way(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:

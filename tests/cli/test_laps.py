@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import load
-from rightofway.cli.laps_theory import rival_lines
+from rightofway.cli.laps_theory import comparison_lines
 from rightofway.cyclic import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
@@ -132,9 +132,11 @@ def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
 
 
 def test_a_chosen_timetable_that_is_below_its_rival_says_so(slower: Path) -> None:
-    [chosen] = best_timetable(load(slower), time_limit=None, rounds=2)
-    rival = replace(chosen, first_come_ends="open", first_come=chosen.throughput * 2)
-    said = " ".join(" ".join(rival_lines(rival)).split())
+    [group] = best_timetable(load(slower), time_limit=None, rounds=2).groups
+    assert group.comparison is not None
+    chosen = group.comparison
+    below = replace(chosen, baseline_ends="open", baseline=chosen.throughput * 2)
+    said = " ".join(" ".join(comparison_lines(below)).split())
     assert "not reached: 50.00% below first come first served as far as it was seen" in said
 
 
@@ -159,3 +161,19 @@ def test_a_timetable_chooses_its_routes_itself(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "timetable", "--routes", "shortest")
     assert ended.code == 2
     assert "--rule timetable chooses routes itself (leave out --routes)" in ended.err
+
+
+def test_a_timetable_that_is_proven_impossible_ends_as_a_plan_does(
+    cli: Cli, tmp_path: Path
+) -> None:
+    """Three cells in a row: each robot would have to pass the other one."""
+    path = tmp_path / "row.yaml"
+    path.write_text(
+        'format: rightofway-scenario/1\nmap: {grid: ["..."]}\nrobots:\n'
+        "  - {name: R1, home: N0, target: N2}\n  - {name: R2, home: N2, target: N0}\n",
+        encoding="utf-8",
+    )
+    planned, laps = cli("plan", path), cli("laps", path, "--rule", "timetable")
+    assert (planned.code, laps.code) == (1, 1)
+    assert "no plan exists" in planned.err
+    assert "no plan exists" in laps.err

@@ -8,20 +8,19 @@ import pytest
 
 from rightofway import GaveUp, InputError, check, plan_of, run_laps
 from rightofway.cyclic import cyclic_routes
-from rightofway.cyclic.groups import independent_groups
-from rightofway.cyclic.native_rules import Native
 from rightofway.cyclic.pattern import pattern_of
-from rightofway.cyclic.result import GroupRun
+from rightofway.cyclic.result import GroupResult
+from rightofway.cyclic.route import GroupContext, independent_groups
 from rightofway.cyclic.run import share_time
-from rightofway.cyclic.window import Ground
-from rightofway.model import Robot, Rules, Scenario, Stop, Tick, roadmap_of_grid
-from rightofway.planners import Deadline, Task
+from rightofway.cyclic.simulator import CyclicSimulator
+from rightofway.model import Robot, Rules, Scenario, Stop, roadmap_of_grid
+from rightofway.planners import Deadline
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: paper_scenario(case) for case in PAPER}
 
 
-def only_group(name: str, rule: str) -> GroupRun:
+def only_group(name: str, rule: str) -> GroupResult:
     [group] = run_laps(CASES[name], rule, routes="shortest").groups
     return group
 
@@ -32,7 +31,7 @@ def told(name: str, rule: str) -> tuple[set[tuple[str, int]], set[tuple[str, int
     run = run_laps(scenario, rule, routes="shortest")
     first, steady = (
         {(scenario.roadmap.name(one.vertex), one.waits) for one in found}
-        for found in (run.first_conflicts(run.groups[0]), run.conflicts(run.groups[0]))
+        for found in (run.groups[0].first_waits(), run.groups[0].waits())
     )
     return first, steady
 
@@ -97,15 +96,18 @@ def test_a_robot_between_two_others_joins_them_in_one_group() -> None:
 class Restless:
     """A robot that does not come back to a state for as long as it is watched."""
 
-    def __init__(self, ground: Ground) -> None:
-        self.ground = ground
+    def __init__(self, context: GroupContext) -> None:
+        self.context = context
         self.history = [[0]]
         self.watched: list[float] = []
 
-    def until_it_repeats(self, deadline: Deadline) -> tuple[int, int]:
+    def advance(self, deadline: Deadline) -> tuple[int, int]:
         self.watched.append(deadline.seconds_left() or 0.0)
         time.sleep(self.watched[-1])
         raise GaveUp("time ran out")
+
+    def reset_states(self) -> None:
+        """Nothing to forget."""
 
 
 def test_time_that_others_leave_over_goes_to_a_group_that_is_open() -> None:
@@ -113,12 +115,11 @@ def test_time_that_others_leave_over_goes_to_a_group_that_is_open() -> None:
     scenario = CASES["door-1"]
     routes = cyclic_routes(scenario, "shortest")
     two, one = (
-        Ground(task=Task(scenario=scenario), group=group, headway=Tick(0), books_ahead=False)
-        for group in (routes, routes[:1])
+        GroupContext(scenario=scenario, routes=tuple(group)) for group in (routes, routes[:1])
     )
     restless = Restless(one)
-    going = [cast(Native, restless), Native(two, "first-come")]
-    runs = share_time(going, Deadline.after(0.6), lambda _: None)
+    simulations = [cast(CyclicSimulator, restless), CyclicSimulator(two, "first-come")]
+    runs = share_time(simulations, Deadline.after(0.6), lambda _: None)
     assert [run.ends for run in runs] == ["open", "repeats"]
     assert restless.watched[0] < 0.21
     assert sum(restless.watched) > 0.5

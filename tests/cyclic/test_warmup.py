@@ -4,8 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.cyclic import CyclicResult, GroupRun, cyclic_routes
-from rightofway.cyclic.visit_times import VisitTimes
+from rightofway.cyclic import CyclicResult, GroupContext, GroupResult, cyclic_routes
+from rightofway.cyclic.pattern import VisitTimes
 from rightofway.cyclic.warmup import measure, warm_up_of
 from tests.builders.fleets import grid_fleet
 
@@ -67,8 +67,9 @@ def test_the_past_is_told_by_the_visits_that_were_late() -> None:
 def test_laps_of_many_robots_in_an_hour_are_told_in_few_digits() -> None:
     """Means of 101 to 400 ticks: an exact sum of their inverses has over a hundred digits."""
     scenario = grid_fleet(["....."], [("N0", "N4")])
+    context = GroupContext(scenario=scenario, routes=(ALONE,))
     groups = tuple(
-        GroupRun(ends="open", why="", group=(ALONE,), history=(visits(ticks),), pattern=None)
+        GroupResult(context=context, ends="open", history=(visits(ticks),))
         for ticks in range(101, 401)
     )
     found = CyclicResult(scenario=scenario, rule="first-come", routes="clear", groups=groups)

@@ -90,7 +90,7 @@ TEST_CASE("times are the least ones, however rights of way are given, taken back
         const CyclicRoutes routes{fleet.arrays()};
         RollingTimetable timetable{routes};
         for (RobotId r = 0; r < n_robots; ++r) {
-            timetable.show(r, n_shown);
+            timetable.set_end(r, n_shown);
         }
         std::vector<CyclicRight> given;
         for (int attempt = 0; attempt < 2000; ++attempt) {
@@ -115,10 +115,10 @@ TEST_CASE("times are the least ones, however rights of way are given, taken back
         REQUIRE(given.size() > 10);
         const auto expected = times(timetable);
         std::shuffle(given.begin(), given.end(), fleet.draw);
-        timetable.run_again(given);
+        timetable.recompute(given);
         CHECK(times(timetable) == expected);
-        timetable.take_away(given.back(), -1);  // somebody else's
-        timetable.run_again(given);
+        timetable.remove(given.back(), -1);  // somebody else's
+        timetable.recompute(given);
         CHECK(times(timetable) == expected);
     }
 }
@@ -128,13 +128,13 @@ TEST_CASE("what is frozen is not delayed, and the view moves on without losing a
     const CyclicRoutes routes{fleet.arrays()};
     RollingTimetable timetable{routes};
     for (RobotId r = 0; r < n_robots; ++r) {
-        timetable.show(r, n_shown);
+        timetable.set_end(r, n_shown);
         timetable.freeze(r, 20);
     }
-    timetable.begin_at(18, 20);
+    timetable.start_window(18, 20);
     const auto expected = times(timetable);
     for (RobotId r = 0; r < n_robots; ++r) {
-        timetable.show(r, 2 * n_shown);
+        timetable.set_end(r, 2 * n_shown);
         CHECK(timetable.enter({r, timetable.start(r)}) <= 18);
         CHECK(timetable.enter({r, timetable.start(r) + 1}) > 18);
         const CyclicVisit last{r, timetable.frozen(r) - 1};

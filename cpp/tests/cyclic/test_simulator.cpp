@@ -47,7 +47,7 @@ struct Laps {
 Ticks times(const CyclicSimulator& run, RobotId robot, std::int32_t n_visits) {
     Ticks enters;
     for (std::int32_t k = 0; k < n_visits; ++k) {
-        enters.push_back(run.waits().enter({robot, k}));
+        enters.push_back(run.visit_times().enter({robot, k}));
     }
     return enters;
 }
@@ -59,8 +59,8 @@ TEST_CASE("at a door one robot waits once and both repeat their laps from then o
     const Laps laps{door, {1, 1}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 10, 40, 80, 1, 32}, CyclicRule::first_come);
-    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::repeats);
-    CHECK((run.cut() - run.came_before()) % 10 == 0);
+    REQUIRE(run.advance(no_deadline) == CyclicSimulator::End::repeats);
+    CHECK((run.cut() - run.first_seen()) % 10 == 0);
     CHECK(times(run, 0, 9) == Ticks{0, 1, 2, 3, 4, 6, 7, 8, 9});
     CHECK(times(run, 1, 9) == Ticks{0, 2, 3, 4, 5, 7, 8, 9, 10});
 }
@@ -69,36 +69,36 @@ TEST_CASE("in a fixed order a slower robot may wait at the door for ever") {
     const Laps laps{door, {2, 3}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 20, 120, 240, 1, 32}, CyclicRule::fixed_order);
-    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::repeats);
-    CHECK(run.waits().n_begun(1) < 8);
-    CHECK(run.waits().n_begun(0) > 8);
+    REQUIRE(run.advance(no_deadline) == CyclicSimulator::End::repeats);
+    CHECK(run.visit_times().n_started(1) < 8);
+    CHECK(run.visit_times().n_started(0) > 8);
 }
 
 TEST_CASE("robots that live in each other's corridor are deadlocked, whoever waits") {
     const Laps laps{{{0, 1, 2, 3}, {3, 2, 1, 0}}, {1, 1}};
     const Ticks approach(laps.vertex.size(), 0);
     CyclicSimulator run(laps.arrays(approach), {0, 8, 32, 64, 1, 32}, CyclicRule::first_come);
-    REQUIRE(run.go_on(no_deadline) == CyclicSimulator::End::deadlock);
+    REQUIRE(run.advance(no_deadline) == CyclicSimulator::End::deadlock);
     CHECK(run.deadlock().robot_a == 0);
     CHECK(run.deadlock().robot_b == 1);
 }
 
-TEST_CASE("a run that was stopped goes on as if it had not been") {
+TEST_CASE("a simulation that was stopped advances as if it had not been") {
     const Laps laps{door, {2, 3}};
     const Ticks approach(laps.vertex.size(), 0);
     const Horizon pace{0, 20, 120, 240, 1, 32};
     CyclicSimulator whole(laps.arrays(approach), pace, CyclicRule::first_come);
     CyclicSimulator parts(laps.arrays(approach), pace, CyclicRule::first_come);
-    REQUIRE(whole.go_on(no_deadline) == CyclicSimulator::End::repeats);
+    REQUIRE(whole.advance(no_deadline) == CyclicSimulator::End::repeats);
     int asked = 0;
     const auto now_and_then = [&asked] { return ++asked % 2 == 0; };
     int stopped = 0;
-    while (parts.go_on(now_and_then) == CyclicSimulator::End::open) {
+    while (parts.advance(now_and_then) == CyclicSimulator::End::open) {
         ++stopped;
     }
     CHECK(stopped > 0);
     CHECK(parts.cut() == whole.cut());
-    CHECK(parts.came_before() == whole.came_before());
+    CHECK(parts.first_seen() == whole.first_seen());
 }
 
 // From one cell of a square floor to another, along the row and then along the column.
@@ -131,13 +131,13 @@ TEST_CASE("on crowded floors no two robots are ever at one place, however a run 
         CyclicSimulator run(laps.arrays(approach), {0, 40, 400, 800, 1, 32},
                             CyclicRule::first_come);
         int asked = 0;
-        run.go_on([&asked] { return ++asked > 200; });
+        run.advance([&asked] { return ++asked > 200; });
         std::map<VertexId, std::vector<std::pair<Tick, Tick>>> at;
         for (RobotId r = 0; r < run.n_robots(); ++r) {
-            for (std::int32_t k = 0; k + 1 < run.waits().n_begun(r); ++k) {
+            for (std::int32_t k = 0; k + 1 < run.visit_times().n_started(r); ++k) {
                 const auto length = laps.first_place[r + 1] - laps.first_place[r];
                 at[laps.vertex[laps.first_place[r] + k % length]].emplace_back(
-                    run.waits().enter({r, k}), run.waits().enter({r, k + 1}));
+                    run.visit_times().enter({r, k}), run.visit_times().enter({r, k + 1}));
             }
         }
         for (auto& [vertex, visits] : at) {
@@ -159,7 +159,7 @@ TEST_CASE("laps that lead nowhere are refused") {
                       "and back)");
 }
 
-TEST_CASE("times of the past are told by the visits that were late") {
+TEST_CASE("past enters follow from the visits that had to wait") {
     const Laps laps{{{0, 1, 2}}, {1}};
     const Ticks approach(laps.vertex.size(), 0);
     const CyclicRoutes routes{laps.arrays(approach)};
@@ -170,7 +170,7 @@ TEST_CASE("times of the past are told by the visits that were late") {
     CHECK(waits.enter({0, 5}) == 10);
     CHECK(waits.enter({0, 6}) == 14);
     CHECK(waits.late(0).size() == 2);
-    waits.cut(0, 6);
+    waits.truncate(0, 6);
     waits.add(0, 11);
     CHECK(waits.enter({0, 6}) == 11);
     CHECK(waits.late(0).size() == 1);

@@ -124,30 +124,6 @@ TEST_CASE("a right of way given twice is taken back once") {
     CHECK(graph.conflicts() == 2);
 }
 
-TEST_CASE("a flip lets the other one go first, and is undone in one piece") {
-    PrecedenceGraph graph(two_meetings().arrays());
-    REQUIRE(graph.precede(4, 1));
-    const std::int64_t mark = graph.checkpoint();
-    CHECK(graph.flip(4, 1));
-    CHECK(graph.rights_of_way().front().first == 1);
-    CHECK(graph.completion_sum() == 2 + 4 + 3);
-    graph.rollback(mark);
-    CHECK(graph.rights_of_way().front().first == 4);
-    CHECK_FALSE(graph.flip(1, 4));  // there is no such right of way
-    CHECK(graph.checkpoint() == mark);
-}
-
-TEST_CASE("a flip that would deadlock changes nothing") {
-    // Through 1 2 3 in opposite directions: at 2 and 3 the first robot goes first.
-    PrecedenceGraph graph(Example({{0, 1, 2, 3, 4}, {4, 3, 2, 1, 0}}).arrays());
-    REQUIRE(graph.precede(3, 6));
-    REQUIRE(graph.precede(2, 7));
-    const Ticks before = listed(graph.enters());
-    CHECK_FALSE(graph.flip(3, 6));
-    CHECK(listed(graph.enters()) == before);
-    CHECK(graph.rights_of_way().size() == 2);
-}
-
 TEST_CASE("a pair that no right of way can be between is refused with the reason") {
     Example example = two_meetings();
     example.active = {1, 1, 0};

@@ -103,14 +103,12 @@ TEST_CASE("what overlaps, or is no round, is refused and books nothing") {
     const Trip one({0, 2});
     circle.add(0, one.visits(), Ticks{-3, 2});
     const Trip other({1, 2});
-    CHECK_THROWS_WITH_AS(circle.add(1, other.visits(), Ticks{-3, 2}),
-                         "enter[1]: 2 overlaps the booking of another robot",
-                         std::invalid_argument);
+    CHECK_FALSE(circle.add(1, other.visits(), Ticks{-3, 2}));
     CHECK_THROWS_AS(circle.add(0, one.visits(), Ticks{-3, 2}), std::invalid_argument);
     CHECK_THROWS_AS(circle.add(1, other.visits(), Ticks{2, 2}), std::invalid_argument);
     circle.remove(0);
     circle.remove(0);
-    circle.add(1, other.visits(), Ticks{-3, 2});
+    CHECK(circle.add(1, other.visits(), Ticks{-3, 2}));
     CHECK_THROWS_AS(PeriodicBookings(4, 0, 0, false), std::invalid_argument);
 }
 

@@ -10,13 +10,12 @@ import click
 
 from rightofway.cli.planning import refuse_bad_outputs, seconds, write
 from rightofway.cli.terminal import progress, put, put_json, read_scenario, say, writable
+from rightofway.cyclic.rules import RULES, TIMETABLE
 
 if TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult
 
 __all__ = ["laps"]
-
-RULES = ["first-come", "fixed-order", "least-loss", "two-level", "timetable"]
 
 EXAMPLE = """\b
 Examples:
@@ -37,7 +36,8 @@ def part(_context: click.Context, _parameter: click.Parameter, given: str) -> Fr
 
 @click.command(epilog=EXAMPLE)
 @click.argument("scenario", type=click.Path())
-@click.option("--rule", type=click.Choice(RULES), default="first-come", show_default=True,
+@click.option("--rule", type=click.Choice([*RULES, TIMETABLE]), default="first-come",
+              show_default=True,
               help="Who goes first where two robots meet; timetable: most laps.")  # fmt: skip
 @click.option("--routes", type=click.Choice(["clear", "direct", "shortest"]),
               help="How round trips are chosen.  [default: clear]")  # fmt: skip
@@ -80,44 +80,43 @@ def laps(
     per hour where the unit is a second.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.cyclic import best_timetable, plan_of, run_laps, run_of, shown
+    from rightofway.cyclic import best_timetable, excerpt, plan_of, run_laps
     from rightofway.model.steady_state import within
 
     refuse_bad_outputs(scenario, output, log=False, table=False, as_json=as_json)
-    if rule == "timetable" and routes:
+    if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
-    problem, chosen = read_scenario(scenario), []
+    problem = read_scenario(scenario)
     with progress() as report:
-        if rule == "timetable":
-            chosen = best_timetable(
+        if rule == TIMETABLE:
+            run = best_timetable(
                 problem,
                 least_fairness=least_fairness,
                 time_limit=time_limit,
                 seed=seed,
                 report=report,
             )
-            run = run_of(problem, chosen)
         else:
             ways = routes or "clear"
             run = run_laps(problem, rule, routes=ways, time_limit=time_limit, report=report)
     if output != "-":
         if as_json:
-            put_json(laps_data(run, chosen))
+            put_json(laps_data(run))
         else:
-            put(laps_report(run, chosen))
+            put(laps_report(run))
     if page:
         _write_page(run, page)
     if output:
-        plan, steady = plan_of(run), shown(run)[1]
+        plan, steady = plan_of(run), excerpt(run)[1]
         write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0
 
 
 def _write_page(run: CyclicResult, page: str) -> None:
-    from rightofway.cyclic import shown
+    from rightofway.cyclic import excerpt
     from rightofway.viz import write_page
 
-    plan, steady = shown(run)
+    plan, steady = excerpt(run)
     write_page(plan, page, steady=steady)
     say(f"wrote {page}")

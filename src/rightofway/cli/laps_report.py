@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
 from rightofway.cli.laps_theory import (
     HOUR,
-    rival_data,
-    rival_lines,
+    comparison_data,
+    comparison_lines,
     sensitivity_data,
     sensitivity_lines,
 )
 from rightofway.cli.words import wrapped
-from rightofway.cyclic import Bottleneck, Conflict, CyclicResult, GroupRun, GroupTimetable, in_words
+from rightofway.cyclic import Bottleneck, CyclicResult, GroupResult, LapWait, in_words
 
 __all__ = ["laps_data", "laps_report"]
 
@@ -38,23 +38,17 @@ Sights = dict[tuple[int, int, int], list[Fraction]]
 """By place, who waits and for whom: when [time unit]."""
 
 
-def laps_data(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> dict[str, Any]:
-    """Return a run for programs; times are exact fractions of the scenario's unit.
-
-    Of timetables that were chosen, also how they compare.
-    """
-    groups = [_group_data(run, group) for group in run.groups]
-    for data, one in zip(groups, chosen, strict=False):
-        data.update(rival_data(run.scenario, one))
+def laps_data(run: CyclicResult) -> dict[str, Any]:
+    """Return a result for programs; times are exact fractions of the scenario's unit."""
     return {
         "rule": run.rule,
         "routes": run.routes,
         "throughput_per_hour": str(HOUR * run.throughput()),
-        "groups": groups,
+        "groups": [_group_data(run, group) for group in run.groups],
     }
 
 
-def _group_data(run: CyclicResult, group: GroupRun) -> dict[str, Any]:
+def _group_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
     names, pattern = _names(run, group), group.pattern
     time = run.scenario.problem.clock.time
     means = [None if mean is None else str(mean * time(1)) for mean in group.mean_laps()]
@@ -72,32 +66,29 @@ def _group_data(run: CyclicResult, group: GroupRun) -> dict[str, Any]:
         "measured": _measured_data(run, group),
         "waiting_share": dict(zip(names, shares, strict=True)),
         **(_NOT_TOLD if _is_long(group) else _waits_data(run, group)),
+        **comparison_data(run.scenario, group.comparison),
     }
 
 
 _NOT_TOLD = dict.fromkeys(("conflicts", "first_lap", "bottleneck", "sensitivity"))
 
 
-def _is_long(group: GroupRun) -> bool:
+def _is_long(group: GroupResult) -> bool:
     """Tell whether a period is too long to be looked at visit by visit."""
-    pattern = group.pattern
-    if pattern is None:
-        return False
-    visits = zip(pattern.counts, pattern.lengths, strict=True)
-    return sum(laps * each for laps, each in visits) > MOST_VISITS
+    return group.pattern is not None and group.pattern.n_visits > MOST_VISITS
 
 
-def _waits_data(run: CyclicResult, group: GroupRun) -> dict[str, Any]:
+def _waits_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
     """Return who waits for whom, and what sets the pace."""
     return {
-        "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
-        "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
-        "bottleneck": _bottleneck_data(run, run.bottleneck(group)),
+        "conflicts": [_conflict_data(run, one, "offset") for one in group.waits()],
+        "first_lap": [_conflict_data(run, one, "time") for one in group.first_waits()],
+        "bottleneck": _bottleneck_data(run, group.bottleneck()),
         "sensitivity": sensitivity_data(run, group),
     }
 
 
-def _measured_data(run: CyclicResult, group: GroupRun) -> dict[str, Any] | None:
+def _measured_data(run: CyclicResult, group: GroupResult) -> dict[str, Any] | None:
     """Return what the means are of, where nothing is known to repeat."""
     if group.pattern:
         return None
@@ -108,7 +99,7 @@ def _measured_data(run: CyclicResult, group: GroupRun) -> dict[str, Any] | None:
     }
 
 
-def _conflict_data(run: CyclicResult, conflict: Conflict, when: str) -> dict[str, Any]:
+def _conflict_data(run: CyclicResult, conflict: LapWait, when: str) -> dict[str, Any]:
     time, robots = run.scenario.problem.clock.time, run.scenario.robots
     return {
         "vertex": run.scenario.roadmap.name(conflict.vertex),
@@ -132,12 +123,12 @@ def _bottleneck_data(run: CyclicResult, bottleneck: Bottleneck | None) -> list[d
     ]
 
 
-def laps_report(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> str:
-    """Return a run for people; of timetables that were chosen, also how they compare."""
-    return "\n".join(_lines(run, {one.timetable.robots: one for one in chosen}))
+def laps_report(run: CyclicResult) -> str:
+    """Return a result for people."""
+    return "\n".join(_lines(run))
 
 
-def _lines(run: CyclicResult, chosen: Mapping[tuple[int, ...], GroupTimetable]) -> Iterator[str]:
+def _lines(run: CyclicResult) -> Iterator[str]:
     together = [group for group in run.groups if len(group.robots) > 1]
     yield f"rule        {run.rule}, on {run.routes} routes"
     yield f"groups      {_groups(run, together)}"
@@ -146,14 +137,14 @@ def _lines(run: CyclicResult, chosen: Mapping[tuple[int, ...], GroupTimetable]) 
     for group in largest[:MOST_GROUPS]:
         yield ""
         yield from _group_lines(run, group)
-        if group.robots in chosen:
-            yield from rival_lines(chosen[group.robots])
+        if group.comparison is not None:
+            yield from comparison_lines(group.comparison)
     if len(largest) > MOST_GROUPS:
         yield ""
         yield f"… and {len(largest) - MOST_GROUPS} more groups, none larger (--json has them all)"
 
 
-def _groups(run: CyclicResult, together: Sequence[GroupRun]) -> str:
+def _groups(run: CyclicResult, together: Sequence[GroupResult]) -> str:
     ends = Counter(group.ends for group in together)
     counts = [
         (ends["repeats"], "repeats itself"),
@@ -166,7 +157,7 @@ def _groups(run: CyclicResult, together: Sequence[GroupRun]) -> str:
     return "; ".join([*told, *lonely])
 
 
-def _group_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _group_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     time = run.scenario.problem.clock.time
     who = f"{len(group.robots)} robots"
     if group.pattern is None:
@@ -180,13 +171,13 @@ def _group_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
         yield "waits and the bottleneck are not looked for in a period as long as this"
         return
     yield from _conflict_lines(run, group)
-    bottleneck = run.bottleneck(group)
+    bottleneck = group.bottleneck()
     if bottleneck:
         yield from wrapped(f"bottleneck: {in_words(bottleneck, run.scenario)}")
         yield from sensitivity_lines(run, group)
 
 
-def _so_far(run: CyclicResult, group: GroupRun) -> str:
+def _so_far(run: CyclicResult, group: GroupResult) -> str:
     """Say what the means of laps are of, where nothing is known to repeat."""
     if group.ends == "deadlock":
         return "Their laps so far"
@@ -196,17 +187,19 @@ def _so_far(run: CyclicResult, group: GroupRun) -> str:
     return f"Means of {laps:.1f} laps each, from time {since} on, not proven to stay so"
 
 
-def _robot_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _robot_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     names, tick = _names(run, group), run.scenario.problem.clock.tick
     counts = group.pattern.counts if group.pattern else group.measured().laps
     title = "laps/period" if group.pattern else "laps"
     width = max(map(len, ("robot", *names[:MOST_LINES])))
     yield f"{'robot':{width}}  {title:>11}  mean lap     alone  waiting"
-    rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), group.group, strict=True)
-    for name, laps, mean, share, endless in list(rows)[:MOST_LINES]:
+    rows = zip(
+        names, counts, group.mean_laps(), group.waiting_shares(), group.context.laps, strict=True
+    )
+    for name, laps, mean, share, one in list(rows)[:MOST_LINES]:
         lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
         alone, waits = (
-            _short(endless.lap.duration * tick),
+            _short(one.duration * tick),
             "" if share is None else f"{float(share):7.1%}",
         )
         yield f"{name:{width}}  {laps:11}  {lap:>8}  {alone:>8}  {waits}".rstrip()
@@ -218,11 +211,9 @@ def _short(number: Fraction) -> str:
     return str(number) if number.denominator <= MOST_OF_DENOMINATOR else f"{float(number):.2f}"
 
 
-def _conflict_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _conflict_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     """Yield who waits where for whom: in each period, and in the first lap."""
-    first, steady = (
-        _sights(run, found) for found in (run.first_conflicts(group), run.conflicts(group))
-    )
+    first, steady = (_sights(run, found) for found in (group.first_waits(), group.waits()))
     both = len(first.keys() & steady.keys())
     yield f"waits: {len(first)} in the first lap, {len(steady)} in each period, {both} in both"
     robots, place = run.scenario.robots, run.scenario.roadmap.name
@@ -240,7 +231,7 @@ def _conflict_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
         yield f"  … and {more} more"
 
 
-def _sights(run: CyclicResult, conflicts: Sequence[Conflict]) -> Sights:
+def _sights(run: CyclicResult, conflicts: Sequence[LapWait]) -> Sights:
     found: Sights = {}
     for one in conflicts:
         when = run.scenario.problem.clock.time(one.tick)
@@ -253,5 +244,5 @@ def _times(times: Sequence[Fraction]) -> str:
     return told if len(times) <= MOST_TIMES else f"{told} and {len(times) - MOST_TIMES} times more"
 
 
-def _names(run: CyclicResult, group: GroupRun) -> list[str]:
+def _names(run: CyclicResult, group: GroupResult) -> list[str]:
     return [run.scenario.robots[robot].name for robot in group.robots]

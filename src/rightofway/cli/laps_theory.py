@@ -8,15 +8,15 @@ from typing import Any
 
 from rightofway.cli.words import wrapped
 from rightofway.cyclic import (
+    Comparison,
     CyclicResult,
-    GroupRun,
-    GroupTimetable,
+    GroupResult,
     ParameterEffect,
     parameter_effects,
 )
 from rightofway.model import Scenario
 
-__all__ = ["HOUR", "rival_data", "rival_lines", "sensitivity_data", "sensitivity_lines"]
+__all__ = ["HOUR", "comparison_data", "comparison_lines", "sensitivity_data", "sensitivity_lines"]
 
 HOUR = 3600
 """Time units of a scenario in an hour, if they are seconds."""
@@ -29,9 +29,9 @@ MOST_VISITS = 200_000
 """In periods of more visits nobody looks for what would help: each search takes long."""
 
 
-def sensitivity_data(run: CyclicResult, group: GroupRun) -> list[dict[str, Any]]:
+def sensitivity_data(run: CyclicResult, group: GroupResult) -> list[dict[str, Any]]:
     """Return what would help, for programs; times are exact fractions of the unit."""
-    graph = run.graph(group)
+    graph = group.graph()
     if graph is None or len(graph.vertex) > MOST_VISITS:
         return []
     return [_lever_data(run.scenario, lever) for lever in parameter_effects(run.scenario, graph)]
@@ -51,9 +51,9 @@ def _lever_data(scenario: Scenario, lever: ParameterEffect) -> dict[str, Any]:
     }
 
 
-def sensitivity_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def sensitivity_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     """Say what would make a period shorter."""
-    graph = run.graph(group)
+    graph = group.graph()
     if graph is None:
         return
     if len(graph.vertex) > MOST_VISITS:
@@ -83,34 +83,36 @@ def _what(scenario: Scenario, lever: ParameterEffect) -> str:
     return f"{robot.name} 10% less work at {scenario.roadmap.name(robot.stops[lever.stop].at)}"
 
 
-def rival_data(scenario: Scenario, chosen: GroupTimetable) -> dict[str, Any]:
+def comparison_data(scenario: Scenario, chosen: Comparison | None) -> dict[str, Any]:
     """Return how a chosen timetable compares with first come first served, for programs."""
+    if chosen is None:
+        return {}
     hour = HOUR / scenario.problem.clock.tick
     return {
         "throughput_per_hour": str(chosen.throughput * hour),
         "fairness": str(chosen.fairness),
         "first_come": {
-            "ends": chosen.first_come_ends,
-            "throughput_per_hour": str(chosen.first_come * hour),
+            "ends": chosen.baseline_ends,
+            "throughput_per_hour": str(chosen.baseline * hour),
         },
     }
 
 
-def rival_lines(chosen: GroupTimetable) -> Iterator[str]:
+def comparison_lines(chosen: Comparison) -> Iterator[str]:
     """Say how a chosen timetable compares with first come first served."""
-    rival = {
+    baseline = {
         "repeats": "first come first served",
         "open": "first come first served as far as it was seen",
         "starves": "first come first served, where a robot stands still for ever",
         "deadlock": "",
-    }[chosen.first_come_ends]
-    if chosen.first_come:
-        more = chosen.throughput / chosen.first_come - 1
+    }[chosen.baseline_ends]
+    if chosen.baseline:
+        more = chosen.throughput / chosen.baseline - 1
         if more < 0:
-            below = f"{float(-more):.2%} below {rival} (give more time)"
+            below = f"{float(-more):.2%} below {baseline} (give more time)"
             yield from wrapped(f"throughput: not reached: {below}")
         else:
-            yield from wrapped(f"throughput: {_signed(more)} against {rival}")
+            yield from wrapped(f"throughput: {_signed(more)} against {baseline}")
     else:
         yield "throughput: first come first served comes to a standstill"
     yield f"fairness: every robot makes at least {float(chosen.fairness):.0%} of its laps alone"

@@ -1,38 +1,36 @@
-"""Work that repeats: rules on endless routes, and what comes again."""
+"""Laps that repeat: simulated under a rule, or by a timetable chosen in advance."""
 
-from rightofway.cyclic.best import best_timetable
 from rightofway.cyclic.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
 from rightofway.cyclic.pattern import Pattern
-from rightofway.cyclic.result import CyclicResult, GroupRun
-from rightofway.cyclic.route import CyclicRoute, cyclic_routes
-from rightofway.cyclic.rules import RULES
-from rightofway.cyclic.run import ROUTES, run_laps
-from rightofway.cyclic.schedule_search import GroupTimetable
+from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult
+from rightofway.cyclic.route import ROUTES, CyclicRoute, GroupContext, cyclic_routes
+from rightofway.cyclic.rules import RULES, TIMETABLE
+from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
-from rightofway.cyclic.shown import shown
-from rightofway.cyclic.startup import run_of
-from rightofway.cyclic.to_plan import plan_of
-from rightofway.cyclic.waits import Conflict
+from rightofway.cyclic.timetable_search import best_timetable
+from rightofway.cyclic.to_plan import excerpt, plan_of
+from rightofway.cyclic.waits import LapWait
 
 __all__ = [
     "ROUTES",
     "RULES",
+    "TIMETABLE",
     "Bottleneck",
-    "Conflict",
+    "Comparison",
     "CyclicResult",
     "CyclicRoute",
-    "GroupRun",
-    "GroupTimetable",
+    "GroupContext",
+    "GroupResult",
+    "LapWait",
     "ParameterEffect",
     "Pattern",
     "Piece",
     "best_timetable",
     "bottleneck_of",
     "cyclic_routes",
+    "excerpt",
     "in_words",
     "parameter_effects",
     "plan_of",
     "run_laps",
-    "run_of",
-    "shown",
 ]

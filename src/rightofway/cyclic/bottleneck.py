@@ -1,7 +1,7 @@
-"""What a period is made of: the critical circuit, read as work, ways and places that change hands.
+"""The bottleneck: the critical circuit of a period, as work, ways and vertices that change hands.
 
-The circuit leads along a robot's visits until that robot leaves a place that another one waits
-for, goes on with the other robot, and comes back to where it began some periods later.
+The circuit follows the visits of a robot up to a vertex that another robot waits for, continues
+with that robot, and returns to its first visit some periods later.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ __all__ = ["Bottleneck", "Piece", "bottleneck_of", "in_words"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Piece:
-    """One thing that has to be over before the next can begin.
+    """One activity of a critical circuit, which must be over before the next can begin.
 
     Attributes
     ----------
     kind
-        ``work`` (with turning) at a place, a ``way``, or the ``right of way`` at a place.
+        ``work`` (with turning) at a vertex, a ``way``, or the ``right of way`` at a vertex.
     robot
-        Whose; of a right of way: who waits for it.
+        The robot that works, drives, or waits for the right of way.
     places
-        Where; of a way: from the first to the last one.
+        The vertex; of a way: all from the first to the last one.
     ticks
-        How long it takes; of a right of way: headway and approach [ticks].
+        Its duration; of a right of way: headway and approach [ticks].
     """
 
     kind: Literal["work", "way", "right of way"]
@@ -47,11 +47,11 @@ class Bottleneck:
     Attributes
     ----------
     cycle_time
-        Its length by its periods [ticks].
+        Its length divided by its periods [ticks].
     periods
-        How many periods it takes to come round.
+        How many periods one round of it takes.
     pieces
-        What it is made of, in order; after the last one the first comes again.
+        Its activities in order; after the last one comes the first.
     """
 
     cycle_time: Fraction
@@ -65,7 +65,7 @@ class Bottleneck:
 
 
 def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
-    """Return a critical circuit of the event graph, in pieces.
+    """Return a critical circuit of a timed event graph, in pieces.
 
     Raises
     ------
@@ -77,12 +77,12 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
     return Bottleneck(
         cycle_time=found.cycle_time,
         periods=int(graph.arcs.height[found.arcs].sum()),
-        pieces=tuple(_joined(list(_pieces(graph, arcs)))),
+        pieces=tuple(_joined(_pieces(graph, arcs))),
     )
 
 
 def _from_the_longest_run(graph: TimedEventGraph, circuit: list[int]) -> list[int]:
-    """Begin the circuit with the robot whose visits take most of it, after it got its way."""
+    """Rotate the circuit to begin after a right of way, with the robot whose visits take most."""
     starts = [k for k, arc in enumerate(circuit) if graph.arcs.first[arc] >= 0]
     if not starts:
         home = next(k for k, arc in enumerate(circuit) if graph.index[graph.arcs.tail[arc]] == 0)
@@ -113,8 +113,8 @@ def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
         yield Piece(kind="way", robot=robot, places=(here, there), ticks=ticks)
 
 
-def _joined(pieces: list[Piece]) -> Iterator[Piece]:
-    """Join the ways that a robot drives without a stop in between."""
+def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
+    """Join consecutive ways of a robot."""
     for (kind, robot), group in groupby(pieces, lambda piece: (piece.kind, piece.robot)):
         run = list(group)
         if kind != "way":
@@ -126,33 +126,31 @@ def _joined(pieces: list[Piece]) -> Iterator[Piece]:
 
 
 def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> str:
-    """Say what a bottleneck is: ``R2's work at N8, then N4, then R1's way home``.
+    """Describe a bottleneck: ``R2's work at N8, then N4, then R1's way home``.
 
     Parameters
     ----------
     bottleneck
-        What to put into words.
+        The bottleneck to describe.
     scenario
-        Names of robots and places.
+        The names of robots and places.
     most
-        How many pieces to name; the rest is counted.
+        How many pieces to name; the others are counted.
     """
     if len(bottleneck.robots) == 1:
         name = scenario.robots[bottleneck.robots[0]].name
         return f"{name}'s own lap: it waits for nobody"
-    said = [_said(piece, scenario) for piece in bottleneck.pieces]
-    if len(said) > most:
-        said = [*said[:most], f"{len(said) - most} more"]
-    return ", then ".join(said)
+    names = [_name(piece, scenario) for piece in bottleneck.pieces]
+    if len(names) > most:
+        names = [*names[:most], f"{len(names) - most} more"]
+    return ", then ".join(names)
 
 
-def _said(piece: Piece, scenario: Scenario) -> str:
-    robot, name = scenario.robots[piece.robot], scenario.roadmap.name
+def _name(piece: Piece, scenario: Scenario) -> str:
+    robot, place = scenario.robots[piece.robot], scenario.roadmap.name(piece.places[-1])
+    at_home = piece.places[-1] == robot.home
     if piece.kind == "right of way":
-        return name(piece.places[0])
+        return place
     if piece.kind == "work":
-        doing = "turn" if piece.places[0] == robot.home else "work"
-        return f"{robot.name}'s {doing} at {name(piece.places[0])}"
-    if piece.places[-1] == robot.home:
-        return f"{robot.name}'s way home"
-    return f"{robot.name}'s way to {name(piece.places[-1])}"
+        return f"{robot.name}'s {'turn' if at_home else 'work'} at {place}"
+    return f"{robot.name}'s way home" if at_home else f"{robot.name}'s way to {place}"

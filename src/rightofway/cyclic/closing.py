@@ -1,329 +1,407 @@
-"""A long stretch of a run, closed to a circle: most of it stays as it was, and costs nothing.
+"""Close a stretch of a simulation to a timetable: some laps of each robot, repeated for ever.
 
-Far from the seam all robots do what they did in the run, so that needs no proof. At the seam each
-waits at home, from its last lap before it until its first lap after it, or makes as many laps more
-as there is room for; laps that end or begin there may be given up for that. Where others pass a
-home while its robot would wait there, that robot has to find its way first, and robots that only
-wait make room for it.
+Two ways, for simulations in which no state recurs in a reasonable time:
 
-What that costs is less than half a lap of each robot on average, however long the stretch is: no
-robot makes a part of a lap. So the more laps the stretch has, the less it is below the run.
+- By orders (`closed_windows`), for groups in which many windows can be tried. The laps that begin
+  from some tick on and end within a period keep the orders of their visits at each vertex, across
+  the seam as well; the cycle time of these orders is exact. Where robots would wait for each other
+  for ever at the seam, the visits keep their times, and robots that overlap leave out a lap or two.
+- By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their
+  times. At the seam each robot waits at home, from its last lap before to its first lap after, or
+  makes as many more laps as there is room for; laps at the seam may be given up for that. Where
+  others pass a home in that time, its robot searches for a way first.
+
+A seam costs about half a lap of each robot, however long the stretch is: the more laps it has, the
+closer its value is to that of the simulation.
 """
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
-from time import monotonic
+from itertools import pairwise, product, zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.cyclic.problem import CyclicProblem, Work
-from rightofway.cyclic.result import GroupRun
-from rightofway.cyclic.visit_times import VisitTimes
-from rightofway.model import Lap, VertexId
-from rightofway.precedence import CyclicSchedule
+from rightofway.cyclic.pattern import Enters, VisitTimes
+from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
+from rightofway.cyclic.result import GroupResult
+from rightofway.cyclic.warmup import homes_of
+from rightofway.model import Lap
 from rightofway.search import PeriodicBookings
 
-__all__ = ["Stretch", "closed", "stretches"]
-
-BEGINNINGS, ENDS = 8, 200
-"""How many beginnings and ends of stretches are looked at."""
-
-LATEST, SHORTEST = 0.1, 0.9
-"""The latest beginning, as a part of the run; the shortest stretch, of the longest one."""
-
-MOST_VISITS = 16_000_000
-"""No stretch has many more: all its visits are kept in memory, and told."""
-
-AROUND = 1.75
-"""How many of the longest laps before and after the seam may change."""
-
-FEWER_LAPS, GIVEN_UP = 4, 3
-"""A robot makes less than so many laps fewer than it could, and gives up less than so many of the
-run on each side of the seam."""
-
-MOST_ROUNDS = 6
-"""How often each robot that is not free to wait looks for its way, on average."""
+__all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stretches"]
 
 
-MOST_SECONDS = 4
-"""And for so long at most: another stretch may be closed sooner."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosingParams:
+    """Which stretches are considered, and how much may change at a seam."""
+
+    # Windows are compared within each of these ranges of lengths [longest laps].
+    window_lengths: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64, 128, 256)
+    window_begins: int = 32  # Windows of each length begin at this many ticks.
+    most_by_value: int = 12  # This many of each length are closed for the value of their laps.
+    most_by_calm: int = 4  # This many are closed because robots wait least at their ends.
+    most_window_visits: int = 200_000  # Longer windows are not considered.
+    most_left_out: int = 3  # A robot loses up to this many laps where visits overlap at the seam.
+    stretch_begins: int = 8  # Long stretches begin at this many ticks.
+    stretch_ends: int = 200  # For each beginning this many ends are considered.
+    latest_begin: float = 0.1  # They begin in this part of the simulation.
+    shortest: float = 0.9  # They are this part of the longest one, or longer.
+    most_stretch_visits: int = 16_000_000  # They have about this many visits at most, for memory.
+    around: float = 1.75  # Visits this close to the seam may change [longest laps].
+    fewer_laps: int = 4  # A robot makes fewer than this many laps less than it has time for.
+    given_up: int = 3  # A robot gives up fewer than this many laps on each side of the seam.
+    rounds: int = 6  # Each robot that cannot wait at home searches this often, on average.
+
+
+DEFAULT = ClosingParams()
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Stretch:
-    """A stretch of a run: what its laps may be worth per tick, its first tick, and its length."""
+    """A stretch of a simulation: its first tick, and its length [ticks]."""
 
-    value: float
     begins: int
     period: int
 
 
-def stretches(shift: CyclicProblem, run: GroupRun) -> list[Stretch]:
-    """Return stretches of a run, the best first; none if the run is too short.
+def _first_lap(home: Enters, begins: int) -> int:
+    """Return the first lap that begins from a tick on; never lap 0."""
+    return max(int(np.searchsorted(home, begins)), 1)
 
-    Parameters
-    ----------
-    shift
-        What laps are worth.
-    run
-        What native rules do, so that it has a `VisitTimes` of each robot.
-    """
-    known = max(past[-1] for past in run.history)
-    longest = max(endless.lap.duration for endless in run.group)
-    per_tick = sum(map(len, run.history)) / max(known, 1)
-    homes = _homes(run)
+
+def closed_windows(
+    problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
+) -> Iterator[Candidate]:
+    """Yield timetables cut out of a simulation, until all windows are tried or time is over."""
+    closing = _WindowClosing(problem, run, params)
+    for window in closing.promising():
+        if problem.is_out_of_time:
+            return
+        found = closing.close(window)
+        if found is not None:
+            yield found
+
+
+class _WindowClosing:
+    """A simulation whose windows are closed by the orders of visits."""
+
+    def __init__(self, problem: CyclicProblem, run: GroupResult, params: ClosingParams) -> None:
+        self.problem, self.run, self.params = problem, run, params
+        self.homes = homes_of(run.context.routes, run.history)
+        self.known = min(int(home[-1]) for home in self.homes)
+
+    def promising(self) -> list[Stretch]:
+        """Return windows of all lengths: the best of each length, then the second best ones, ..."""
+        params, longest = self.params, max(self.problem.alone)
+        ranked: list[list[Stretch]] = []
+        for least, most in pairwise(length * longest for length in params.window_lengths):
+            latest = self.known - least
+            if latest <= longest:
+                break
+            ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
+            best = [ends for tick in ticks if (ends := self.best_ends(tick, least, most))]
+            for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
+                in_order = sorted((ends[score] for ends in best), key=lambda found: -found[0])
+                ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
+        in_turn = (one for row in zip_longest(*reversed(ranked)) for one in row if one is not None)
+        return list(dict.fromkeys(in_turn))
+
+    def best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
+        """Return the best windows from a tick on that end when a robot is home, with their scores.
+
+        One for the value of laps per tick, and one for the least time that robots wait at home for
+        the end of the window. Empty if no end is known, long and short enough.
+        """
+        laps = [home[_first_lap(home, begins) :] for home in self.homes]
+        ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
+        every = max(int(part[0]) if len(part) else most + 1 for part in ends_of)
+        ends, sizes = np.concatenate(ends_of), [len(part) for part in ends_of]
+        order = np.argsort(ends, kind="stable")
+        visits = np.repeat([len(route) for route in self.run.context.routes], sizes)[order]
+        weights = np.repeat([float(weight) for weight in self.problem.weights], sizes)[order]
+        lasted = np.concatenate([part - np.append(0, part[:-1]) for part in ends_of])[order]
+        ends = ends[order]
+        fit = (ends >= max(least, every)) & (ends <= self.known - begins)
+        fit &= np.cumsum(visits) <= self.params.most_window_visits
+        if not fit.any():
+            return []
+        found = []
+        for score in (np.cumsum(weights) / ends, np.cumsum(lasted) / ends - len(ends_of)):
+            best = int(np.argmax(np.where(fit, score, -np.inf)))
+            found.append((float(score[best]), Stretch(begins, int(ends[best]))))
+        return found
+
+    def close(self, window: Stretch) -> Candidate | None:
+        """Return the timetable of a window; None if a robot finds no place."""
+        problem, period, laps = self.problem, window.period, self.run.context.laps
+        parts = []
+        for lap, past, home in zip(laps, self.run.history, self.homes, strict=True):
+            first = _first_lap(home, window.begins)
+            last = int(np.searchsorted(home, home[first] + period, side="right")) - 1
+            visits = past[first * len(lap) : last * len(lap) + 1]
+            parts.append((lap, np.array(visits, np.int64) - window.begins))
+        for early in (True, False):
+            cycles = [_cycle(lap, enter, period, early=early) for lap, enter in parts]
+            in_order = problem.candidate_of_orders(problem.timetable(cycles, period))
+            if in_order is not None:
+                return in_order
+        bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
+        # Robots whose homes others pass cannot wait there as long as they like: they come first.
+        users = Counter(vertex for lap in laps for vertex in set(lap.vertices))
+        for robot in sorted(range(len(laps)), key=lambda one: -users[laps[one].vertices[0]]):
+            cycle = self.without_overlap(bookings, robot, *parts[robot])
+            if cycle is None:
+                return None
+            placed[robot] = cycle
+        cycles = [placed[robot] for robot in range(len(laps))]
+        return problem.candidate_of_orders(problem.timetable(cycles, period))
+
+    def without_overlap(
+        self, bookings: PeriodicBookings, robot: int, lap: Lap, enter: Enters
+    ) -> RobotCycle | None:
+        """Leave out laps at the seam until a robot overlaps no other one, and book it."""
+        n, period = len(lap), int(bookings.period)
+        for less in range(min(self.params.most_left_out + 1, len(enter) // n)):
+            for head, early in product(range(less + 1), (True, False)):
+                part = enter[head * n : len(enter) - (less - head) * n]
+                cycle = _cycle(lap, part, period, early=early)
+                if bookings.add_if_free(robot, lap, cycle.count, cycle.enter):
+                    return cycle
+        return None
+
+
+def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
+    """Return visits from home to home in a period, home as early as last or as late as first."""
+    visits = enter[:-1].copy()
+    if early:
+        visits[0] = enter[-1] - period
+    return RobotCycle(lap, len(visits) // len(lap), visits - visits[0] // period * period)
+
+
+def stretches(
+    problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
+) -> list[tuple[float, Stretch]]:
+    """Return long stretches of a simulation with an upper bound on their values, the best first."""
+    known, longest = max(past[-1] for past in run.history), run.context.longest
+    visits_per_tick = sum(map(len, run.history)) / max(known, 1)
+    homes = homes_of(run.context.routes, run.history)
     found = []
-    beginnings = np.linspace(longest, max(LATEST * known, longest), BEGINNINGS)
-    for begins in np.unique(beginnings.astype(np.int64)).tolist():
-        most = min(known - begins, int(MOST_VISITS / per_tick))
-        least = max(int(SHORTEST * most), int(2 * AROUND * longest) + 1)
+    latest = max(params.latest_begin * known, longest)
+    ticks = np.linspace(longest, latest, params.stretch_begins).astype(np.int64)
+    for begins in np.unique(ticks).tolist():
+        most = min(known - begins, int(params.most_stretch_visits / visits_per_tick))
+        least = max(int(params.shortest * most), int(2 * params.around * longest) + 1)
         if least <= most:
-            periods = np.unique(np.linspace(least, most, ENDS).astype(np.int64))
-            values = _values(shift, run, homes, begins, periods)
+            periods = np.unique(np.linspace(least, most, params.stretch_ends).astype(np.int64))
+            values = _values(problem, run, homes, begins, periods)
             best = int(np.argmax(values))
-            found.append(Stretch(float(values[best]), begins, int(periods[best])))
-    return sorted((one for one in found if one.value > 0), reverse=True)
-
-
-def _homes(run: GroupRun) -> list[NDArray[np.int64]]:
-    """Return for each robot when it came home; at first it is there."""
-    return [
-        np.asarray(past[:: len(endless.lap)], np.int64)
-        for past, endless in zip(run.history, run.group, strict=True)
-    ]
+            found.append((float(values[best]), Stretch(begins, int(periods[best]))))
+    return sorted((one for one in found if one[0] > 0), reverse=True)
 
 
 def _values(
-    shift: CyclicProblem,
-    run: GroupRun,
-    homes: Sequence[NDArray[np.int64]],
+    problem: CyclicProblem,
+    run: GroupResult,
+    homes: Sequence[Enters],
     begins: int,
     periods: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """Return what laps are worth per tick, if each robot makes as many as it has time for."""
+    """Return the value of laps per tick if each robot makes as many as it has time for."""
     worth = np.zeros(len(periods))
-    for weight, endless, home in zip(shift.weights, run.group, homes, strict=True):
-        first = _first(home, begins)
+    for weight, lap, home in zip(problem.weights, run.context.laps, homes, strict=True):
+        first = _first_lap(home, begins)
         if first >= len(home):
             return worth * 0
         last = np.searchsorted(home, begins + periods, side="right") - 1
-        more = (home[first] + periods - home[last]) // int(endless.lap.duration)
+        more = (home[first] + periods - home[last]) // int(lap.duration)
         laps = np.where(last >= first, last - first + more, 0)
         worth += np.where(laps > 0, float(weight) * laps, -np.inf)
     return np.maximum(worth, 0) / periods
 
 
-def _first(home: NDArray[np.int64], begins: int) -> int:
-    """Return the first lap that begins from a tick on; never the very first one."""
-    return max(int(np.searchsorted(home, begins)), 1)
+def close_stretch(
+    problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams = DEFAULT
+) -> Candidate | None:
+    """Return the timetable of a long stretch; None if a robot finds no way through the seam.
 
-
-def closed(shift: CyclicProblem, run: GroupRun, stretch: Stretch) -> CyclicSchedule | None:
-    """Return the timetable of a stretch; None if some robot finds no way through the seam."""
-    around = int(AROUND * max(endless.lap.duration for endless in run.group))
-    if 2 * around >= stretch.period:
+    The simulation must be by a native rule, so that its history consists of `VisitTimes`.
+    """
+    if 2 * int(params.around * run.context.longest) >= stretch.period:
         return None
-    closing = _Closing(shift, run, stretch, around)
-    if not closing.let_all_through():
+    closing = _SeamClosing(problem, run, stretch, params)
+    if not closing.connect_all():
         return None
     closing.add_laps()
-    works = [closing.work(place) for place in range(len(run.group))]
-    return shift.timetable(works, stretch.period) if all(work.count for work in works) else None
+    cycles = [closing.cycle(robot) for robot in range(len(run.context))]
+    if not all(cycle.count for cycle in cycles):
+        return None
+    return Candidate.as_it_is(problem.timetable(cycles, stretch.period))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Part:
-    """What one robot keeps of the run, and how it gets through the seam.
-
-    Attributes
-    ----------
-    lap, past, home
-        What it repeats, when its visits began, and when it came home.
-    period
-        How long the circle is [ticks].
-    first, last
-        The first lap that it keeps, and the one before which it stops.
-    through
-        When the visits of the laps that it makes at the seam begin, with the one home after them;
-        None if that is not known.
-    """
+class _Kept:
+    """The laps that one robot keeps of the simulation, and its way through the seam."""
 
     lap: Lap
     past: VisitTimes
-    home: NDArray[np.int64]
+    home: Enters  # the enters of the visits home
     period: int
-    first: int
-    last: int
-    through: NDArray[np.int64] | None = None
+    first: int  # the first lap that is kept
+    last: int  # the lap before which the robot stops
+    through: Enters | None = None  # the visits at the seam, from home to home; None if not known
 
     @property
     def begins(self) -> int:
-        """When it comes home before the seam."""
+        """When the robot comes home before the seam."""
         return int(self.home[self.last])
 
     @property
     def until(self) -> int:
-        """By when it has to be home after it."""
+        """By when it must be home after the seam."""
         return int(self.home[self.first]) + self.period
 
     @property
     def leave(self) -> int:
-        """When it sets out from there."""
+        """When it leaves home after the seam."""
         return self.past[self.first * len(self.lap) + 1] + self.period
 
     @property
-    def more(self) -> int:
+    def n_through(self) -> int:
         """How many laps it makes at the seam."""
         return 0 if self.through is None else len(self.through) // len(self.lap)
 
     @property
-    def laps(self) -> int:
-        """How many laps it makes in a period."""
-        return self.last - self.first + self.more
-
-    @property
-    def most(self) -> int:
-        """How many laps it has time for."""
-        return self.last - self.first + (self.until - self.begins) // int(self.lap.duration)
+    def n_kept(self) -> int:
+        """How many laps it keeps."""
+        return self.last - self.first
 
 
-class _Closing:
-    """All robots around the seam of one stretch."""
+class _SeamClosing:
+    """All robots around the seam of one stretch, on a line of time."""
 
-    def __init__(self, shift: CyclicProblem, run: GroupRun, stretch: Stretch, around: int) -> None:
-        self._period = stretch.period
+    def __init__(
+        self, problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams
+    ) -> None:
+        self._problem, self._params, self._period = problem, params, stretch.period
+        around = int(params.around * run.context.longest)
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
-        self._seam = PeriodicBookings(
-            shift.n_vertices, None, headway=shift.headway, books_ahead=shift.books_ahead
-        )
-        rows = zip(run.group, run.history, _homes(run), strict=True)
-        self._parts = [
-            _Part(
-                lap=endless.lap,
-                past=past,
-                home=home,
-                period=stretch.period,
-                first=_first(home, stretch.begins),
-                last=int(np.searchsorted(home, seam, side="right")) - 1,
-            )
-            for endless, past, home in rows
-            if isinstance(past, VisitTimes)
-        ]
-        for place, part in enumerate(self._parts):
-            self._keep(place, part)
+        self._seam = problem.empty_bookings(None)
+        self._kept: list[_Kept] = []
+        homes, laps = homes_of(run.context.routes, run.history), run.context.laps
+        for robot, (lap, past, home) in enumerate(zip(laps, run.history, homes, strict=True)):
+            assert isinstance(past, VisitTimes), "native rules have these"
+            first = _first_lap(home, stretch.begins)
+            last = int(np.searchsorted(home, seam, side="right")) - 1
+            self._kept.append(_Kept(lap, past, home, stretch.period, first, last))
+            self._book_kept(robot)
 
-    def let_all_through(self) -> bool:
+    def connect_all(self) -> bool:
         """Let robots wait at home, or make laps where they cannot; tell whether all can."""
-        queue = deque(place for place in range(len(self._parts)) if not self._waits(place))
-        end = monotonic() + MOST_SECONDS
-        for _ in range(MOST_ROUNDS * len(queue) + len(self._parts)):
-            if not queue or monotonic() > end:
+        queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
+        for _ in range(self._params.rounds * len(queue) + len(self._kept)):
+            if not queue or self._problem.is_out_of_time:
                 break
-            place = queue.popleft()
-            near = self._find(place, self._tries(place))
-            if near is None:
+            robot = queue.popleft()
+            blocking = self._connect(robot, self._choices(robot))
+            if blocking is None:
                 continue
-            waiting = sorted(near)
-            for one in waiting:
-                self._put(one, replace(self._parts[one], through=None))
-            queue.extend(waiting)
-            if self._find(place, self._tries(place)) is not None:
-                queue.append(place)
+            for one in sorted(blocking):
+                self._book(one, replace(self._kept[one], through=None))
+            queue.extend(sorted(blocking))
+            if self._connect(robot, self._choices(robot)) is not None:
+                queue.append(robot)
         return not queue
 
     def add_laps(self) -> None:
-        """Let all make as many laps as there is room for, those with short ones first."""
-        for place in sorted(range(len(self._parts)), key=lambda k: self._parts[k].lap.duration):
-            laps = self._parts[place].laps
-            tries = self._tries(place)
-            self._find(place, (one for one in tries if one[0].last - one[0].first + one[1] > laps))
+        """Let all robots make as many laps as there is room for, those with short laps first."""
+        for robot in sorted(range(len(self._kept)), key=lambda one: self._kept[one].lap.duration):
+            if self._problem.is_out_of_time:
+                break
+            n_laps = self._kept[robot].n_kept + self._kept[robot].n_through
+            choices = self._choices(robot)
+            self._connect(robot, (one for one in choices if one[0].n_kept + one[1] > n_laps))
 
-    def work(self, place: int) -> Work:
+    def cycle(self, robot: int) -> RobotCycle:
         """Return what a robot does in a period."""
-        part, n = self._parts[place], len(self._parts[place].lap)
-        assert part.through is not None, "all have found their way"
-        kept = part.past.enters(range(part.first * n, part.last * n))
-        enter = np.concatenate((kept, part.through[:-1]))
-        enter[0] = part.through[-1] - self._period
-        return Work(part.lap, part.laps, enter - enter[0] // self._period * self._period)
+        kept, n = self._kept[robot], len(self._kept[robot].lap)
+        assert kept.through is not None, "all robots are connected"
+        visits = kept.past.enters(range(kept.first * n, kept.last * n))
+        return _cycle(kept.lap, np.concatenate((visits, kept.through)), self._period, early=True)
 
-    def _waits(self, place: int) -> bool:
-        """Let a robot wait at home, and tell whether nobody passes there."""
-        part = self._parts[place]
-        there = self._seam.connect(part.lap, 0, part.begins, part.until, part.leave)
-        self._parts[place] = part = replace(part, through=there)
-        self._book_through(place, part)
-        return there is not None
+    def _waits_at_home(self, robot: int) -> bool:
+        """Let a robot wait at home, and tell whether no other robot passes there."""
+        kept = self._kept[robot]
+        through = self._seam.connect(kept.lap, 0, kept.begins, kept.until, kept.leave)
+        self._kept[robot] = replace(kept, through=through)
+        self._book_through(robot)
+        return through is not None
 
-    def _tries(self, place: int) -> Iterator[tuple[_Part, int]]:
-        """Yield what a robot may keep, and how many laps it makes at the seam then: most first."""
-        part = replace(self._parts[place], through=None)
-        for fewer in range(FEWER_LAPS):
-            for later, sooner in sorted(product(range(GIVEN_UP), repeat=2), key=sum):
-                less = replace(part, first=part.first + later, last=part.last - sooner)
-                more = part.most - fewer - (less.last - less.first)
-                inside = less.first <= less.last and more >= 0
+    def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
+        """Yield what a robot may keep, and how many laps it makes at the seam: most first."""
+        kept, params = replace(self._kept[robot], through=None), self._params
+        most = kept.n_kept + (kept.until - kept.begins) // int(kept.lap.duration)
+        given_up = sorted(product(range(params.given_up), repeat=2), key=sum)
+        for fewer in range(params.fewer_laps):
+            for later, sooner in given_up:
+                less = replace(kept, first=kept.first + later, last=kept.last - sooner)
+                n_through = most - fewer - less.n_kept
+                inside = less.n_kept >= 0 and n_through >= 0
                 if inside and self._from <= less.begins and less.until <= self._to:
-                    yield less, more
+                    yield less, n_through
 
-    def _find(self, place: int, tries: Iterator[tuple[_Part, int]]) -> set[int] | None:
-        """Find a robot its way through the seam; if it finds none, return who was in its way."""
-        before, near = self._parts[place], set[int]()
-        self._seam.remove(place)  # what it keeps is never in its own way
-        for part, more in tries:
-            found = self._seam.connect(part.lap, more, part.begins, part.until, part.leave)
-            if found is not None:
-                self._put(place, replace(part, through=found))
+    def _connect(self, robot: int, choices: Iterator[tuple[_Kept, int]]) -> set[int] | None:
+        """Find a way through the seam; if there is none, return the robots that may make room.
+
+        These wait at home where the search got stuck, or pass that vertex at the seam.
+        """
+        before, blocking = self._kept[robot], set[int]()
+        self._seam.remove(robot)  # what it keeps is never in its own way
+        for kept, n_through in choices:
+            times = kept.begins, kept.until, kept.leave
+            through = self._seam.connect(kept.lap, n_through, *times)
+            if through is not None:
+                self._book(robot, replace(kept, through=through))
                 return None
-            vertex = self._seam.stuck_at(part.lap)
-            near |= self._waiting(vertex, self._seam.users([vertex], part.begins, part.leave))
-        self._put(place, before)
-        return near - {place}
+            vertex = self._seam.stuck_at(kept.lap)
+            for one in self._seam.users([vertex], kept.begins, kept.leave):
+                other = self._kept[one]
+                at_home = other.lap.vertices[0] == vertex
+                if other.through is not None and (other.n_through or at_home):
+                    blocking.add(one)
+        self._book(robot, before)
+        return blocking - {robot}
 
-    def _waiting(self, vertex: VertexId, users: set[int]) -> set[int]:
-        """Return who may make room at a place: who waits at home there, or makes laps past it."""
-        parts = ((place, self._parts[place]) for place in users)
-        return {
-            place
-            for place, part in parts
-            if part.through is not None and (part.more or part.lap.vertices[0] == vertex)
-        }
+    def _book(self, robot: int, kept: _Kept) -> None:
+        """Replace all bookings of a robot."""
+        self._kept[robot] = kept
+        self._seam.remove(robot)
+        self._book_kept(robot)
+        self._book_through(robot)
 
-    def _put(self, place: int, part: _Part) -> None:
-        """Book a robot anew."""
-        self._parts[place] = part
-        self._seam.remove(place)
-        self._keep(place, part)
-        self._book_through(place, part)
-
-    def _keep(self, place: int, part: _Part) -> None:
-        """Book what a robot keeps of the run, as far as it is around the seam."""
-        n = len(part.lap)
-        first = max(int(np.searchsorted(part.home, self._from)) - 1, part.first)
-        last = min(int(np.searchsorted(part.home, self._to - self._period)), part.last)
-        before = range(first * n, part.last * n)
-        after = range(part.first * n + 1, last * n)
+    def _book_kept(self, robot: int) -> None:
+        """Book the laps that a robot keeps, as far as they are around the seam."""
+        kept, n = self._kept[robot], len(self._kept[robot].lap)
+        first = max(int(np.searchsorted(kept.home, self._from)) - 1, kept.first)
+        last = min(int(np.searchsorted(kept.home, self._to - self._period)), kept.last)
+        before = range(first * n, kept.last * n)
+        after = range(kept.first * n + 1, last * n)
         for visits, later in ((before, 0), (after, self._period)):
             if visits:
-                enter = part.past.enters(range(visits.start, visits.stop + 1)) + later
-                self._seam.add_visits(place, part.lap, visits, enter[:-1], int(enter[-1]))
+                enter = kept.past.enters(range(visits.start, visits.stop + 1)) + later
+                self._seam.add_visits(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
 
-    def _book_through(self, place: int, part: _Part) -> None:
-        """Book its way through the seam; if that is not known yet, both times that it is home."""
-        home = np.array([part.begins, part.until])
-        if part.through is not None:
-            visits = range(len(part.through))
-            self._seam.add_visits(place, part.lap, visits, part.through, part.leave)
-        elif part.begins + part.lap.least(0) < part.until:
-            self._seam.add_visits(
-                place, part.lap, range(1), home[:1], part.begins + part.lap.least(0)
-            )
-            self._seam.add_visits(place, part.lap, range(1), home[1:], part.leave)
-        else:
-            self._seam.add_visits(place, part.lap, range(1), home[:1], part.leave)
+    def _book_through(self, robot: int) -> None:
+        """Book the way through the seam; if it is not known yet, both times at home."""
+        kept, leave = self._kept[robot], self._kept[robot].begins + self._kept[robot].lap.least(0)
+        stays = [(kept.begins, leave), (kept.until, kept.leave)]
+        if kept.through is not None:
+            visits = range(len(kept.through))
+            self._seam.add_visits(robot, kept.lap, visits, kept.through, kept.leave)
+            return
+        for begins, ends in stays if leave < kept.until else [(kept.begins, kept.leave)]:
+            self._seam.add_visits(robot, kept.lap, range(1), np.array([begins]), ends)

@@ -1,209 +1,171 @@
-"""The timetable of a large group: a long stretch of the best run that is found, closed to a circle.
+"""The timetable of a large group: a long stretch of the best simulation found, closed.
 
-With hundreds of robots there is no time to choose anything twice. But a run under a rule that sees
-two robots makes dozens of laps in a second, and closing it costs about half a lap of each robot
-(`seams`). So what is chosen is the run: on routes that are clear of others only as much as it pays
-over many laps, and with the right of way for who would lose more by waiting. Each is tried for a
-moment; the best goes on as long as there is time.
+With hundreds of robots there is no time to place each of them several times. But a simulation under
+a native rule makes dozens of laps per second, and closing a stretch of it costs about half a lap of
+each robot (`closing`). So the simulation is what is chosen: on routes that are clear of others only
+in proportion to what that saves over many laps, and under the rule ``least-loss``. Each is tried
+for a short time; the best continues as long as there is time.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass
 from fractions import Fraction
 
-from rightofway.cyclic.closing import closed, stretches
-from rightofway.cyclic.native_rules import Native
-from rightofway.cyclic.problem import CyclicProblem
-from rightofway.cyclic.result import GroupRun
-from rightofway.cyclic.route import CyclicRoute
-from rightofway.cyclic.run import go_on, make_simulator
-from rightofway.model import Lap, Scenario, Tick
-from rightofway.planners import Deadline, Task
-from rightofway.precedence import CyclicSchedule
+from rightofway.cyclic.closing import Stretch, close_stretch, stretches
+from rightofway.cyclic.problem import Candidate, CyclicProblem
+from rightofway.cyclic.result import GroupResult
+from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.run import advance
+from rightofway.cyclic.simulator import CyclicSimulator
+from rightofway.planners import Deadline
 
-__all__ = ["Watched", "cut_out", "rival_of", "runs_of"]
-
-LEAST_SHARE, MOST_SHARE = 0.03, 0.15
-"""The part of the time left that a run is tried for, at least and at most."""
-
-LAPS_TRIED = 3
-"""In between, a run is tried for so many of the longest laps."""
-
-SETTING_OUT = 1
-"""All set out first come first served, for so many of the longest laps: at first everybody is at
-home, in the way of others."""
-
-GOOD = 1.005
-"""A run that is so much better than first come first served is gone on with, and none is tried."""
-
-GOING_ON_SHARE = 0.75
-"""The part of the time left then in which the best goes on; in the rest it is closed."""
-
-SLICES = 4
-"""In so many parts of that; after each it is asked what promises most then."""
-
-SEAM = 0.55
-"""How much of a lap each robot loses where a stretch is closed."""
-
-LEAST_LAPS, GRACE = 5, 5
-"""However little time there is, the best goes on for so many of the longest laps if it can in so
-many seconds: a stretch that is too short cannot be closed."""
-
-EACH, MOST_STRETCHES = 2, 4
-"""How many stretches of each run, and in all, are tried to be closed until one is."""
-
-MOMENT, SHORTEST_MOMENT = 0.2, 0.02
-"""So often it is asked how far a run is: as a part of the time for it, and at least [s]."""
+__all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle", "first_come_run"]
 
 
-class Watched:
-    """A group under a rule, and what it did so far.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunChoiceParams:
+    """How the time is divided between simulations; shares are of the time left."""
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    group
-        Its robots and their routes.
+    least_share: float = 0.03  # A simulation is tried in this share, at least.
+    most_share: float = 0.15  # A simulation is tried in this share, at most.
+    laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
+    laps_before_rule: float = 1  # Robots disperse first come first served before [longest laps].
+    good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
+    continuing_share: float = 0.75  # The best simulation continues in this share, then is closed.
+    slices: int = 4  # The best is chosen again after each of this many parts of that.
+    seam: float = 0.55  # Each robot loses this much of a lap where a stretch is closed.
+    least_laps: float = (
+        5  # The best simulation continues to this length in any case [longest laps].
+    )
+    extension_share: float = 0.5  # That may take this share.
+    stretches_each: int = 2  # This many stretches of each simulation are tried to be closed.
+    most_stretches: int = 4  # This many are tried to be closed in all.
+    look_every: float = 0.2  # A simulation is looked at after each such part of its time.
+    least_look: float = 0.02  # But not more often than this [s].
 
-    Attributes
-    ----------
-    run
-        What it did so far.
-    known
-        How far it is [ticks].
-    pace
-        How many ticks it came on in a second, when it last went on.
+
+DEFAULT = RunChoiceParams()
+
+
+class SimulatedRun:
+    """A simulation of a group on some routes, and its result so far.
+
+    It is simulated up to the tick ``known``, last at a pace of so many ticks per second.
     """
 
-    def __init__(self, scenario: Scenario, group: Sequence[CyclicRoute]) -> None:
-        self._longest = max(endless.lap.duration for endless in group)
-        self._going = make_simulator(Task(scenario=scenario), group, "first-come")
+    def __init__(
+        self, problem: CyclicProblem, context: GroupContext, params: RunChoiceParams = DEFAULT
+    ) -> None:
+        self._problem, self._params = problem, params
+        self._simulation = CyclicSimulator(context, "first-come")
         self._seconds = self.pace = 0.0
-        self.run = go_on(self._going, Deadline.after(0))
         self.known = 0
+        self.result = advance(self._simulation, Deadline.after(0))
         self._value: Fraction | None = None
 
-    def go_on(self, seconds: float) -> None:
-        """Go on for some time, if the end is open."""
-        if self.run.ends == "open":
+    def try_rule(self, rule: str) -> None:
+        """Simulate for a short time, first come first served at first."""
+        params, left = self._params, seconds_left(self._problem)
+        if rule != "first-come":
+            self.advance_laps(params.laps_before_rule, 0, params.most_share * left)
+            if self.result.ends == "open":
+                self._simulation.set_rule(rule)
+        self.advance_laps(params.laps_tried, params.least_share * left, params.most_share * left)
+
+    def advance(self, seconds: float) -> None:
+        """Continue for some time if the end is open."""
+        if self.result.ends == "open":
             before = self.known
-            self.run = go_on(self._going, Deadline.after(seconds))
-            self.known = max(past[-1] for past in self.run.history)
-            self.pace = (self.known - before) / max(seconds, SHORTEST_MOMENT)
+            self.result = advance(self._simulation, Deadline.after(seconds))
+            self.known = max(past[-1] for past in self.result.history)
+            self.pace = (self.known - before) / max(seconds, self._params.least_look)
             self._seconds += seconds
             self._value = None
 
-    def go_on_for(self, laps: float, least: float, most: float) -> None:
-        """Go on for some of the longest laps, in at least and at most so much time [s]."""
-        before, began = self.known, self._seconds
-        until, end = before + laps * self._longest, began + most
-        self.go_on(least)
-        while self.run.ends == "open" and self.known < until and self._seconds < end:
-            self.go_on(max(most * MOMENT, SHORTEST_MOMENT))
-        self.pace = (self.known - before) / max(self._seconds - began, SHORTEST_MOMENT)
+    def advance_laps(self, laps: float, least: float, most: float) -> None:
+        """Continue for some of the longest laps, in at least and at most so much time [s]."""
+        before, began, look = self.known, self._seconds, self._params.least_look
+        until, end = before + laps * self.result.context.longest, began + most
+        self.advance(least)
+        while self.result.ends == "open" and self.known < until and self._seconds < end:
+            self.advance(max(most * self._params.look_every, look))
+        self.pace = (self.known - before) / max(self._seconds - began, look)
 
-    def go_on_until(self, laps: float, most: float) -> None:
-        """Go on until it is so many of the longest laps long, in at most so much time [s]."""
-        self.go_on_for(laps - self.known / self._longest, 0, most)
-
-    def follow(self, rule: str) -> None:
-        """Go on under another rule, if the end is open."""
-        if self.run.ends == "open" and isinstance(self._going, Native):
-            self._going.follow(rule)
-
-    def value(self, shift: CyclicProblem) -> Fraction:
-        """Return what its laps are worth per tick; 0 if not all robots make laps, or fair ones."""
+    @property
+    def value(self) -> Fraction:
+        """The value of laps per tick; 0 if a robot makes none, or an unfair number."""
         if self._value is None:
-            self._value = _value(self.run, shift)
+            self._value, problem, result = Fraction(0), self._problem, self.result
+            means = result.mean_laps() if result.ends != "deadlock" else (None,)
+            if None not in means:
+                rows = zip(problem.alone, means, strict=True)
+                if min(alone / mean for alone, mean in rows if mean) >= problem.least_fairness:
+                    self._value = result.rate(problem.weights)
         return self._value
 
 
-def _value(run: GroupRun, shift: CyclicProblem) -> Fraction:
-    means = run.mean_laps() if run.ends != "deadlock" else (None,)
-    if None in means:
-        return Fraction(0)
-    parts = (alone / mean for alone, mean in zip(shift.alone, means, strict=True) if mean)
-    return run.rate(shift.weights) if min(parts) >= shift.least_fairness else Fraction(0)
+def seconds_left(problem: CyclicProblem) -> float:
+    """Return the time left of a problem with a deadline [s]."""
+    return problem.deadline.seconds_left() or 0.0
 
 
-def rival_of(scenario: Scenario, group: Sequence[CyclicRoute], shift: CyclicProblem) -> Watched:
-    """Let the group go on first come first served, for a moment."""
-    return _tried(scenario, group, "first-come", shift)
+def first_come_run(problem: CyclicProblem) -> SimulatedRun:
+    """Simulate the group for a short time, first come first served on its usual routes."""
+    run = SimulatedRun(problem, problem.context)
+    run.try_rule("first-come")
+    return run
 
 
-def runs_of(
-    scenario: Scenario, rival: Watched, group: Sequence[CyclicRoute], shift: CyclicProblem
-) -> list[GroupRun]:
-    """Return runs to cut a timetable out of; that which promises most went on.
+def choose_runs(
+    problem: CyclicProblem, baseline: SimulatedRun, params: RunChoiceParams = DEFAULT
+) -> list[GroupResult]:
+    """Return simulations to cut a timetable out of; the most promising one continued.
 
-    Parameters
-    ----------
-    scenario
-        The problem.
-    rival
-        First come first served on the usual routes, for a moment.
-    group
-        The robots on their usual routes; their last ways are the direct ones.
-    shift
-        What laps are worth, what is fair, and when to stop.
+    The last of each robot's ways is its direct one.
     """
-    ways = zip(group, shift.ways, strict=True)
-    direct = [_on(endless, own[-1]) for endless, own in ways]
-    rest = iter(((direct, "least-loss"), (direct, "first-come"), (group, "least-loss")))
-    tried, enough = [rival], Fraction(GOOD) * rival.value(shift)
-    for left in range(SLICES, 0, -1):
-        best = _best(tried, shift)
-        while best.value(shift) <= enough and (one := next(rest, None)):
-            tried.append(_tried(scenario, *one, shift))
-            best = _best(tried, shift)
-        best.go_on(GOING_ON_SHARE ** (1 / left) * _left(shift) / left)
-    _best(tried, shift).go_on_until(LEAST_LAPS, GRACE)
-    return [one.run for one in tried if all(one.run.laps_made())]
+    context = problem.context
+    ways = zip(context.routes, problem.ways, strict=True)
+    direct = GroupContext(
+        scenario=context.scenario, routes=tuple(route.on(own[-1]) for route, own in ways)
+    )
+    rest = iter(((direct, "least-loss"), (direct, "first-come"), (context, "least-loss")))
+    tried, enough = [baseline], params.good * baseline.value
+    loss = params.seam * float(problem.worth([1] * len(problem)))
+
+    def best() -> SimulatedRun:
+        """Return the run of the largest value once it has continued at its pace and is closed."""
+        seconds = params.continuing_share * seconds_left(problem)
+        return max(
+            tried,
+            key=lambda run: float(run.value) - loss / max(run.known + run.pace * seconds, 1),
+        )
+
+    for left in range(params.slices, 0, -1):
+        run = best()
+        while run.value <= enough and (another := next(rest, None)):
+            tried.append(SimulatedRun(problem, another[0], params))
+            tried[-1].try_rule(another[1])
+            run = best()
+        run.advance(params.continuing_share ** (1 / left) * seconds_left(problem) / left)
+    run = best()
+    missing = params.least_laps - run.known / context.longest
+    run.advance_laps(missing, 0, params.extension_share * seconds_left(problem))
+    return [run.result for run in tried if all(run.result.laps_made())]
 
 
-def _best(tried: Sequence[Watched], shift: CyclicProblem) -> Watched:
-    """Return what promises most, if it goes on as fast as it did last, and is closed then."""
-    seconds = GOING_ON_SHARE * _left(shift)
-    seam = SEAM * float(shift.worth([1] * len(shift.robots)))
-
-    def promise(one: Watched) -> float:
-        known = one.known + one.pace * seconds
-        return float(one.value(shift)) - seam / max(known, 1)
-
-    return max(tried, key=promise)
-
-
-def _tried(
-    scenario: Scenario, group: Sequence[CyclicRoute], rule: str, shift: CyclicProblem
-) -> Watched:
-    """Let a group go on for a moment."""
-    one, left = Watched(scenario, group), _left(shift)
-    if rule != "first-come":
-        one.go_on_for(SETTING_OUT, 0, MOST_SHARE * left)
-        one.follow(rule)
-    one.go_on_for(LAPS_TRIED, LEAST_SHARE * left, MOST_SHARE * left)
-    return one
-
-
-def _on(endless: CyclicRoute, lap: Lap) -> CyclicRoute:
-    """Return a robot on another way."""
-    turn = endless.lap.least(0) - endless.first_least
-    return replace(endless, lap=lap, first_least=Tick(lap.least(0) - turn))
-
-
-def _left(shift: CyclicProblem) -> float:
-    return shift.deadline.seconds_left() or 0.0
-
-
-def cut_out(shift: CyclicProblem, runs: Sequence[GroupRun]) -> CyclicSchedule | None:
-    """Return the timetable of a long stretch of a run; None if none can be closed, or is fair."""
-    found = [(stretch, run) for run in runs for stretch in stretches(shift, run)[:EACH]]
-    found.sort(key=lambda one: one[0], reverse=True)
-    for stretch, run in found[:MOST_STRETCHES]:
-        timetable = closed(shift, run, stretch)
-        if timetable is not None and shift.is_fair(timetable.counts, int(timetable.period)):
-            return timetable
+def extract_cycle(
+    problem: CyclicProblem, runs: Sequence[GroupResult], params: RunChoiceParams = DEFAULT
+) -> Candidate | None:
+    """Return the timetable of a long stretch of a run; None if none can be closed and is fair."""
+    found: list[tuple[float, Stretch, int]] = []
+    for number, run in enumerate(runs):
+        some = stretches(problem, run)[: params.stretches_each]
+        found += [(value, stretch, number) for value, stretch in some]
+    found.sort(key=lambda one: one[:2], reverse=True)
+    for _, stretch, number in found[: params.most_stretches]:
+        closed = close_stretch(problem, runs[number], stretch)
+        if closed is not None and problem.accepts(closed):
+            return closed
     return None

@@ -1,10 +1,10 @@
-"""Large neighbourhood search on the circle: take robots of the bottleneck off, put them on better.
+"""Large neighbourhood search: remove robots of the bottleneck from a timetable, insert them again.
 
-The value of a timetable is what its laps are worth by its cycle time. To raise it, the laps of some
-robot may become more or fewer, and the period has to be as short as makes up for it. The robots on
-the critical circuits are taken off until the others alone could keep that period; these are timed
-anew for it, in their old orders, and those taken off look for a place among them, on any of their
-ways. So a step may turn one right of way, or all that a robot has, for whole segments at once.
+The objective is the value of laps divided by the cycle time. A step changes the number of laps of a
+robot, or none, and takes the longest period that keeps the objective, or a shorter one. Robots of
+critical circuits are removed until the others alone can keep that period. The others get their
+earliest times in their old orders, and the removed robots are inserted among them, on any of their
+laps. So one step may reverse one right of way, or all of a robot, for whole segments at once.
 
 References
 ----------
@@ -13,158 +13,195 @@ CP 1998 (large neighbourhood search).
 
 Notes
 -----
-Never worse than the timetable it starts from. Anytime; deterministic for a seed where the steps
-come to an end in time. Not optimal.
+Never worse than the timetable it starts from. Anytime; deterministic for a seed if the steps end
+before the time does. Not optimal.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from rightofway.cyclic.crowding import crowded
-from rightofway.cyclic.problem import Choice, CyclicProblem, Work
-from rightofway.errors import GaveUp
+from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unrolled
+from rightofway.search import PeriodicBookings
 
-__all__ = ["improve"]
-
-MOST_TAKEN = 6
-"""How many robots at most a step takes off the circle."""
-
-CROWDS_AFTER = 10
-"""Every so many steps, laps are added on the circle as it is."""
-
-PATIENCE = 60
-"""After so many steps in vain a period becomes two, so that laps can be shared out more finely."""
-
-MOST_VISITS = 8_000
-"""No period gets more visits by becoming two; on a longer one laps are added at most."""
+__all__ = ["LnsParams", "improve", "insert_laps"]
 
 
-def improve(shift: CyclicProblem, choice: Choice, *, steps: int | None = None) -> Choice:
-    """Make what the laps of a group are worth per tick as large as steps and time allow."""
-    best, in_vain, step = choice, 0, 0
-    try:
-        while (steps is None or step < steps) and shift.value(best) < shift.bound:
-            shift.deadline.check("improving a timetable")
-            step += 1
-            crowds = step % CROWDS_AFTER == 0 or choice.visits > MOST_VISITS
-            found = crowded(shift, choice) if crowds else _step(shift, choice)
-            in_vain += 1
-            if found is None or not shift.is_fair(found.timetable.counts, found.cycle_time):
-                pass
-            elif shift.value(found) > shift.value(choice):
-                best, choice, in_vain = found, found, 0
-            else:
-                choice = found
-            if in_vain >= PATIENCE:
-                choice, in_vain = _doubled(choice), 0
-    except GaveUp:
-        pass
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LnsParams:
+    """The neighbourhoods of a search; of listed values one is drawn."""
+
+    most_removed: int = 6  # A step that would remove more robots is given up.
+    extra_removed: tuple[int, ...] = (0, 0, 1, 2)  # Removed beyond the robots that have to be.
+    count_changes: tuple[int, ...] = (0, 0, 1, 1, -1)  # By how many laps a robot's count changes.
+    insert_every: int = 10  # Every this many steps, laps are inserted without new times.
+    patience: int = 60  # After this many steps in vain, two periods become one.
+    most_visits: int = 8_000  # No period gets longer than this by that; it has laps inserted only.
+    insertions_per_robot: int = 6  # Inserting laps takes this many steps for each robot.
+    moves_every: int = 3  # One of these steps in this many adds no lap, and only moves robots.
+    neighbours_moved: tuple[int, ...] = (0, 1, 1, 2)  # This many others make room for a lap.
+
+
+DEFAULT = LnsParams()
+
+
+def improve(
+    problem: CyclicProblem,
+    candidate: Candidate,
+    *,
+    steps: int | None = None,
+    params: LnsParams = DEFAULT,
+) -> Candidate:
+    """Return the best timetable found in so many steps, or until the deadline of the problem."""
+    best, in_vain, step = candidate, 0, 0
+    while (steps is None or step < steps) and problem.value(best) < problem.bound:
+        if problem.is_out_of_time:
+            break
+        step, in_vain = step + 1, in_vain + 1
+        inserts = step % params.insert_every == 0 or candidate.n_visits > params.most_visits
+        found = (insert_laps if inserts else _step)(problem, candidate, params)
+        if found is not None and problem.accepts(found):
+            if problem.value(found) > problem.value(candidate):
+                best, in_vain = found, 0
+            candidate = found
+        if in_vain >= params.patience:
+            in_vain = 0
+            if 2 * candidate.n_visits <= params.most_visits:
+                twice = unrolled(candidate.timetable, 2)
+                candidate = Candidate(twice, candidate.cycle_time * 2)
     return best
 
 
-def _doubled(choice: Choice) -> Choice:
-    """Return two periods as one, if that is not too long."""
-    if 2 * choice.visits > MOST_VISITS:
-        return choice
-    return Choice(unrolled(choice.timetable, 2), choice.cycle_time * 2)
+def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate:
+    """Return a timetable with at least as many laps, in a period that is not longer.
+
+    In each of many small steps, a robot is to make one lap more, or as many as before; it and some
+    robots whose vertices it shares are removed and placed again. If one finds no place, all return.
+    """
+    draw, (bookings, cycles) = problem.draw, problem.booked(candidate)
+    for _ in range(params.insertions_per_robot * len(cycles)):
+        if problem.is_out_of_time:
+            break
+        robot = draw.randrange(len(cycles))
+        count = cycles[robot].count + (draw.randrange(params.moves_every) > 0)
+        if count * problem.alone[robot] <= bookings.period:
+            near = sorted(bookings.users(cycles[robot].lap.vertices) - {robot})
+            others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
+            counts = {robot: count, **{one: cycles[one].count for one in others}}
+            _move(problem, bookings, cycles, counts)
+    return problem.candidate(problem.timetable(cycles, candidate.period))
 
 
-def _step(shift: CyclicProblem, choice: Choice) -> Choice | None:
+def _move(
+    problem: CyclicProblem,
+    bookings: PeriodicBookings,
+    cycles: list[RobotCycle],
+    counts: Mapping[int, int],
+) -> None:
+    """Place some robots again with new numbers of laps; if one finds no place, all return."""
+    for robot in counts:
+        bookings.remove(robot)
+    placed: dict[int, RobotCycle] = {}
+    for robot in problem.draw.sample(list(counts), len(counts)):
+        found = problem.place(bookings, robot, counts[robot], tries=2)
+        if found is None:
+            break
+        bookings.add(robot, found.lap, found.count, found.enter)
+        placed[robot] = found
+    if len(placed) == len(counts):
+        for robot, cycle in placed.items():
+            cycles[robot] = cycle
+        return
+    for robot in placed:
+        bookings.remove(robot)
+    for robot in counts:
+        bookings.add(robot, cycles[robot].lap, cycles[robot].count, cycles[robot].enter)
+
+
+def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate | None:
     """Return a timetable that is at least as good, or None if this step finds none."""
-    changed, counts = _other_counts(shift, choice)
-    worth = shift.worth(counts) / shift.value(choice)
-    most = worth.numerator // worth.denominator  # with this period it is as good as before
-    taken = [changed] if changed is not None else []
-    rest = _rest(shift, choice, taken, most)
+    draw, counts = problem.draw, list(candidate.timetable.counts)
+    robot, change = draw.randrange(len(counts)), draw.choice(params.count_changes)
+    removed = []
+    if change != 0 and counts[robot] + change >= 1:
+        counts[robot] += change
+        removed = [robot]
+    longest = problem.worth(counts) / problem.value(candidate)
+    most = longest.numerator // longest.denominator  # the objective stays with this period
+    rest = _removed(problem, candidate, removed, most, params)
     if rest is None:
         return None
-    taken, least = rest
-    least = max(
-        least,
-        *(count * alone for count, alone in zip(counts, shift.alone, strict=True)),
-    )
-    period = shift.draw.choice((most, most, most - 1, shift.draw.randint(least, max(most, least))))
+    removed, least = rest
+    least = max(least, *(n * alone for n, alone in zip(counts, problem.alone, strict=True)))
+    period = draw.choice((most, most, most - 1, draw.randint(least, max(most, least))))
     period = max(period, least)
-    if period > most or not shift.is_fair(counts, period):
+    if period > most or not problem.is_fair(counts, period):
         return None
-    return _put_back(shift, choice, counts, taken, period)
+    return _reinserted(problem, candidate, counts, removed, period)
 
 
-def _other_counts(shift: CyclicProblem, choice: Choice) -> tuple[int | None, list[int]]:
-    """Return a robot that is to make a lap more or fewer, or None, and all counts then."""
-    counts = list(choice.timetable.counts)
-    place, more = shift.draw.randrange(len(counts)), shift.draw.choice((0, 0, 1, 1, -1))
-    if more == 0 or counts[place] + more < 1:
-        return None, counts
-    counts[place] += more
-    return place, counts
-
-
-def _rest(
-    shift: CyclicProblem, choice: Choice, taken: list[int], most: int
+def _removed(
+    problem: CyclicProblem,
+    candidate: Candidate,
+    removed: list[int],
+    most: int,
+    params: LnsParams,
 ) -> tuple[list[int], int] | None:
-    """Take robots of the bottleneck off until the others can keep the period; and a few more.
+    """Remove robots of critical circuits until the others can keep the period, and a few more.
 
-    Returns whom, and the least period of the others; None if it takes too many.
+    Returns the robots, and the least period of the others; None if these are too many.
     """
-    extra = shift.draw.choice((0, 0, 1, 2))
-    while len(taken) <= MOST_TAKEN:
-        left = [place for place in range(len(shift.robots)) if place not in taken]
+    extra = problem.draw.choice(params.extra_removed)
+    while len(removed) <= params.most_removed:
+        left = [robot for robot in range(len(problem)) if robot not in removed]
         if not left:
-            return taken, 1
-        graph = shift.graph(_part(choice.timetable, left))
+            return removed, 1
+        graph = problem.graph(_part(candidate.timetable, left))
         circuit = graph.critical_circuit()
         on = sorted({left[robot] for robot in graph.robot[graph.arcs.head[circuit.arcs]].tolist()})
-        if taken and circuit.cycle_time <= most:
+        if removed and circuit.cycle_time <= most:
             if not extra:
-                return taken, -(-circuit.cycle_time.numerator // circuit.cycle_time.denominator)
+                return removed, -(-circuit.cycle_time.numerator // circuit.cycle_time.denominator)
             extra -= 1
-        taken = [*taken, shift.draw.choice(on)]
+        removed = [*removed, problem.draw.choice(on)]
     return None
 
 
-def _part(timetable: CyclicSchedule, places: Sequence[int]) -> CyclicSchedule:
+def _part(timetable: CyclicSchedule, robots: Sequence[int]) -> CyclicSchedule:
     """Return the timetable of some of the robots."""
     return replace(
         timetable,
-        robots=tuple(timetable.robots[place] for place in places),
-        laps=tuple(timetable.laps[place] for place in places),
-        counts=tuple(timetable.counts[place] for place in places),
-        enter=tuple(timetable.enter[place] for place in places),
+        robots=tuple(timetable.robots[robot] for robot in robots),
+        laps=tuple(timetable.laps[robot] for robot in robots),
+        counts=tuple(timetable.counts[robot] for robot in robots),
+        enter=tuple(timetable.enter[robot] for robot in robots),
     )
 
 
-def _put_back(
-    shift: CyclicProblem, choice: Choice, counts: Sequence[int], taken: Sequence[int], period: int
-) -> Choice | None:
-    """Time the others for a period and find those taken off a place among them."""
-    works = _timed(shift, choice, taken, period)
-    circle = shift.circle(period)
-    for place, work in works.items():
-        circle.add(place, work.lap, work.count, work.enter)
-    for place in shift.draw.sample(list(taken), len(taken)):
-        found = shift.place(circle, place, counts[place])
+def _reinserted(
+    problem: CyclicProblem,
+    candidate: Candidate,
+    counts: Sequence[int],
+    removed: Sequence[int],
+    period: int,
+) -> Candidate | None:
+    """Give the other robots their earliest times in a period, and insert those removed."""
+    bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
+    left = [robot for robot in range(len(problem)) if robot not in removed]
+    if left:
+        rest = problem.graph(_part(candidate.timetable, left)).earliest(Tick(period))
+        rows = zip(left, rest.laps, rest.counts, rest.enter, strict=True)
+        cycles = {robot: RobotCycle(lap, n, enter) for robot, lap, n, enter in rows}
+    for robot, cycle in cycles.items():
+        bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
+    for robot in problem.draw.sample(list(removed), len(removed)):
+        found = problem.place(bookings, robot, counts[robot])
         if found is None:
             return None
-        circle.add(place, found.lap, found.count, found.enter)
-        works[place] = found
-    joined = [works[place] for place in range(len(shift.robots))]
-    return shift.tightened(shift.timetable(joined, period))
-
-
-def _timed(
-    shift: CyclicProblem, choice: Choice, taken: Sequence[int], period: int
-) -> dict[int, Work]:
-    """Return what the robots do that were not taken off, as early as they can in that period."""
-    left = [place for place in range(len(shift.robots)) if place not in taken]
-    if not left:
-        return {}
-    rest = shift.graph(_part(choice.timetable, left)).earliest(Tick(period))
-    return {
-        place: Work(lap, count, enter)
-        for place, lap, count, enter in zip(left, rest.laps, rest.counts, rest.enter, strict=True)
-    }
+        bookings.add(robot, found.lap, found.count, found.enter)
+        cycles[robot] = found
+    joined = [cycles[robot] for robot in range(len(problem))]
+    return problem.candidate(problem.timetable(joined, period))

@@ -1,26 +1,81 @@
-"""What repeats: from which tick on, how long, and when who is where in it."""
+"""When visits begin: in a simulation, and for ever after once its pattern repeats."""
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
-from rightofway.cyclic.route import CyclicRoute
+from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule
 
-__all__ = ["History", "Pattern", "pattern_of"]
+__all__ = ["History", "Pattern", "VisitTimes", "pattern_of"]
 
 History = Sequence[Sequence[int]]
-"""For each robot the ticks at which its visits began, from visit 0 on."""
+"""For each robot the enters of its visits, from visit 0 on [ticks]."""
 
 Enters = NDArray[np.int64]
-"""The same of one robot."""
+"""The enters of consecutive visits of one robot [ticks]."""
+
+
+class VisitTimes(Sequence[int]):
+    """The enters of a robot's first visits, stored as its delays; like a tuple of them.
+
+    The robot waited before each visit in ``late``, until then for ``waited`` ticks in all.
+    """
+
+    __slots__ = ("_begun", "_first", "_late", "_route", "_waited")
+
+    def __init__(
+        self, route: CyclicRoute, begun: int, late: NDArray[np.int32], waited: NDArray[np.int64]
+    ) -> None:
+        self._route = route
+        self._begun = begun
+        self._late = late
+        self._waited = np.concatenate(([0], waited))
+        self._first = self.enters(range(0))
+
+    def __len__(self) -> int:
+        return self._begun
+
+    @overload
+    def __getitem__(self, index: int) -> int: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[int, ...]: ...
+    def __getitem__(self, index: int | slice) -> int | tuple[int, ...]:
+        visits = range(self._begun)[index]
+        if isinstance(visits, range):
+            return tuple(self.enters(visits).tolist())
+        if visits == self._begun - 1:
+            return int(self.enters(range(visits, visits + 1))[0])
+        if visits >= len(self._first):  # single visits are read in order: compute more of them
+            self._first = self.enters(range(min(2 * visits + len(self._route), self._begun)))
+        return int(self._first[visits])
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self.enters(range(self._begun)).tolist())
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Enters:
+        return self.enters(range(self._begun)).astype(dtype or np.int64, copy=bool(copy))
+
+    def enters(self, visits: range) -> Enters:
+        """Return the enters of some visits [ticks]."""
+        if not visits:
+            return np.empty(0, np.int64)
+        if visits.step != 1:
+            numbers = np.arange(visits.start, visits.stop, visits.step)
+            waits = np.searchsorted(self._late, numbers, side="right")
+            return self._route.undelayed(visits) + self._waited[waits]
+        first, stop = np.searchsorted(self._late, (visits.start, visits.stop - 1), side="right")
+        sizes = np.diff(self._late[first:stop], prepend=visits.start, append=visits.stop)
+        waited: Enters = np.repeat(self._waited[first : stop + 1], sizes)
+        return self._route.undelayed(visits) + waited
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,15 +87,15 @@ class Pattern:
     transient
         The first tick from which on every robot is where it will be a period later.
     period
-        The least number of ticks after which everything comes again.
+        The least number of ticks after which everything repeats.
     counts
         How many laps each robot makes in a period; 0 if it stands still for ever.
     history
-        When visits began, for at least a period after the transient.
+        The enters of visits, for at least a period after the transient [ticks].
     lengths
         How many visits a lap of each robot has.
     regular
-        For each robot the number of the visit from which on all begin again a period later.
+        For each robot the number of the visit from which on all repeat a period later.
     """
 
     transient: Tick
@@ -52,15 +107,17 @@ class Pattern:
 
     @property
     def begins(self) -> int:
-        """The tick from which on periods are counted.
-
-        The first robot of the group (that moves at all) comes home there.
-        """
+        """The tick from which on periods are counted: the first robot that moves is home then."""
         first = next(robot for robot, laps in enumerate(self.counts) if laps)
         return self.enter(first, self._home(first, self.transient))
 
+    @property
+    def n_visits(self) -> int:
+        """How many visits all robots make in a period."""
+        return sum(laps * each for laps, each in zip(self.counts, self.lengths, strict=True))
+
     def enter(self, robot: int, visit: int) -> int:
-        """Return when any visit of a robot begins, as far ahead as you like [ticks]."""
+        """Return the enter of any visit of a robot [ticks]."""
         past = self.history[robot]
         if visit < len(past):
             return past[visit]
@@ -69,7 +126,7 @@ class Pattern:
         return past[visit - periods * shift] + periods * self.period
 
     def enters(self, robot: int, visits: range) -> Enters:
-        """Return when visits one behind the other begin, as far ahead as you like [ticks]."""
+        """Return the enters of any consecutive visits of a robot [ticks]."""
         past = np.asarray(self.history[robot], np.int64)
         numbers = np.arange(visits.start, visits.stop)
         shift = self.counts[robot] * self.lengths[robot]
@@ -82,59 +139,35 @@ class Pattern:
         home = self._home(robot, self.begins)
         return range(home, home + self.counts[robot] * self.lengths[robot])
 
-    def timetable(self, group: Sequence[CyclicRoute]) -> CyclicSchedule | None:
-        """Return its timetable, counted from `begins`; None if a robot stands still for ever."""
+    def timetable(self, context: GroupContext) -> CyclicSchedule | None:
+        """Return one period, counted from `begins`; None if a robot stands still for ever."""
         if not all(self.counts):
             return None
         return CyclicSchedule(
-            robots=tuple(endless.robot for endless in group),
-            laps=tuple(endless.lap for endless in group),
+            robots=context.robots,
+            laps=tuple(context.laps),
             counts=self.counts,
             period=self.period,
             enter=tuple(
-                self.enters(robot, self.visits(robot)) - self.begins for robot in range(len(group))
+                self.enters(robot, self.visits(robot)) - self.begins
+                for robot in range(len(context))
             ),
         )
 
     def _home(self, robot: int, tick: int) -> int:
-        """Return the first visit home from a tick on, that is regular."""
+        """Return the first regular visit home from a tick on."""
         visit = max(bisect_left(self.history[robot], tick), self.regular[robot])
         length = self.lengths[robot]
         return -(-visit // length) * length
 
 
-def pattern_of(history: History, lengths: Sequence[int], known: tuple[int, int]) -> Pattern:
-    """Return the least pattern of a history.
+def pattern_of(history: History, lengths: Sequence[int], recurrence: tuple[int, int]) -> Pattern:
+    """Return the pattern with the least period in a history, which ends at a recurrence.
 
-    Parameters
-    ----------
-    history
-        When visits began; all up to the later one of two ticks.
-    lengths
-        How many visits a lap of each robot has.
-    known
-        Two ticks of which it is known that everything after the one comes again after the other.
+    All that follows the first of its two ticks repeats after the second one.
     """
     pasts = [np.asarray(past, np.int64) for past in history]
-    shifts, period = _least(pasts, lengths, known)
-    regular = tuple(
-        _regular(enter, shift, period) for enter, shift in zip(pasts, shifts, strict=True)
-    )
-    return Pattern(
-        transient=Tick(max(map(_last_exception, pasts, shifts, regular, [period] * len(pasts)))),
-        period=Tick(period),
-        counts=tuple(shift // length for shift, length in zip(shifts, lengths, strict=True)),
-        history=tuple(history),
-        lengths=tuple(lengths),
-        regular=regular,
-    )
-
-
-def _least(
-    pasts: Sequence[Enters], lengths: Sequence[int], known: tuple[int, int]
-) -> tuple[list[int], int]:
-    """Return by how many visits each robot goes on in the least period, and the period."""
-    begins, again = known
+    begins, again = recurrence
     first = [int(np.searchsorted(enter, begins, side="right")) for enter in pasts]
     shifts = [len(enter) - start for enter, start in zip(pasts, first, strict=True)]
     laps = [shift // length for shift, length in zip(shifts, lengths, strict=True)]
@@ -142,27 +175,35 @@ def _least(
     for parts in range(most, 1, -1):
         smaller = [shift // parts for shift in shifts]
         if most % parts == period % parts == 0 and all(
-            _repeats(enter[start:], shift, period // parts)
+            np.all(enter[start + shift :] == enter[start : len(enter) - shift] + period // parts)
             for enter, start, shift in zip(pasts, first, smaller, strict=True)
         ):
-            return smaller, period // parts
-    return shifts, period
-
-
-def _repeats(enter: Enters, shift: int, period: int) -> bool:
-    return bool(np.all(enter[shift:] == enter[: len(enter) - shift] + period))
+            shifts, period = smaller, period // parts
+            break
+    regular = [_regular(*row, period) for row in zip(pasts, shifts, strict=True)]
+    irregular_until = [
+        _irregular_until(*row, period) for row in zip(pasts, shifts, regular, strict=True)
+    ]
+    return Pattern(
+        transient=Tick(max(irregular_until)),
+        period=Tick(period),
+        counts=tuple(shift // length for shift, length in zip(shifts, lengths, strict=True)),
+        history=tuple(history),
+        lengths=tuple(lengths),
+        regular=tuple(regular),
+    )
 
 
 def _regular(enter: Enters, shift: int, period: int) -> int:
-    """Return the first visit from which on all begin again a period later."""
+    """Return the first visit from which on all repeat a period later."""
     if not shift:
         return len(enter) - 1
     [others] = np.nonzero(enter[shift:] != enter[:-shift] + period)
     return int(others[-1]) + 1 if len(others) else 0
 
 
-def _last_exception(enter: Enters, shift: int, regular: int, period: int) -> int:
-    """Return from when on the robot is where it will be a period later."""
+def _irregular_until(enter: Enters, shift: int, regular: int, period: int) -> int:
+    """Return the tick from which on the robot is where it will be a period later."""
     if not shift:
         return int(enter[-1])
     if not regular:

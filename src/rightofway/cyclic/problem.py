@@ -1,4 +1,4 @@
-"""A group whose timetable is to be chosen: ways, what a lap is worth, what is fair."""
+"""The problem of choosing a group's timetable: the laps to choose from, their values, fairness."""
 
 from __future__ import annotations
 
@@ -12,39 +12,35 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.cyclic.route import GroupContext
 from rightofway.model import Lap, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import PeriodicBookings, RoundTrip
 
-__all__ = ["Choice", "CyclicProblem", "Work"]
+__all__ = ["Candidate", "CyclicProblem", "RobotCycle"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Work:
-    """What one robot does in a period.
-
-    Attributes
-    ----------
-    lap
-        The way it takes.
-    count
-        How many laps it makes.
-    enter
-        When its visits begin [ticks]; int64.
-    """
+class RobotCycle:
+    """What one robot does in a period."""
 
     lap: Lap
-    count: int
-    enter: NDArray[np.int64]
+    count: int  # how many laps it makes
+    enter: NDArray[np.int64]  # the enters of its visits, shape (count * len(lap),) [ticks]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Choice:
-    """A timetable of a group, and its exact cycle time [ticks]."""
+class Candidate:
+    """A timetable of a group and its exact cycle time, or a longer period [ticks]."""
 
     timetable: CyclicSchedule
     cycle_time: Fraction
+
+    @classmethod
+    def as_it_is(cls, timetable: CyclicSchedule) -> Self:
+        """Return a timetable with its own period as cycle time."""
+        return cls(timetable, Fraction(int(timetable.period)))
 
     @property
     def period(self) -> int:
@@ -52,180 +48,155 @@ class Choice:
         return -(-self.cycle_time.numerator // self.cycle_time.denominator)
 
     @property
-    def visits(self) -> int:
+    def n_visits(self) -> int:
         """How many visits all robots make in a period."""
         return sum(map(len, self.timetable.enter))
 
 
 @dataclass(frozen=True, kw_only=True)
 class CyclicProblem:
-    """A group of robots and by which rules they are to work.
+    """A group of robots whose timetable is to be chosen."""
 
-    Attributes
-    ----------
-    n_vertices
-        How many vertices the roadmap has.
-    headway, books_ahead
-        What a visit books.
-    robots
-        The numbers of the robots.
-    ways
-        For each of them the laps to choose from; the first is the usual one.
-    tours
-        For each of them what it has to do, so that it can look for a way of its own; none where
-        that would take too long.
-    forbidden
-        Vertices of other groups.
-    weights
-        What a lap of each is worth, above 0.
-    least_fairness
-        Which part of its laps alone every robot must make at least.
-    deadline
-        When to stop.
-    draw
-        The source of randomness.
-    """
-
-    n_vertices: int
-    headway: Tick
-    books_ahead: bool
-    robots: tuple[int, ...]
-    ways: tuple[tuple[Lap, ...], ...]
-    tours: tuple[RoundTrip, ...]
-    forbidden: frozenset[int]
-    weights: tuple[Fraction, ...]
-    least_fairness: Fraction
+    context: GroupContext  # the robots on their usual routes
+    ways: tuple[tuple[Lap, ...], ...]  # for each robot the laps to choose from, the usual one first
+    round_trips: tuple[RoundTrip, ...]  # what each robot does in a lap; empty to search for no lap
+    forbidden: frozenset[int]  # vertices of other groups
+    weights: tuple[Fraction, ...]  # the value of a lap of each robot, above 0
+    least_fairness: Fraction  # the least ratio of laps made to laps possible alone
     deadline: Deadline
     draw: random.Random
 
+    def __len__(self) -> int:
+        return len(self.ways)
+
     @cached_property
     def alone(self) -> tuple[Tick, ...]:
-        """How long the shortest lap of each robot takes that nobody holds up [ticks]."""
+        """The duration of each robot's shortest lap without waiting [ticks]."""
         return tuple(min(lap.duration for lap in ways) for ways in self.ways)
-
-    def until(self, deadline: Deadline) -> Self:
-        """Return the same with another deadline."""
-        return replace(self, deadline=deadline)
-
-    def also(self, laps: Sequence[Lap]) -> Self:
-        """Return the same with one more way for each robot."""
-        ways = zip(self.ways, laps, strict=True)
-        return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
-
-    def has_ways(self, place: int) -> bool:
-        """Tell whether a robot has more than one way to choose from."""
-        return bool(self.tours) or len(self.ways[place]) > 1
-
-    def worth(self, counts: Sequence[int]) -> Fraction:
-        """Return what the laps of a period are worth."""
-        return sum(
-            (weight * count for weight, count in zip(self.weights, counts, strict=True)),
-            Fraction(0),
-        )
 
     @cached_property
     def bound(self) -> Fraction:
-        """What no timetable exceeds: as if nobody ever waited for another."""
+        """An upper bound on `value`: as if no robot ever waited."""
         alone = zip(self.weights, self.alone, strict=True)
         return sum((weight / ticks for weight, ticks in alone), Fraction(0))
 
-    def value(self, choice: Choice) -> Fraction:
-        """Return what the laps are worth per tick: what is to be made large."""
-        return self.worth(choice.timetable.counts) / choice.cycle_time
+    def sooner(self, share: float) -> Self:
+        """Return the same problem with a share of the time left."""
+        return replace(self, deadline=self.deadline.sooner(share))
+
+    @property
+    def is_out_of_time(self) -> bool:
+        """Whether the deadline has passed."""
+        return self.deadline.seconds_left() == 0
+
+    def with_ways(self, laps: Sequence[Lap]) -> Self:
+        """Return the same problem with one more lap to choose from for each robot."""
+        ways = zip(self.ways, laps, strict=True)
+        return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
+
+    def worth(self, counts: Sequence[int]) -> Fraction:
+        """Return the value of all laps of a period."""
+        rows = zip(self.weights, counts, strict=True)
+        return sum((weight * count for weight, count in rows), Fraction(0))
+
+    def value(self, candidate: Candidate) -> Fraction:
+        """Return the value of laps per tick: the objective to be maximized."""
+        return self.worth(candidate.timetable.counts) / candidate.cycle_time
 
     def fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
-        """Return the least part of its laps alone that any robot makes."""
-        return min(
-            Fraction(count * alone) / period
-            for count, alone in zip(counts, self.alone, strict=True)
-        )
+        """Return the least ratio of laps made to laps possible alone, over all robots."""
+        rows = zip(counts, self.alone, strict=True)
+        return min(Fraction(count * alone) / period for count, alone in rows)
 
     def is_fair(self, counts: Sequence[int], period: Fraction | int) -> bool:
-        """Tell whether nobody starves."""
+        """Tell whether every robot reaches the least fairness."""
         return self.fairness(counts, period) >= self.least_fairness
 
-    def circle(self, period: int) -> PeriodicBookings:
-        """Return an empty circle of that period."""
+    def accepts(self, candidate: Candidate) -> bool:
+        """Tell whether a candidate is fair."""
+        return self.is_fair(candidate.timetable.counts, candidate.cycle_time)
+
+    def empty_bookings(self, period: int | None) -> PeriodicBookings:
+        """Return bookings without any robot, on a line of time if the period is None."""
         return PeriodicBookings(
-            self.n_vertices, Tick(period), headway=self.headway, books_ahead=self.books_ahead
+            self.context.scenario.roadmap.n_vertices,
+            None if period is None else Tick(period),
+            headway=self.context.headway,
+            books_ahead=self.context.books_ahead,
         )
 
     def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
-        """Return the event graph of a timetable under these rules."""
-        return TimedEventGraph(timetable, headway=self.headway, books_ahead=self.books_ahead)
+        """Return the timed event graph of a timetable under the rules of the scenario."""
+        context = self.context
+        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
 
-    def timetable(self, works: Sequence[Work], period: int) -> CyclicSchedule:
-        """Join what all robots do to a timetable."""
+    def timetable(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
+        """Join the cycles of all robots to a timetable."""
         return CyclicSchedule(
-            robots=self.robots,
-            laps=tuple(work.lap for work in works),
-            counts=tuple(work.count for work in works),
+            robots=self.context.robots,
+            laps=tuple(cycle.lap for cycle in cycles),
+            counts=tuple(cycle.count for cycle in cycles),
             period=Tick(period),
-            enter=tuple(work.enter for work in works),
+            enter=tuple(cycle.enter for cycle in cycles),
         )
 
-    def on_circle(self, choice: Choice) -> tuple[PeriodicBookings, list[Work]]:
-        """Return a circle as long as a timetable needs it, and what all robots do on it."""
-        timetable = self.graph(choice.timetable).earliest(
-            Tick(choice.period), cycle_time=choice.cycle_time
-        )
-        rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
-        works, circle = [Work(*row) for row in rows], self.circle(choice.period)
-        for place, work in enumerate(works):
-            circle.add(place, work.lap, work.count, work.enter)
-        return circle, works
+    def candidate(self, timetable: CyclicSchedule) -> Candidate:
+        """Return a timetable that keeps the rules, with the cycle time of its orders."""
+        return Candidate(timetable, self.graph(timetable).critical_circuit().cycle_time)
 
-    def tightened(self, timetable: CyclicSchedule) -> Choice:
-        """Return the timetable with its cycle time: how short its orders let the period be."""
-        return Choice(timetable, self.graph(timetable).critical_circuit().cycle_time)
-
-    def closed(self, timetable: CyclicSchedule) -> Choice | None:
-        """Return the same of a timetable of which only the orders are known to be meant.
+    def candidate_of_orders(self, timetable: CyclicSchedule) -> Candidate | None:
+        """Return a candidate of which only the orders at the vertices are meant, not the times.
 
         None if robots would wait for each other for ever in these orders, or swap.
         """
         graph = self.graph(timetable)
-        if graph.has_swaps():
-            return None
-        try:
-            return Choice(timetable, graph.critical_circuit().cycle_time)
-        except ValueError:  # a circuit that takes time, but no period
-            return None
+        circuit = None if graph.has_swaps() else graph.critical_circuit_if_live()
+        return None if circuit is None else Candidate(timetable, circuit.cycle_time)
+
+    def booked(self, candidate: Candidate) -> tuple[PeriodicBookings, list[RobotCycle]]:
+        """Return the earliest timetable of a candidate's orders, as bookings and cycles."""
+        timetable = self.graph(candidate.timetable).earliest(
+            Tick(candidate.period), cycle_time=candidate.cycle_time
+        )
+        rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)
+        cycles, bookings = [RobotCycle(*row) for row in rows], self.empty_bookings(candidate.period)
+        for robot, cycle in enumerate(cycles):
+            bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
+        return bookings, cycles
 
     def place(
         self,
-        circle: PeriodicBookings,
-        place: int,
+        bookings: PeriodicBookings,
+        robot: int,
         count: int,
         *,
         lap: Lap | None = None,
         tries: int = 3,
-    ) -> Work | None:
-        """Return a way round the circle for a robot; None if none is found.
+    ) -> RobotCycle | None:
+        """Return a cycle of a robot among the bookings, from random phases; None if none is found.
 
-        On the lap that is given, or on one of its laps, and if there is no room on these, on any
-        way at all.
+        On the given lap; or on one of the robot's laps, and if there is no room for these, on any
+        lap.
         """
-        ways = [lap] if lap else self.draw.sample(self.ways[place], len(self.ways[place]))
+        ways = [lap] if lap else self.draw.sample(self.ways[robot], len(self.ways[robot]))
         for way in ways:
             for _ in range(tries):
-                found = self._on(circle, way, count)
+                found = self._search(bookings, way, count)
                 if found is not None:
                     return found
-        return None if lap else self.place_anywhere(circle, place, count)
-
-    def place_anywhere(self, circle: PeriodicBookings, place: int, count: int) -> Work | None:
-        """Return a way that is chosen for one lap among the bookings, and repeated for all."""
-        if not self.tours:
+        if lap or not self.round_trips:
             return None
-        phase = self.draw.randrange(int(circle.period))
+        phase = self.draw.randrange(int(bookings.period))
         seconds = self.deadline.seconds_left()
-        found = circle.find_route(self.tours[place], phase, time_limit=seconds)
-        if found is None:
+        way_found = bookings.find_route(self.round_trips[robot], phase, time_limit=seconds)
+        if way_found is None:
             return None
-        return Work(found[0], 1, found[1]) if count == 1 else self._on(circle, found[0], count)
+        new_lap, enter = way_found
+        return (
+            RobotCycle(new_lap, 1, enter) if count == 1 else self._search(bookings, new_lap, count)
+        )
 
-    def _on(self, circle: PeriodicBookings, lap: Lap, count: int) -> Work | None:
-        phase = self.draw.randrange(int(circle.period))
-        enter = circle.search(lap, count, phase, time_limit=self.deadline.seconds_left())
-        return None if enter is None else Work(lap, count, enter)
+    def _search(self, bookings: PeriodicBookings, lap: Lap, count: int) -> RobotCycle | None:
+        phase = self.draw.randrange(int(bookings.period))
+        enter = bookings.search(lap, count, phase, time_limit=self.deadline.seconds_left())
+        return None if enter is None else RobotCycle(lap, count, enter)

@@ -1,4 +1,4 @@
-"""What a fleet that repeats its work does in the long run, group by group."""
+"""What a fleet that repeats its laps does in the long run, group by group."""
 
 from __future__ import annotations
 
@@ -10,62 +10,88 @@ from typing import Literal
 
 from rightofway.cyclic.bottleneck import Bottleneck, bottleneck_of
 from rightofway.cyclic.pattern import Pattern
-from rightofway.cyclic.route import CyclicRoute
-from rightofway.cyclic.waits import Bookings, Conflict
-from rightofway.cyclic.warmup import Measured, measure
+from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.waits import LapWait, waits_in_first_laps, waits_in_period
+from rightofway.cyclic.warmup import MeasuredLaps, measure
 from rightofway.model import Scenario
-from rightofway.planners import planning_headway
-from rightofway.precedence import CyclicSchedule, TimedEventGraph, timed_event_graph
+from rightofway.precedence import CyclicSchedule, TimedEventGraph
 
-__all__ = ["CyclicResult", "GroupRun"]
+__all__ = ["BaselineEnds", "Comparison", "CyclicResult", "GroupResult"]
+
+BaselineEnds = Literal["repeats", "starves", "deadlock", "open"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class GroupRun:
-    """What a group of robots did that have to do with each other.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """How a chosen timetable compares with its baseline: first come first served.
 
     Attributes
     ----------
-    ends
-        ``repeats``: for ever as in the pattern. ``deadlock``: it comes to a standstill. ``open``:
-        time ran out before either was known.
-    why
-        For a deadlock, who waits for whom; for an open end, what was not enough.
-    group
-        The endless routes of its robots.
-    history
-        For each robot the ticks at which its visits began, from visit 0 on.
-    pattern
-        What repeats; None if nothing is known to.
+    throughput
+        The value of its laps per tick; without weights, the number of laps.
+    fairness
+        The least ratio of laps made to laps possible alone, over all robots; 0 to 1.
+    baseline_ends
+        How first come first served ends on the usual routes: as in `GroupResult`, or ``starves`` if
+        its pattern repeats while a robot stands still for ever.
+    baseline
+        The value of the baseline's laps per tick: of its pattern, or of the laps that were
+        simulated; 0 in a deadlock.
     """
 
+    throughput: Fraction
+    fairness: Fraction
+    baseline_ends: BaselineEnds
+    baseline: Fraction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GroupResult:
+    """What a group of robots does that share vertices.
+
+    Attributes
+    ----------
+    context
+        The robots and their cyclic routes.
+    ends
+        ``repeats``: for ever as in the pattern. ``deadlock``: robots wait for each other for ever.
+        ``open``: time ran out before either was known.
+    history
+        For each robot the enters of its visits, from visit 0 on [ticks].
+    pattern
+        What repeats; None unless it ends so.
+    why
+        For a deadlock, the robots that wait for each other; for an open end, what was too little.
+    comparison
+        How a chosen timetable compares with first come first served; None for a simulated rule.
+    """
+
+    context: GroupContext
     ends: Literal["repeats", "deadlock", "open"]
-    why: str
-    group: tuple[CyclicRoute, ...]
     history: tuple[Sequence[int], ...]
-    pattern: Pattern | None
+    pattern: Pattern | None = None
+    why: str = ""
+    comparison: Comparison | None = None
 
     @property
     def robots(self) -> tuple[int, ...]:
-        """The numbers of its robots in the scenario."""
-        return tuple(endless.robot for endless in self.group)
+        """The numbers of the robots in the scenario."""
+        return self.context.robots
 
     @property
     def timetable(self) -> CyclicSchedule | None:
-        """What repeats, as a timetable; None if nothing does or a robot stands still for ever."""
-        return self.pattern.timetable(self.group) if self.pattern else None
+        """One period of the pattern; None without one, or if a robot stands still for ever."""
+        return self.pattern.timetable(self.context) if self.pattern else None
 
     def laps_made(self) -> tuple[int, ...]:
-        """Return how many laps each robot completed while it was watched."""
-        return tuple(
-            (len(past) - 1) // len(endless.lap)
-            for endless, past in zip(self.group, self.history, strict=True)
-        )
+        """Return how many laps each robot completed in the history."""
+        rows = zip(self.context.routes, self.history, strict=True)
+        return tuple((len(past) - 1) // len(route) for route, past in rows)
 
     def mean_laps(self) -> tuple[Fraction | None, ...]:
-        """Return how long a lap of each robot takes on average [ticks]; None if it makes none.
+        """Return the mean lap time of each robot [ticks]; None if it makes no lap.
 
-        In the long run if the group repeats itself, otherwise as `measured`.
+        Exact, for the long run, if a pattern repeats; otherwise as `measured`.
         """
         if self.pattern:
             period = self.pattern.period
@@ -73,32 +99,52 @@ class GroupRun:
         return self.measured().means
 
     def rate(self, weights: Sequence[Fraction] | None = None) -> Fraction:
-        """Return how many laps its robots complete per tick, each counted by its weight.
+        """Return the number of laps per tick of all robots, each multiplied by its weight.
 
-        Exact if the group repeats itself; what is measured has twelve digits, as an exact sum
-        of a thousand fractions has thousands.
+        Exact if a pattern repeats. A measured rate has twelve digits, since the exact sum of a
+        thousand fractions has thousands.
         """
-        means = zip(weights or [Fraction(1)] * len(self.group), self.mean_laps(), strict=True)
+        means = zip(weights or [Fraction(1)] * len(self.context), self.mean_laps(), strict=True)
         rates = [weight / mean for weight, mean in means if mean]
         if self.pattern:
             return sum(rates, Fraction(0))
         return Fraction(f"{math.fsum(map(float, rates)):.12g}")
 
-    def measured(self) -> Measured:
-        """Return what the laps that were seen say; of use where nothing is known to repeat."""
-        return measure(self.group, self.history)
+    def measured(self) -> MeasuredLaps:
+        """Return the mean lap times of the history, without its warm-up."""
+        return measure(self.context.routes, self.history)
 
     def waiting_shares(self) -> tuple[Fraction | None, ...]:
-        """Return which part of its time each robot waits for others; None if it makes no lap."""
+        """Return the share of its time that each robot waits; None if it makes no lap."""
         return tuple(
-            None if mean is None else max(1 - endless.lap.duration / mean, Fraction(0))
-            for endless, mean in zip(self.group, self.mean_laps(), strict=True)
+            None if mean is None else max(1 - lap.duration / mean, Fraction(0))
+            for lap, mean in zip(self.context.laps, self.mean_laps(), strict=True)
         )
+
+    def waits(self) -> tuple[LapWait, ...]:
+        """Return the waits of each period, by offset from `Pattern.begins`; none without one."""
+        return waits_in_period(self.context, self.pattern) if self.pattern else ()
+
+    def first_waits(self) -> tuple[LapWait, ...]:
+        """Return the waits in the first lap of each robot, by tick."""
+        return waits_in_first_laps(self.context, self.history)
+
+    def graph(self) -> TimedEventGraph | None:
+        """Return the timed event graph of `timetable`; None without one."""
+        timetable, context = self.timetable, self.context
+        if timetable is None:
+            return None
+        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
+
+    def bottleneck(self) -> Bottleneck | None:
+        """Return the critical circuit of `graph`; None without one."""
+        graph = self.graph()
+        return None if graph is None else bottleneck_of(graph)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicResult:
-    """What a fleet did that repeats its work.
+    """What a fleet that repeats its laps does.
 
     Attributes
     ----------
@@ -107,46 +153,15 @@ class CyclicResult:
     rule, routes
         How rights of way were given, and how the round trips were chosen.
     groups
-        Groups of robots that never meet each other, by their first robots.
+        Groups of robots that never meet each other, ordered by their first robots.
     """
 
     scenario: Scenario
     rule: str
     routes: str
-    groups: tuple[GroupRun, ...]
-
-    def conflicts(self, group: GroupRun) -> tuple[Conflict, ...]:
-        """Return where robots of a group wait for each other in each period, by offset.
-
-        Offsets count from `Pattern.begins`. Empty if nothing repeats.
-        """
-        return self._bookings(group).in_period(group.pattern) if group.pattern else ()
-
-    def first_conflicts(self, group: GroupRun) -> tuple[Conflict, ...]:
-        """Return where robots of a group wait for each other in their first laps, by tick."""
-        return self._bookings(group).in_first_laps(group.history)
-
-    def bottleneck(self, group: GroupRun) -> Bottleneck | None:
-        """Return what a group's period is made of; None if nothing repeats, or a robot stands."""
-        graph = self.graph(group)
-        return None if graph is None else bottleneck_of(graph)
-
-    def graph(self, group: GroupRun) -> TimedEventGraph | None:
-        """Return the event graph of what a group repeats; None if nothing, or a robot stands."""
-        timetable = group.timetable
-        if timetable is None:
-            return None
-        how = self._bookings(group)
-        return timed_event_graph(timetable, headway=how.headway, books_ahead=how.books_ahead)
+    groups: tuple[GroupResult, ...]
 
     def throughput(self) -> Fraction:
         """Return how many laps all robots complete in a time unit of the scenario."""
         ticks = 1 / self.scenario.problem.clock.tick
         return sum((group.rate() * ticks for group in self.groups), Fraction(0))
-
-    def _bookings(self, group: GroupRun) -> Bookings:
-        return Bookings(
-            group=group.group,
-            headway=planning_headway(self.scenario),
-            books_ahead=self.scenario.rules.books_ahead,
-        )

@@ -1,197 +1,179 @@
-"""A rule on endless routes: one window after the other, until a state comes again.
+"""A rule that counts conflicts of whole laps: one window after the other, until a state recurs.
 
-Each window ends where one robot of the group, the *pacemaker*, is home again. What meets less than
-a *lag* after that is settled too before everything up to there is frozen, so that whoever still has
-to wait before a segment has not entered it yet. Where that was too little, and waiting does not
-keep two robots apart any more, some windows are taken back and tried with a longer lag, until that
-place is behind.
+Each window ends where one robot of the group, the *pacemaker*, is home again. All meetings less
+than a *lag* after that are resolved too before the visits up to there are frozen, so that a robot
+that has to wait before a segment has not entered it yet. Where the lag was too short, so that
+waiting keeps two robots no longer apart, some windows are taken back and repeated with a longer
+lag, until the place of the deadlock is behind.
+
+The rules that consider two robots only do the same in the native simulator.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
-from rightofway.cyclic.backjumping import Deadlock, Decisions, Order
-from rightofway.cyclic.route import CyclicRoute
-from rightofway.cyclic.rules import FAR_SIGHTED, RULES
-from rightofway.cyclic.window import Cut, Ground, TooShort, Window
+from rightofway.cyclic.backjumping import Decision, RightOfWaySearch
+from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
+from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
 from rightofway.planners import Deadline
+from rightofway.planners.two_level import by_two_levels
+from rightofway.precedence import Meeting, Segment
 
-__all__ = ["MEMORY", "MOST_LAG", "PATIENCE", "Pace", "Rolling"]
-
-PATIENCE = 8
-"""How many of the longest laps a pacemaker may stay away before somebody else becomes it."""
-
-PARTS = 4
-"""A pacemaker that is home this many times in the longest lap keeps windows short."""
-
-MOST_LAG = 4
-"""How many of the longest laps the lag may grow to."""
-
-MEMORY = 32
-"""How many windows can be taken back."""
+__all__ = ["RollingHorizon", "two_level"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pace:
-    """How a group goes on.
+def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
+    """Follow the paper: fewest conflicts left in the window, then least time for the two robots.
 
-    Attributes
-    ----------
-    pacemaker
-        The robot that is home again at each cut, at first.
-    ticks
-        How long its lap takes alone; as long is the lag [ticks].
-    longest
-        How long the longest lap of the group takes alone [ticks].
+    Where the paper's method decides nothing, the robot that would enter the segment later waits.
     """
-
-    pacemaker: int
-    ticks: int
-    longest: int
-
-    @classmethod
-    def of(cls, group: Sequence[CyclicRoute], rule: str) -> Pace:
-        """Return the pace of a group under a rule."""
-        durations = [endless.lap.duration for endless in group]
-        longest = max(durations)
-        least = longest if rule in FAR_SIGHTED else -(-longest // PARTS)
-        ticks = min(duration for duration in durations if duration >= least)
-        return cls(pacemaker=durations.index(ticks), ticks=ticks, longest=longest)
+    settlement = by_two_levels(window.fleet, meeting)
+    if settlement is not None and settlement.decisions:
+        return 0 if settlement.decisions[0].waits == meeting.robots[0] else 1
+    (i, j), graph = meeting.robots, window.graph
+    i_enters = graph.enter(graph.visit(i, segment.i_first))
+    return 0 if graph.enter(graph.visit(j, segment.j_first)) < i_enters else 1
 
 
 @dataclass(frozen=True, slots=True)
-class _Moment:
-    """All that is needed to go back to a cut."""
+class _Checkpoint:
+    """What is needed to return to a cut."""
 
     tick: int
     lengths: tuple[int, ...]
-    orders: tuple[Order, ...]
+    decisions: tuple[Decision, ...]
 
 
-class Rolling:
-    """A group of robots that go on and on.
+class RollingHorizon:
+    """A simulation of a group whose rule needs a window.
 
-    Parameters
-    ----------
-    ground
-        The group.
-    rule
-        The name of the rule that says who waits.
-
-    Attributes
-    ----------
-    cut
-        How far it is.
+    Without a pacemaker given, one with the longest lap is the first.
     """
 
-    def __init__(self, ground: Ground, rule: str) -> None:
-        self.ground = ground
-        self.cut = Cut(0, [[0] for _ in ground.group])
-        self._rule = RULES[rule]
-        self._orders: tuple[Order, ...] = ()
-        pace = Pace.of(ground.group, rule)
-        self._longest = pace.longest
-        self._pacemaker = pace.pacemaker
-        self._pace = pace.ticks
-        self._lag: int = pace.ticks
-        self._trouble = 0
+    def __init__(
+        self,
+        context: GroupContext,
+        rule: WindowRule = two_level,
+        *,
+        pacemaker: int | None = None,
+        params: HorizonParams = DEFAULT,
+    ) -> None:
+        self.context = context
+        self._params = params
+        self._rule = rule
+        self._longest = context.longest
+        self._pacemaker = choose_pacemaker(context.laps, self._longest)
+        if pacemaker is not None:
+            self._pacemaker = pacemaker
+        self._least_lag: int = context.laps[self._pacemaker].duration
+        self._lag: int = self._least_lag
+        self._prefix = FrozenPrefix(0, [[0] for _ in context.routes])
+        self._decisions: tuple[Decision, ...] = ()
+        self._trouble = 0  # a deadlock lies before this tick
+        self._taken_back = 1
         self._seen: dict[Hashable, int] = {}
-        self._past: deque[_Moment] = deque(maxlen=MEMORY)
-        self._back = 1
+        self._checkpoints: deque[_Checkpoint] = deque(maxlen=self._params.memory)
+        self._deadline = Deadline()
 
     @property
     def history(self) -> list[list[int]]:
-        """For each robot when its visits so far began."""
-        return self.cut.history
+        """For each robot the enters of its visits so far [ticks]."""
+        return self._prefix.history
 
-    def until_it_repeats(self, deadline: Deadline) -> tuple[int, int]:
-        """Go on until the state at a cut is the same as at an earlier one; return both ticks.
+    def advance(self, deadline: Deadline) -> tuple[int, int]:
+        """Continue until the state at a cut equals that at an earlier cut; return both ticks.
 
         Raises
         ------
         Deadlock
             If the rule runs into one.
         GaveUp
-            If time runs out; it can be asked again.
+            If time runs out; another call continues.
         """
-        self.ground = replace(self.ground, task=replace(self.ground.task, deadline=deadline))
+        self._deadline = deadline
         while True:
-            self.ground.task.deadline.check("waiting for a state to come again")
-            in_trouble = self.cut.tick < self._trouble
+            deadline.check("waiting for a state to come again")
+            in_trouble = self._prefix.tick < self._trouble
             if not in_trouble:
-                self._lag, self._back = self._pace, 1
-            window = self._window([3 * self._lag] * len(self.ground.group), self._orders)
-            self._remember(window)
+                self._lag, self._taken_back = self._least_lag, 1
+            window = self._window(self._first_ahead(), self._decisions)
+            beyond = (decision.beyond(window) for decision in self._decisions)
+            self._decisions = tuple(decision for decision in beyond if decision.rights)
+            lengths = tuple(len(past) for past in self.history)
+            self._checkpoints.append(_Checkpoint(self._prefix.tick, lengths, self._decisions))
             if not in_trouble:
-                earlier = self._seen.setdefault(self._state(window), self.cut.tick)
-                if earlier < self.cut.tick:
-                    return earlier, self.cut.tick
+                earlier = self._seen.setdefault(self._state(window), self._prefix.tick)
+                if earlier < self._prefix.tick:
+                    return earlier, self._prefix.tick
             try:
-                self._go_on(window)
+                self._advance_to_next_cut(window)
             except Deadlock:
-                if not self._go_back():
+                if not self._take_back():
                     raise
 
-    def _window(self, ahead: list[int], orders: Iterable[Order]) -> Window:
-        shown = [0] * len(ahead)
-        shown[self._pacemaker] = self._next_home_of(self._pacemaker) + 1
-        for order in orders:
-            for robot, visit in chain.from_iterable(order.rights + order.others):
-                shown[robot] = max(shown[robot], visit + 1)
-        return Window(self.ground, self.cut, ahead, shown)
+    def reset_states(self) -> None:
+        """Forget the states seen, so that `advance` continues where one recurred."""
+        self._seen.clear()
 
-    def _remember(self, window: Window) -> None:
-        beyond = (order.beyond(window) for order in self._orders)
-        self._orders = tuple(order for order in beyond if order.rights)
-        lengths = tuple(len(past) for past in self.cut.history)
-        self._past.append(_Moment(self.cut.tick, lengths, self._orders))
+    def _first_ahead(self) -> list[int]:
+        return [self._params.window_lags * self._lag] * len(self.context)
 
-    def _go_back(self) -> bool:
-        """Take some windows back and look further ahead from now on; false if it is no use."""
-        if self._lag >= MOST_LAG * self._longest:
+    def _window(self, ahead: Sequence[int], decisions: Iterable[Decision]) -> Window:
+        """Return a window that holds the next cut and all visits of some decisions."""
+        stop = [0] * len(ahead)
+        stop[self._pacemaker] = self._next_home(self._pacemaker) + 1
+        for decision in decisions:
+            for robot, visit in chain.from_iterable(decision.rights + decision.others):
+                stop[robot] = max(stop[robot], visit + 1)
+        return Window(self.context, self._deadline, self._prefix, ahead, stop)
+
+    def _take_back(self) -> bool:
+        """Return to an earlier cut with twice the lag; false if the lag is the longest already."""
+        if self._lag >= self._params.most_lag * self._longest:
             return False
-        self._trouble = max(self._trouble, self.cut.tick + 1)
-        for _ in range(min(self._back, len(self._past))):
-            moment = self._past.pop()
-        for past, length in zip(self.cut.history, moment.lengths, strict=True):
+        self._trouble = max(self._trouble, self._prefix.tick + 1)
+        for _ in range(min(self._taken_back, len(self._checkpoints))):
+            checkpoint = self._checkpoints.pop()
+        for past, length in zip(self.history, checkpoint.lengths, strict=True):
             del past[length:]
-        self.cut = Cut(moment.tick, self.cut.history)
-        self._orders = moment.orders
+        self._prefix = FrozenPrefix(checkpoint.tick, self.history)
+        self._decisions = checkpoint.decisions
         self._lag *= 2
-        self._back *= 2
-        self._seen = {state: tick for state, tick in self._seen.items() if tick <= self.cut.tick}
+        self._taken_back *= 2
+        self._seen = {s: tick for s, tick in self._seen.items() if tick <= checkpoint.tick}
         return True
 
-    def _go_on(self, window: Window) -> None:
-        """Settle what has to be before the next cut, in a window as long as it takes."""
-        ahead = [3 * self._lag] * len(self.ground.group)
-        orders: Sequence[Order] = self._orders
+    def _advance_to_next_cut(self, window: Window) -> None:
+        """Resolve all meetings up to a lag after the next cut, in a window as long as it takes."""
+        ahead, decisions = self._first_ahead(), list(self._decisions)
         while True:
-            decisions = Decisions(window, orders)
+            search = RightOfWaySearch(window, decisions)
             try:
-                self._settle(window, decisions)
+                self._resolve_all(window, search)
                 break
             except TooShort as short:
                 for robot in short.robots:
                     ahead[robot] *= 2
-                orders = decisions.orders()
-                window = self._window(ahead, orders)
-        self._freeze(window, decisions)
+                decisions = search.decisions
+                window = self._window(ahead, decisions)
+        self._freeze(window, search)
 
-    def _settle(self, window: Window, decisions: Decisions) -> None:
-        graph, next_home, end = window.graph, self._next_home(window), window.ends().min()
+    def _resolve_all(self, window: Window, search: RightOfWaySearch) -> None:
+        graph, end = window.graph, window.ends().min()
         while True:
-            self.ground.task.deadline.check("giving right of way")
+            self._deadline.check("giving right of way")
             meeting = graph.next_meeting()
-            if graph.enter(next_home) > PATIENCE * self._longest:
-                next_home = self._change_pacemaker(window)
-            limit = window.begins + graph.enter(next_home) + self._lag
+            if graph.enter(self._home_in(window)) > self._params.patience * self._longest:
+                self._replace_pacemaker(window)
+            limit = window.begins + graph.enter(self._home_in(window)) + self._lag
             tick = limit if meeting is None else min(limit, window.begins + meeting.tick)
             if tick >= end:
                 ends = window.ends()
@@ -200,49 +182,42 @@ class Rolling:
                     raise TooShort(np.flatnonzero(ends <= tick).tolist())
             if meeting is None or tick >= limit:
                 return
-            decisions.settle(meeting, self._rule)
+            search.resolve(meeting, self._rule)
 
-    def forget(self) -> None:
-        """Forget the states seen, so that it goes on where one came again."""
-        self._seen.clear()
-
-    def _change_pacemaker(self, window: Window) -> int:
-        """Let the robot set the pace that is home again first; this one seems to wait for ever."""
-        robots = range(len(self.ground.group))
-        visits = {robot: self._next_home_of(robot) for robot in robots}
+    def _replace_pacemaker(self, window: Window) -> None:
+        """Choose the robot that is home first: the present pacemaker seems to wait for ever."""
         enter = {
-            robot: window.graph.enter(window.visit(robot, visit))
-            for robot, visit in visits.items()
-            if window.shows(robot, visit)
+            robot: window.graph.enter(window.visit(robot, self._next_home(robot)))
+            for robot in range(len(self.context))
+            if window.holds(robot, self._next_home(robot))
         }
         self._pacemaker = min(enter, key=lambda robot: (enter[robot], robot))
         self._seen.clear()
-        return self._next_home(window)
 
-    def _next_home(self, window: Window) -> int:
-        return window.visit(self._pacemaker, self._next_home_of(self._pacemaker))
+    def _home_in(self, window: Window) -> int:
+        """Return the node of the pacemaker's next visit home."""
+        return window.visit(self._pacemaker, self._next_home(self._pacemaker))
 
-    def _next_home_of(self, robot: int) -> int:
-        length = len(self.ground.group[robot].lap)
-        return -(-len(self.cut.history[robot]) // length) * length
+    def _next_home(self, robot: int) -> int:
+        length = len(self.context.routes[robot])
+        return -(-len(self.history[robot]) // length) * length
 
     def _state(self, window: Window) -> Hashable:
+        """Return all that the future depends on, with visits counted from the window's start."""
         starts = window.starts
-        orders = tuple(
+        decisions = tuple(
             tuple(
                 tuple((i, a - starts[i], j, b - starts[j]) for (i, a), (j, b) in rights)
-                for rights in (order.rights, order.others)
+                for rights in (decision.rights, decision.others)
             )
-            for order in self._orders
+            for decision in self._decisions
         )
-        return window.state(), orders
+        return window.state(), decisions
 
-    def _freeze(self, window: Window, decisions: Decisions) -> None:
-        tick = window.begins + window.graph.enter(self._next_home(window))
-        for past, start, enter in zip(
-            self.cut.history, window.starts, window.enters(), strict=True
-        ):
+    def _freeze(self, window: Window, search: RightOfWaySearch) -> None:
+        tick = window.begins + window.graph.enter(self._home_in(window))
+        for past, start, enter in zip(self.history, window.starts, window.enters(), strict=True):
             end = int(np.searchsorted(enter, tick, "right"))
             past.extend(enter[len(past) - start : end].tolist())
-        self.cut = Cut(tick, self.cut.history)
-        self._orders = tuple(decisions.orders())
+        self._prefix = FrozenPrefix(tick, self.history)
+        self._decisions = tuple(search.decisions)

@@ -1,4 +1,4 @@
-"""Routes without an end: a robot's laps one behind the other."""
+"""Cyclic routes: one lap for each robot, repeated for ever; groups of robots that may meet."""
 
 from __future__ import annotations
 
@@ -10,27 +10,44 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.cyclic.homes import avoid_homes
-from rightofway.errors import InputError, InputFault
-from rightofway.model import Lap, Robot, Route, Scenario, Tick, VertexId, lap_of
-from rightofway.planners.routing import clear_routes, direct_routes, shortest_routes
+from rightofway.errors import InputError, InputFault, NoPlanExists
+from rightofway.model import Lap, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.planners import planning_headway
+from rightofway.planners.routing import (
+    clear_routes,
+    direct_routes,
+    refuse_unreachable,
+    shortest_route,
+    shortest_routes,
+)
 from rightofway.search import Distances
 
-__all__ = ["CyclicRoute", "clear_and_direct", "cyclic_routes"]
+__all__ = [
+    "ROUTES",
+    "CyclicRoute",
+    "GroupContext",
+    "avoid_homes",
+    "clear_and_direct",
+    "cyclic_routes",
+    "independent_groups",
+]
+
+ROUTES = ("clear", "direct", "shortest")
+"""How round trips may be chosen; see `cyclic_routes`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CyclicRoute:
-    """The visits of a robot that makes lap after lap, numbered from 0.
+    """The visits of a robot that repeats one lap, numbered from 0.
 
     Attributes
     ----------
     robot
-        Its number in the scenario.
+        The number of the robot in the scenario.
     lap
-        What it repeats.
+        The lap that is repeated.
     first_least
-        The least ticks of visit 0: nobody turns at home before the first lap.
+        The least duration of visit 0, which has no turn at home [ticks].
     """
 
     robot: int
@@ -41,124 +58,152 @@ class CyclicRoute:
     def __post_init__(self) -> None:
         object.__setattr__(self, "_within", tuple(accumulate(self.lap.leasts(), initial=0)))
 
-    def place(self, visit: int) -> int:
-        """Return the place of a visit in the lap."""
-        return visit % len(self.lap)
+    def __len__(self) -> int:
+        return len(self.lap)
 
     def vertex(self, visit: int) -> VertexId:
-        """Return where a visit is."""
-        return self.lap.vertices[self.place(visit)]
+        """Return the vertex of a visit."""
+        return self.lap.vertices[visit % len(self.lap)]
 
     def drive(self, visit: int) -> Tick:
-        """Return the ticks of the edge driven into a visit."""
-        return self.lap.drive[self.place(visit)]
+        """Return the duration of the drive into a visit [ticks]."""
+        return self.lap.drive[visit % len(self.lap)]
 
     def least(self, visit: int) -> Tick:
-        """Return the least ticks from a visit's enter to the next one's."""
-        return self.lap.least(self.place(visit)) if visit else self.first_least
+        """Return the least time from the enter of a visit to the enter of the next one [ticks]."""
+        return self.lap.least(visit % len(self.lap)) if visit else self.first_least
 
     def leasts(self, visits: range) -> NDArray[np.int64]:
-        """Return the least ticks of visits one behind the other."""
+        """Return `least` of consecutive visits [ticks]."""
         numbers = np.arange(visits.start, visits.stop)
         least = np.diff(np.array(self._within, np.int64))[numbers % len(self.lap)]
         return np.where(numbers > 0, least, self.first_least)
 
-    def free(self, visits: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return when visits begin if nobody is ever in the way [ticks]."""
-        laps, places = np.divmod(visits, len(self.lap))
-        within = np.array(self._within, np.int64)
-        later = laps * within[-1] + within[places] - within[1] + self.first_least
-        return np.where(visits > 0, later, 0)
-
-    def free_from(self, visits: range) -> NDArray[np.int64]:
-        """Return the same of visits one behind the other."""
-        laps = np.arange(visits.start // len(self.lap), -(-visits.stop // len(self.lap)))
-        within = np.array(self._within, np.int64)
-        later: NDArray[np.int64] = (laps[:, None] * within[-1] + within[:-1]).ravel()
-        begins = self.place(visits.start)
-        free: NDArray[np.int64] = later[begins : begins + len(visits)] - within[1]
-        free += self.first_least
+    def undelayed(self, visits: range) -> NDArray[np.int64]:
+        """Return the enters of visits of a robot that never waits [ticks]."""
+        within, length = np.array(self._within, np.int64), len(self.lap)
+        if visits.step == 1:
+            laps = np.arange(visits.start // length, -(-visits.stop // length))
+            place = visits.start % length
+            free = laps[:, None] * within[-1] + within[:-1]
+            enter: NDArray[np.int64] = free.ravel()[place : place + len(visits)]
+        else:
+            laps, places = np.divmod(np.arange(visits.start, visits.stop, visits.step), length)
+            enter = laps * within[-1] + within[places]
+        enter = enter - within[1] + self.first_least
         if visits.start == 0:
-            free[:1] = 0
-        return free
+            enter[:1] = 0
+        return enter
 
-    def lasting(self, visit: int, ticks: int) -> int:
-        """Return how many visits from a later one than 0 on last that long at least."""
-        place = self.place(visit)
+    def visits_lasting(self, visit: int, ticks: int) -> int:
+        """Return how many visits, from a visit after 0 on, last that long without waiting."""
+        place = visit % len(self.lap)
         laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
         return laps * len(self.lap) + bisect_left(self._within, rest) - place
 
-    def stretch(self, visits: range) -> tuple[list[VertexId], list[Tick], list[Tick]]:
-        """Return vertices, dwells and drives of visits one behind the other."""
-        place, times = self.place(visits.start), len(visits) // len(self.lap) + 2
-        part = slice(place, place + len(visits))
-        lap = self.lap
-        return (
-            list((lap.vertices * times)[part]),
-            list((lap.dwell * times)[part]),
-            list((lap.drive * times)[part]),
-        )
+    def on(self, lap: Lap) -> CyclicRoute:
+        """Return the same robot on another lap."""
+        turn = self.lap.least(0) - self.first_least
+        return replace(self, lap=lap, first_least=Tick(lap.least(0) - turn))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GroupContext:
+    """A group of robots that share vertices, directly or through others.
+
+    Attributes
+    ----------
+    scenario
+        The problem that the robots belong to.
+    routes
+        The cyclic route of each robot of the group.
+    """
+
+    scenario: Scenario
+    routes: tuple[CyclicRoute, ...]
+
+    def __len__(self) -> int:
+        return len(self.routes)
+
+    @property
+    def robots(self) -> tuple[int, ...]:
+        """The numbers of the robots in the scenario."""
+        return tuple(route.robot for route in self.routes)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the robots."""
+        return [self.scenario.robots[route.robot].name for route in self.routes]
+
+    @property
+    def laps(self) -> list[Lap]:
+        """The lap of each robot."""
+        return [route.lap for route in self.routes]
+
+    @property
+    def longest(self) -> Tick:
+        """The duration of the longest lap of the group without waiting [ticks]."""
+        return max(lap.duration for lap in self.laps)
+
+    @property
+    def headway(self) -> Tick:
+        """How long a vertex stays booked after it was left [ticks]."""
+        return planning_headway(self.scenario)
+
+    @property
+    def books_ahead(self) -> bool:
+        """Whether a robot books a vertex from the start of its drive there."""
+        return self.scenario.rules.books_ahead
+
+    @property
+    def reach(self) -> int:
+        """How long before a cut a vertex may have been left for a visit to still matter [ticks]."""
+        drives = (max(lap.drive) for lap in self.laps)
+        return 1 + self.headway + (max(drives) if self.books_ahead else 0)
 
 
 def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
-    """Choose a round trip for each robot, once and for all laps.
+    """Choose one round trip for each robot, for all its laps.
 
     Parameters
     ----------
     scenario
-        The problem; how many laps it asks for plays no part.
+        The problem; its number of laps is not used.
     routes
-        ``clear`` or ``shortest``, as planners choose them, or ``direct``: clear of others only as
-        much as they are there when all make lap after lap. Clear and direct ones lead past no other
-        home where that would bar two robots' way for good.
+        ``clear`` or ``shortest``: chosen as by the planners. ``direct``: clear of other robots in
+        proportion to how often these pass in repeated laps. Clear and direct routes avoid the homes
+        of other robots where two robots would block each other for ever.
+
+    Returns
+    -------
+    list of CyclicRoute
+        One for each robot of the scenario.
 
     Raises
     ------
     InputError
-        If a robot does not come home, or never leaves it.
+        If a robot does not return home, or never leaves it.
     NoPlanExists
-        If a robot cannot get to a place.
+        If a robot cannot reach a place.
     """
     if routes == "direct":
         return clear_and_direct(scenario)[1]
-    once = _one_lap_each(scenario)
-    distances = _distances(once)
+    once, distances = _one_lap_each(scenario)
     if routes == "clear":
-        found = avoid_homes(once, clear_routes(once, distances))
-    else:
-        found = shortest_routes(once, distances)
-    return _endless(once, found)
+        return _repeated(once, avoid_homes(once, clear_routes(once, distances)))
+    return _repeated(once, shortest_routes(once, distances))
 
 
 def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[CyclicRoute]]:
-    """Choose clear round trips and direct ones for each robot; see `cyclic_routes`."""
-    once = _one_lap_each(scenario)
-    distances = _distances(once)
+    """Choose a clear and a direct round trip for each robot; see `cyclic_routes`."""
+    once, distances = _one_lap_each(scenario)
     clear = avoid_homes(once, clear_routes(once, distances))
     direct = avoid_homes(once, direct_routes(once, distances, clear))
-    return _endless(once, clear), _endless(once, direct)
+    return _repeated(once, clear), _repeated(once, direct)
 
 
-def _distances(once: Scenario) -> Distances:
-    """Return the tables that all routes need."""
-    distances = Distances(once.roadmap)
-    itineraries = once.problem.itineraries
-    distances.prepare((stage.vertex, one.edge_ticks) for one in itineraries for stage in one.stages)
-    return distances
-
-
-def _endless(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
-    return [
-        CyclicRoute(
-            robot=robot,
-            lap=lap_of(once.problem.itineraries[robot], route),
-            first_least=route.least(0),
-        )
-        for robot, route in enumerate(routes)
-    ]
-
-
-def _one_lap_each(scenario: Scenario) -> Scenario:
+def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
+    """Return the scenario with one lap for each robot, and its distance tables."""
     faults = [
         fault.within(f"robots[{index}]")
         for index, robot in enumerate(scenario.robots)
@@ -166,8 +211,11 @@ def _one_lap_each(scenario: Scenario) -> Scenario:
     ]
     if faults:
         raise InputError(faults)
-    robots = tuple(replace(robot, laps=1) for robot in scenario.robots)
-    return replace(scenario, robots=robots)
+    once = replace(scenario, robots=tuple(replace(robot, laps=1) for robot in scenario.robots))
+    distances = Distances(once.roadmap)
+    itineraries = once.problem.itineraries
+    distances.prepare((stage.vertex, one.edge_ticks) for one in itineraries for stage in one.stages)
+    return once, distances
 
 
 def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
@@ -176,3 +224,74 @@ def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     if all(stop.at == robot.home for stop in robot.stops):
         home = scenario.roadmap.name(robot.home)
         yield InputFault("stops", f"all are at its home {home} (let it go somewhere)")
+
+
+def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
+    itineraries = once.problem.itineraries
+    return [
+        CyclicRoute(robot=robot, lap=lap_of(itineraries[robot], route), first_least=route.least(0))
+        for robot, route in enumerate(routes)
+    ]
+
+
+def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
+    """Replace routes of robots that pass each other's homes: neither could set out first.
+
+    The replacement is a shortest route that avoids all homes of other robots. A route without a
+    replacement stays.
+    """
+    found = list(routes)
+    passed = [set(route.vertices) for route in found]
+    itineraries = scenario.problem.itineraries
+    robot_at = {itinerary.home: robot for robot, itinerary in enumerate(itineraries)}
+    for robot, itinerary in enumerate(itineraries):
+        others = (robot_at[home] for home in passed[robot] & robot_at.keys() - {itinerary.home})
+        if not any(itinerary.home in passed[other] for other in others):
+            continue
+        homes = robot_at.keys() - {itinerary.home}
+        distances = Distances(_without(scenario.roadmap, homes))
+        try:
+            refuse_unreachable(scenario.robots[robot].name, itinerary, distances)
+        except NoPlanExists:
+            continue
+        found[robot] = shortest_route(itinerary, distances)
+        passed[robot] = set(found[robot].vertices)
+    return found
+
+
+def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
+    """Return the roadmap without the edges that lead to some vertices."""
+    stays = ~np.isin(roadmap.heads, list(vertices))
+    before = np.concatenate(([0], np.cumsum(stays)))
+    return replace(
+        roadmap,
+        indptr=before[roadmap.indptr].astype(np.int32),
+        heads=roadmap.heads[stays],
+        length_class=roadmap.length_class[stays],
+    )
+
+
+def independent_groups(fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
+    """Partition a fleet into groups whose laps share no vertex (union-find).
+
+    Returns
+    -------
+    list of list of CyclicRoute
+        Groups ordered by their first robots; robots in the order given.
+    """
+    leader = list(range(len(fleet)))
+
+    def find(index: int) -> int:
+        while leader[index] != index:
+            leader[index] = index = leader[leader[index]]
+        return index
+
+    first_at: dict[VertexId, int] = {}
+    for index, route in enumerate(fleet):
+        for vertex in set(route.lap.vertices):
+            one, other = find(first_at.setdefault(vertex, index)), find(index)
+            leader[max(one, other)] = min(one, other)
+    groups: dict[int, list[CyclicRoute]] = {}
+    for index, route in enumerate(fleet):
+        groups.setdefault(find(index), []).append(route)
+    return list(groups.values())

@@ -1,14 +1,13 @@
-"""What would help: which speed, work time, turning time or headway the period hangs on.
+"""Sensitivity of the period: which speed, work time, turning time or headway it depends on.
 
-All of a lever's time is scaled at once: a robot twice as fast needs half the time on every edge, a
-work time ten per cent shorter is so in every lap. Derivatives alone would not say how far they
-hold, and single what-ifs not what comes next; so a lever tells both, exactly: what each part
-saved is worth, and up to which part, before another circuit takes over.
+A parameter scales all its time at once: a robot twice as fast needs half the time on every edge.
+Each effect is exact: how much the period falls for each part of the time saved, and up to which
+part, before another circuit becomes critical.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -17,65 +16,70 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Itinerary, Lap, Scenario, Stage
-from rightofway.precedence import Sensitivity, TimedEventGraph, cycle_time_without, sensitivity
-from rightofway.precedence import tight_arcs as tight_arcs_of
+from rightofway.precedence import (
+    Sensitivity,
+    TimedEventGraph,
+    cycle_time_without,
+    sensitivity,
+    tight_arcs,
+)
 
-__all__ = ["TEN_PER_CENT_FASTER", "ParameterEffect", "parameter_effects", "stages_at"]
+__all__ = ["ParameterEffect", "parameter_effects", "stages_at"]
 
-TEN_PER_CENT_FASTER = Fraction(1, 11)
-"""The part of its driving time that a robot saves which is ten per cent faster."""
+TEN_PER_CENT = {"speed": Fraction(1, 11)}
+"""The part of its time that ten per cent of a parameter save; one tenth where it is not listed."""
+
+Kind = Literal["speed", "work", "turn", "headway"]
+
+_Key = tuple[Kind, int | None, int | None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParameterEffect:
-    """Something that takes time on a critical circuit.
+    """The effect of a parameter that takes time on a critical circuit.
 
     Attributes
     ----------
     kind
-        ``speed`` (all driving of a robot), ``work`` (one work time), ``turn`` (all turning of a
-        robot) or ``headway`` (everybody's).
+        ``speed`` (all driving of a robot), ``work`` (at one stop), ``turn`` (all turning of a
+        robot) or ``headway`` (of all robots).
     robot
-        Whose, by its number; None for the headway.
+        The number of the robot; None for the headway.
     stop
-        Which stop's work; None for others.
+        The number of the stop; None if it is not work at a stop.
     effect
-        How the cycle time follows it.
+        How the cycle time depends on it.
     ten_per_cent
-        The cycle time if it were ten per cent better: a robot so much faster, a time so much
-        shorter [ticks].
+        The cycle time with a robot ten per cent faster, or a time ten per cent shorter [ticks].
     """
 
-    kind: Literal["speed", "work", "turn", "headway"]
+    kind: Kind
     robot: int | None
     stop: int | None
     effect: Sensitivity
     ten_per_cent: Fraction
 
 
-_Key = tuple[Literal["speed", "work", "turn", "headway"], int | None, int | None]
-
-
 def parameter_effects(
     scenario: Scenario, graph: TimedEventGraph, *, most: int = 5, time_limit: float | None = None
 ) -> tuple[ParameterEffect, ...]:
-    """Return what the cycle time hangs on most, the most helpful first.
+    """Return the parameters on which the cycle time depends, the most effective first.
 
     Parameters
     ----------
     scenario
-        What the robots have to do.
+        The problem.
     graph
-        Their laps and orders.
+        The laps and orders of a group.
     most
-        How many levers to look at: those that take most of a critical circuit.
+        How many parameters to examine: those that take most of a critical circuit.
     time_limit
         For each search [s].
 
     Returns
     -------
-    tuple of Lever
-        Whatever is not on a critical circuit cannot help at all, and is not here.
+    tuple of ParameterEffect
+        A parameter that is on no critical circuit has no effect, and is not in it.
 
     Raises
     ------
@@ -83,35 +87,28 @@ def parameter_effects(
         If time ran out.
     """
     circuit = graph.critical_circuit(time_limit=time_limit).arcs
-    tight = tight_arcs_of(graph, time_limit=time_limit)
+    tight = tight_arcs(graph, time_limit=time_limit)
     shares = dict(_shares(scenario, graph, circuit))
     weights = {key: int(share[circuit].sum()) for key, share in shares.items()}
-    chosen = sorted((k for k in shares if weights[k]), key=lambda k: -weights[k])[:most]
-    effects = [_lever(graph, key, shares[key], tight, time_limit) for key in chosen]
-    return tuple(sorted(effects, key=lambda lever: lever.ten_per_cent))
-
-
-def _lever(
-    graph: TimedEventGraph,
-    key: _Key,
-    share: NDArray[np.int64],
-    tight: NDArray[np.bool_],
-    time_limit: float | None,
-) -> ParameterEffect:
-    kind, robot, stop = key
-    effect = sensitivity(graph, share, tight=tight, time_limit=time_limit)
-    part = TEN_PER_CENT_FASTER if kind == "speed" else Fraction(1, 10)
-    if part <= effect.until:
-        then = effect.cycle_time - effect.gain * part
-    else:
-        then = cycle_time_without(graph, share, part, time_limit=time_limit)
-    return ParameterEffect(kind=kind, robot=robot, stop=stop, effect=effect, ten_per_cent=then)
+    chosen = sorted((key for key in shares if weights[key]), key=lambda key: -weights[key])[:most]
+    found = []
+    for key in chosen:
+        effect = sensitivity(graph, shares[key], tight=tight, time_limit=time_limit)
+        part = TEN_PER_CENT.get(key[0], Fraction(1, 10))
+        if part <= effect.until:
+            then = effect.cycle_time - effect.gain * part
+        else:
+            then = cycle_time_without(graph, shares[key], part, time_limit=time_limit)
+        kind, robot, stop = key
+        one = ParameterEffect(kind=kind, robot=robot, stop=stop, effect=effect, ten_per_cent=then)
+        found.append(one)
+    return tuple(sorted(found, key=lambda one: one.ten_per_cent))
 
 
 def _shares(
     scenario: Scenario, graph: TimedEventGraph, circuit: NDArray[np.int32]
 ) -> Iterator[tuple[_Key, NDArray[np.int64]]]:
-    """Yield how much of each arc belongs to each lever of the robots on the circuit."""
+    """Yield the ticks of each arc that each parameter of the robots on the circuit takes."""
     arcs = graph.arcs
     is_right = arcs.first >= 0
     drive = graph.drive[arcs.head]
@@ -133,39 +130,32 @@ def _shares(
 
 
 def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
-    """Return which stages of a lap each of its visits serves, with their numbers.
+    """Return for each visit of a lap the stages that it serves, with their numbers.
 
     Parameters
     ----------
     lap
-        What a robot repeats.
+        One lap of a robot.
     itinerary
-        What it has to do, in one lap or several.
+        The stages of one lap or of several laps.
 
     Notes
     -----
-    Where a lap passes a place again before it goes on, stages without work and turning count for
-    the first visit that fits.
+    Where a lap visits a vertex twice, stages without work and turning belong to the first visit
+    that fits.
     """
-    stages = _one_lap(itinerary)
+    stages = itinerary.stages
+    n = len(stages)  # the stages of one lap come first, and may be repeated
+    n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
     at: list[list[tuple[int, Stage]]] = [[] for _ in range(len(lap))]
     number = 0
     for visit in [*range(1, len(lap)), 0]:
         spare = lap.dwell[visit]
-        while number < len(stages) and _fits(stages[number], lap, visit, spare):
-            spare -= stages[number].work + stages[number].turn
+        while number < n and stages[number].vertex == lap.vertices[visit]:
+            needs = stages[number].work + stages[number].turn
+            if needs > spare:
+                break
+            spare -= needs
             at[visit].append((number, stages[number]))
             number += 1
     return at
-
-
-def _fits(stage: Stage, lap: Lap, visit: int, spare: int) -> bool:
-    return stage.vertex == lap.vertices[visit] and stage.work + stage.turn <= spare
-
-
-def _one_lap(itinerary: Itinerary) -> Sequence[Stage]:
-    """Return the stages to home: the first lap."""
-    stages = itinerary.stages
-    n = len(stages)
-    shortest = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
-    return stages[:shortest]

@@ -1,149 +1,132 @@
-"""Laps without an end, under a rule that sees two robots: one precedence graph that rolls along.
+"""Repeated laps under a rule that considers two robots only: the face of the native simulator.
 
-What is long past is dropped from the graph, and the laps to come are added, so all times are kept
-up to date and never found anew.
+One precedence graph rolls along: the past is dropped from it and laps to come are added, so that
+all times are kept up to date and never computed again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.cyclic.pattern import VisitTimes
+from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.rules import NATIVE_RULES
+from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
+from rightofway.planners import Deadline
 
-__all__ = ["CyclicSimulator", "Horizon", "Standstill"]
+__all__ = ["CyclicSimulator", "Deadlock", "HorizonParams", "choose_pacemaker"]
 
-ENDS: tuple[Literal["open", "repeats", "deadlock"], ...] = ("open", "repeats", "deadlock")
-"""How the kernel tells what came of it."""
+OPEN, REPEATS = 0, 1
+"""Answers of the kernel; any other one is a deadlock."""
 
-KERNEL_RULES = ("first-come", "fixed-order", "least-loss")
-"""The rules that the kernel knows, in its order."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Horizon:
-    """How far robots look ahead and back; all but the first and the last in ticks.
-
-    Attributes
-    ----------
-    pacemaker
-        Cuts are made where this robot is home, at first.
-    lag
-        What meets less than this after a cut is settled before everything up to there is frozen.
-    most_lag
-        How long the lag may get where it was too short.
-    patience
-        How long a pacemaker may stay away.
-    reach
-        How long before a cut visits may have been left that still matter.
-    memory
-        How many cuts can be taken back.
-    """
-
-    pacemaker: int
-    lag: int
-    most_lag: int
-    patience: int
-    reach: int
-    memory: int
+LAP_LOSS = 1 << 40
+"""The cost of a lost lap; with this many parts of it, the cost of a tick is accurate enough."""
 
 
-class Standstill(NamedTuple):
-    """A deadlock: two robots that cannot be kept apart, and who would each wait for the next."""
+class Deadlock(Exception):
+    """No right of way keeps two robots (positions in the group) apart.
 
-    robots: tuple[int, int]
-    vertex: VertexId
-    tick: Tick
-    circle: tuple[int, ...]
-
-
-class CyclicSimulator:
-    """Robots that repeat their laps until a state comes again.
-
-    Parameters
-    ----------
-    laps
-        What each robot repeats.
-    first_least
-        For each robot the least ticks of its very first visit, which nobody turns for.
-    look
-        How far ahead and back.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there.
-    rule
-        Who goes first: who would enter a segment first (``first-come``), who is listed first
-        (``fixed-order``), or who would lose more by waiting for the other one (``least-loss``).
-    losses
-        What a tick of waiting costs each robot, above 0.
+    In ``circle`` each robot would wait for the next. It is empty if there is no such cycle: then
+    one of the two stays, or is already, where the other has to go.
     """
 
     def __init__(
-        self,
-        laps: Sequence[Lap],
-        first_least: Sequence[Tick],
-        look: Horizon,
-        *,
-        headway: Tick,
-        books_ahead: bool,
-        rule: str,
-        losses: Sequence[int],
+        self, robots: tuple[int, int], vertex: VertexId, tick: Tick, circle: Iterable[int]
     ) -> None:
+        self.robots = robots
+        self.vertex = vertex
+        self.tick = tick
+        self.circle = tuple(circle)
+        super().__init__()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HorizonParams:
+    """How far a simulation of repeated laps looks ahead and back."""
+
+    patience: int = 8  # A pacemaker that stays away longer is replaced [longest laps].
+    pacemaker_part: int = 4  # The pacemaker's lap takes a longest lap divided by this, or more.
+    most_lag: int = 4  # The lag grows up to this [longest laps].
+    memory: int = 32  # This many windows can be taken back.
+    window_lags: int = 3  # A window has this length at first [lags].
+
+
+DEFAULT = HorizonParams()
+
+
+def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
+    """Return the robot with the shortest lap of at least so many ticks."""
+    durations = [lap.duration for lap in laps]
+    return durations.index(min(duration for duration in durations if duration >= least))
+
+
+class CyclicSimulator:
+    """A group of robots that repeat their laps under one of `NATIVE_RULES`.
+
+    Cuts are made where the *pacemaker* is home. All meetings less than a *lag* after a cut are
+    resolved before the visits up to the cut are frozen.
+    """
+
+    def __init__(self, context: GroupContext, rule: str, params: HorizonParams = DEFAULT) -> None:
+        self.context = context
+        laps, longest = context.laps, context.longest
+        pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
         drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
         self._kernel = _core.CyclicSimulator(
             np.cumsum([0, *map(len, laps)], dtype=np.int32),
             np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
             np.array([ticks for lap in laps for ticks in lap.leasts()], np.int64),
-            drive if books_ahead else np.zeros_like(drive),
-            np.array(first_least, np.int64),
-            headway=int(headway),
-            pacemaker=look.pacemaker,
-            lag=look.lag,
-            most_lag=look.most_lag,
-            patience=look.patience,
-            reach=look.reach,
-            memory=look.memory,
-            rule=KERNEL_RULES.index(rule),
-            loss=np.array(losses, np.int64),
+            drive if context.books_ahead else np.zeros_like(drive),
+            np.array([route.first_least for route in context.routes], np.int64),
+            headway=int(context.headway),
+            pacemaker=pacemaker,
+            lag=laps[pacemaker].duration,
+            most_lag=params.most_lag * longest,
+            patience=params.patience * longest,
+            reach=context.reach,
+            memory=params.memory,
+            rule=NATIVE_RULES.index(rule),
+            loss=np.array([max(LAP_LOSS // lap.duration, 1) for lap in laps], np.int64),
         )
 
-    def go_on(self, seconds: float | None) -> Literal["open", "repeats", "deadlock"]:
-        """Go on until a state comes again, a deadlock, or time is over; then it can be asked again.
+    @property
+    def history(self) -> list[VisitTimes]:
+        """For each robot the enters of its visits so far [ticks]."""
+        begun = self._kernel.started().tolist()
+        return [
+            VisitTimes(route, begun[robot], *self._kernel.waits(robot))
+            for robot, route in enumerate(self.context.routes)
+        ]
 
-        Notes
-        -----
-        Exact and deterministic. Ctrl-C is obeyed.
+    def advance(self, deadline: Deadline) -> tuple[int, int]:
+        """Continue until the state at a cut equals that at an earlier cut; return both ticks.
+
+        Exact and deterministic; Ctrl-C is obeyed.
+
+        Raises
+        ------
+        Deadlock
+            If the rule runs into one.
+        GaveUp
+            If time runs out; another call continues.
         """
-        return ENDS[self._kernel.go_on(seconds)]
-
-    def forget(self) -> None:
-        """Forget the states seen, so that it goes on where one came again."""
-        self._kernel.forget()
-
-    def follow(self, rule: str) -> None:
-        """Decide by another rule from now on; states that were seen are forgotten."""
-        self._kernel.follow(KERNEL_RULES.index(rule))
-
-    def came_again(self) -> tuple[int, int]:
-        """Return when the state was there first, and when it came again [ticks]."""
-        return self._kernel.came_before, self._kernel.cut
-
-    def begun(self) -> list[int]:
-        """Return how many visits of each robot have begun."""
-        counts: list[int] = self._kernel.begun().tolist()
-        return counts
-
-    def waits(self, robot: int) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-        """Return which visits of a robot were late, and how long it had waited by then [ticks]."""
-        return self._kernel.waits(robot)
-
-    def standstill(self) -> Standstill:
-        """Return the deadlock that it ran into."""
+        answer = self._kernel.advance(deadline.seconds_left())
+        if answer == OPEN:
+            raise GaveUp("time ran out before a state came again (give a longer time limit)")
+        if answer == REPEATS:
+            return self._kernel.first_seen, self._kernel.cut
         i, j, vertex, tick, circle = self._kernel.deadlock()
-        return Standstill((i, j), VertexId(vertex), Tick(tick), tuple(circle.tolist()))
+        raise Deadlock((i, j), VertexId(vertex), Tick(tick), circle.tolist())
+
+    def set_rule(self, rule: str) -> None:
+        """Decide by another rule from now on; the states seen are forgotten."""
+        self._kernel.set_rule(NATIVE_RULES.index(rule))
+
+    def reset_states(self) -> None:
+        """Forget the states seen, so that `advance` continues where one recurred."""
+        self._kernel.reset_states()

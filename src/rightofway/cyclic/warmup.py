@@ -1,9 +1,9 @@
-"""How long laps take where no state came again: means of what was seen, without the warm-up.
+"""MSER: mean lap times of a simulation in which no state recurred, without its warm-up.
 
-All robots set out at once, and it takes some laps until they have met each other often enough to
-forget that. How many laps of all robots end in each slot, as long as the longest lap, says when:
-the warm-up is what has to be left out for the mean of the rest to be known best, by its marginal
-standard error, and never more than half.
+All robots set out at once, and it takes some laps until that has no effect any more. Time is
+divided into slots as long as the longest lap, and the laps of all robots that end in each slot are
+counted. The warm-up ends where the marginal standard error of the remaining counts is least, and at
+half of the time at the latest.
 
 References
 ----------
@@ -24,76 +24,46 @@ from rightofway.cyclic.pattern import History
 from rightofway.cyclic.route import CyclicRoute
 from rightofway.model import Tick
 
-__all__ = ["Measured", "measure"]
+__all__ = ["MeasuredLaps", "homes_of", "measure"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Measured:
-    """Means of the laps that were seen, not proven to be those of the long run.
+class MeasuredLaps:
+    """Mean lap times that were measured, not proven to hold in the long run."""
 
-    Attributes
-    ----------
-    warm_up
-        Laps that began before this tick are left out.
-    laps
-        Of how many laps of each robot the mean is; 0 if it made none.
-    means
-        How long a lap of each robot takes on average [ticks]; None if it made none.
+    warm_up: Tick  # laps that began before this tick are left out
+    laps: tuple[int, ...]  # the number of laps of each robot that its mean is of
+    means: tuple[Fraction | None, ...]  # the mean lap time of each robot [ticks]; None without laps
+
+
+def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np.int64]]:
+    """Return for each robot the enters of its visits home; the first is visit 0 [ticks]."""
+    rows = zip(routes, history, strict=True)
+    return [np.asarray(past[:: len(route)], np.int64) for route, past in rows]
+
+
+def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
+    """Measure the mean lap time of each robot.
+
+    A robot that made no whole lap since the warm-up is represented by its last lap. The unfinished
+    lap counts as well as soon as it takes longer than the mean of the others: a robot may stand
+    still for ever, which no finished lap would show.
     """
-
-    warm_up: Tick
-    laps: tuple[int, ...]
-    means: tuple[Fraction | None, ...]
-
-
-def measure(group: Sequence[CyclicRoute], history: History) -> Measured:
-    """Measure the laps of a group.
-
-    Parameters
-    ----------
-    group
-        The endless routes of its robots.
-    history
-        When their visits began.
-
-    Notes
-    -----
-    A robot that made no whole lap since the warm-up is told by its last one. The lap that it is on
-    counts as well as soon as it takes longer than the others: a robot may stand for ever, which no
-    lap that ended would show.
-    """
-    homes = [
-        np.array(past[:: len(endless.lap)], np.int64)
-        for endless, past in zip(group, history, strict=True)
-    ]
-    slot, until = max(endless.lap.duration for endless in group), max(past[-1] for past in history)
+    homes = homes_of(routes, history)
+    slot, until = max(route.lap.duration for route in routes), max(past[-1] for past in history)
     warm_up = warm_up_of(homes, slot, until)
-    firsts = [min(int(np.searchsorted(home, warm_up)), max(len(home) - 2, 0)) for home in homes]
-    laps = [len(home) - 1 - first for home, first in zip(homes, firsts, strict=True)]
-    return Measured(
-        warm_up=Tick(warm_up),
-        laps=tuple(laps),
-        means=tuple(
-            max(Fraction(int(home[-1] - home[first]), n), Fraction(int(until - home[first]), n + 1))
-            if n
-            else None
-            for home, first, n in zip(homes, firsts, laps, strict=True)
-        ),
-    )
+    laps, means = [], []
+    for home in homes:
+        first = min(int(np.searchsorted(home, warm_up)), max(len(home) - 2, 0))
+        n = len(home) - 1 - first
+        laps.append(n)
+        finished, all_laps = int(home[-1] - home[first]), int(until - home[first])
+        means.append(max(Fraction(finished, n), Fraction(all_laps, n + 1)) if n else None)
+    return MeasuredLaps(warm_up=Tick(warm_up), laps=tuple(laps), means=tuple(means))
 
 
 def warm_up_of(homes: Sequence[NDArray[np.int64]], slot: int, until: int) -> int:
-    """Return the tick at which the warm-up is over.
-
-    Parameters
-    ----------
-    homes
-        For each robot when it was at home; first at the beginning.
-    slot
-        How long slots are [ticks].
-    until
-        All laps that ended by then are known [ticks].
-    """
+    """Return the tick at which the warm-up is over, where all laps that end by a tick are known."""
     n_slots = until // slot
     if not n_slots:
         return 0

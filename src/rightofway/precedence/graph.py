@@ -61,6 +61,8 @@ class PrecedenceGraph:
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     forbid_swaps
         Whether a swap counts as a conflict (the published method does not see them).
+    frozen
+        Visits that no right of way may delay: `give_way` refuses it.
     """
 
     def __init__(
@@ -70,8 +72,11 @@ class PrecedenceGraph:
         headway: Tick,
         books_ahead: bool,
         forbid_swaps: bool = True,
+        frozen: Iterable[Visit] = (),
     ) -> None:
         self.routes = tuple(routes)
+        self._frozen = frozenset(frozen)
+        self._delays_frozen = False
         lengths = [len(route) for route in routes]
         self._first = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
         self._robot = np.repeat(np.arange(len(routes)), lengths).tolist()
@@ -109,9 +114,11 @@ class PrecedenceGraph:
         -------
         bool
             False, with nothing changed, if that is impossible: ``first`` never leaves, ``second``
-            is there from the start, or the two would deadlock with what is decided already.
+            is there from the start or frozen, or the two would deadlock with what is decided
+            already.
         """
-        return self._kernel.precede(first, second)
+        self._delays_frozen = second in self._frozen
+        return not self._delays_frozen and self._kernel.precede(first, second)
 
     def give_all(self, rights: Iterable[tuple[Visit, Visit]]) -> bool:
         """Give several rights of way; false, with nothing changed, if that is impossible."""
@@ -128,23 +135,13 @@ class PrecedenceGraph:
         """
         return self._kernel.take_back(first, second)
 
-    def flip(self, first: Visit, second: Visit) -> bool:
-        """Take the right of way of ``first`` over ``second``, and give it to ``second``.
-
-        Returns
-        -------
-        bool
-            False, with nothing changed, if there is none to take or `give_way` finds it impossible.
-        """
-        return self._kernel.flip(first, second)
-
     def deadlocked(self) -> list[int]:
         """Return the robots that the last right of way found impossible would have deadlocked.
 
         Each would have waited for the next, the last one for the first. Nobody if there was another
         reason.
         """
-        robots = [self._robot[visit] for visit in self._kernel.cycle().tolist()]
+        robots = [self._robot[visit] for visit in self._refused_cycle()]
         return [robot for robot, _ in groupby(reversed(robots))]
 
     def deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
@@ -152,12 +149,15 @@ class PrecedenceGraph:
 
         None if there was another reason.
         """
-        circle = self._kernel.cycle().tolist()
+        circle = self._refused_cycle()
         return [
             (one - 1, other)
             for one, other in pairwise(circle)
             if self._robot[one] != self._robot[other]
         ]
+
+    def _refused_cycle(self) -> list[Visit]:
+        return [] if self._delays_frozen else self._kernel.cycle().tolist()
 
     def keep_order(self, when: Sequence[Sequence[int]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.
@@ -184,7 +184,7 @@ class PrecedenceGraph:
         return self._kernel.checkpoint()
 
     def rollback(self, mark: int) -> None:
-        """Undo everything since the mark: rights of way given, taken back, flipped."""
+        """Undo everything since the mark: rights of way given or taken back."""
         self._kernel.rollback(mark)
 
     def withdraw(self, robot: int) -> None:

@@ -210,6 +210,16 @@ class TimedEventGraph:
         """
         return circuit_of(len(self), self.arcs, time_limit=time_limit)
 
+    def critical_circuit_if_live(self, *, time_limit: float | None = None) -> Circuit | None:
+        """Return a critical circuit; None if robots wait for each other for ever in these orders.
+
+        Raises
+        ------
+        GaveUp
+            If time ran out.
+        """
+        return _circuit_if_live(len(self), self.arcs, time_limit)
+
     def earliest(
         self,
         period: Tick,
@@ -304,16 +314,25 @@ def circuit_of(n_visits: int, arcs: Arcs, *, time_limit: float | None = None) ->
 
     Raises
     ------
+    ValueError
+        If robots wait for each other for ever in these orders.
     GaveUp
         If time ran out.
     """
+    circuit = _circuit_if_live(n_visits, arcs, time_limit)
+    if circuit is None:
+        raise ValueError("timetable: robots wait for each other for ever in its orders")
+    return circuit
+
+
+def _circuit_if_live(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
     found = _core.critical_circuit(
         n_visits, arcs.tail, arcs.head, arcs.length, arcs.height, time_limit
     )
     if found is None:
         raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
     length, height, numbers = found
-    return Circuit(cycle_time=Fraction(length, height), arcs=numbers)
+    return Circuit(cycle_time=Fraction(length, height), arcs=numbers) if height else None
 
 
 _Visits = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]

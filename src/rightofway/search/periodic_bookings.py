@@ -122,7 +122,12 @@ class PeriodicBookings:
         ValueError
             If the robot has bookings already, or a booking overlaps another robot's.
         """
-        self._kernel.add(robot, *_visits(lap, count), enter)
+        if not self.add_if_free(robot, lap, count, enter):
+            raise ValueError(f"enter: a booking of robot {robot} overlaps another robot's")
+
+    def add_if_free(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> bool:
+        """Book as `add` does; false, with nothing booked, if a booking overlaps another robot's."""
+        return self._kernel.add(robot, *_visits(lap, count), enter)
 
     def add_visits(
         self, robot: int, lap: Lap, visits: range, enter: NDArray[np.int64], leave: int

@@ -1,0 +1,348 @@
+"""Choose the timetable of each group: as much value of laps per tick as possible, and fair."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import count, islice
+
+import numpy as np
+
+from rightofway.cyclic.closing import closed_windows
+from rightofway.cyclic.from_plan import one_lap, repeated_plan
+from rightofway.cyclic.from_run import choose_runs, extract_cycle, first_come_run
+from rightofway.cyclic.insertion import fill, insert_all
+from rightofway.cyclic.lns import improve
+from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
+from rightofway.cyclic.result import BaselineEnds, Comparison, CyclicResult, GroupResult
+from rightofway.cyclic.route import (
+    CyclicRoute,
+    GroupContext,
+    clear_and_direct,
+    cyclic_routes,
+    independent_groups,
+)
+from rightofway.cyclic.rules import TIMETABLE
+from rightofway.cyclic.run import advance, simulation_of
+from rightofway.cyclic.startup import start
+from rightofway.errors import GaveUp, InputError, kernel_limits
+from rightofway.model import Scenario, Tick, VertexId, checked_time_limit
+from rightofway.planners import Deadline
+from rightofway.precedence import unrolled
+from rightofway.search import Distances, RoundTrip
+
+__all__ = ["ChoiceParams", "best_timetable"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChoiceParams:
+    """How the time of a group is divided; each share is of the time that is left then."""
+
+    large: int = 100  # Larger groups have a stretch of a simulation closed.
+    most_with_round_trips: int = 200  # Larger fleets search for no laps beyond the given ones.
+    baseline_share: float = 0.2  # First come first served is simulated.
+    other_rule_share: float = 0.05  # Each other rule is simulated.
+    cutting_share: float = 0.25  # Timetables are cut out of the baseline.
+    closing_share: float = 0.6  # In this part of that, windows are closed; then laps are added.
+    cuts_kept: int = 2  # This many timetables cut out are kept besides the best.
+    short: int = 4_000  # Timetables with more visits improve slowly: only the best is kept.
+    building_share: float = 0.2  # First timetables are built.
+    many: int = 300  # Larger groups are built once and filled.
+    filling_share: float = 0.3  # The building share of these.
+    placing_share: float = 0.7  # The first timetable may take this to place all robots.
+    first_period: float = 1.2  # The first timetable has this period [longest laps].
+    longest_period: float = 5  # The others have periods of at most this [longest laps].
+    kept: int = 3  # This many first timetables are improved.
+    trying_share: float = 0.5  # All of them are improved a little.
+    continuing_share: float = 0.7  # The best of these is improved; in the rest, the best of all.
+    most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
+
+
+@kernel_limits()
+def best_timetable(
+    scenario: Scenario,
+    *,
+    weights: Sequence[Fraction] | None = None,
+    least_fairness: Fraction = Fraction(0),
+    time_limit: float | None = 10,
+    rounds: int | None = None,
+    seed: int = 0,
+    report: Callable[[str], None] | None = None,
+) -> CyclicResult:
+    """Choose laps, their numbers per period and rights of way for the most value of laps per tick.
+
+    Parameters
+    ----------
+    scenario
+        The problem; its number of laps is not used.
+    weights
+        The value of a lap of each robot, above 0; 1 each if None.
+    least_fairness
+        The least ratio of laps made to laps possible alone for each robot, 0 to 1.
+    time_limit
+        When to stop [s]; None for no limit. Groups get shares of it by their size.
+    rounds
+        How many first timetables to build for each group, and in how many steps to improve each
+        that is kept; None for as many as there is time for.
+    seed
+        For random choices.
+    report
+        Takes sentences on the progress.
+
+    Returns
+    -------
+    CyclicResult
+        One result with a `Comparison` for each independent group; or one for all robots, where a
+        group needs the vertices of others to get out of a deadlock.
+
+    Raises
+    ------
+    InputError
+        For weights or limits that do not fit, or a robot that has no lap to repeat.
+    NoPlanExists
+        If a robot cannot reach a place, or a group is proven to have no plan for one lap each.
+    GaveUp
+        If no timetable was found in which all robots have a place and the least fairness.
+
+    Notes
+    -----
+    Never below the pattern of first come first served, if that is found in its share of the time
+    and is fair. Deterministic for a seed if the rounds end before the time does. Not optimal.
+    """
+    n_robots = len(scenario.robots)
+    if weights is not None and len(weights) != n_robots:
+        raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
+    for index, weight in enumerate(weights or ()):
+        if weight <= 0:
+            raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
+    if not 0 <= least_fairness <= 1:
+        raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
+    if time_limit is None and rounds is None:
+        raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
+    time_limit = checked_time_limit(time_limit)
+    params = ChoiceParams()
+    if n_robots > params.large:
+        usual, others = clear_and_direct(scenario)
+    else:
+        usual, others = cyclic_routes(scenario), cyclic_routes(scenario, "shortest")
+    fleet = CyclicProblem(
+        context=GroupContext(scenario=scenario, routes=tuple(usual)),
+        ways=tuple((one.lap, other.lap) for one, other in zip(usual, others, strict=True)),
+        round_trips=(),
+        forbidden=frozenset(),
+        weights=tuple(weights or [Fraction(1)] * n_robots),
+        least_fairness=least_fairness,
+        deadline=Deadline.after(time_limit),
+        draw=random.Random(),  # noqa: S311 (each group has its own)
+    )
+    found: list[GroupResult] = []
+    groups = independent_groups(usual)
+    for partition in (groups, [usual]):  # at last with the vertices of other groups
+        try:
+            found = _by_groups(fleet, partition, rounds, seed, report or (lambda _: None), params)
+            break
+        except GaveUp:
+            if len(partition) == 1:
+                raise
+    return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(found))
+
+
+def _by_groups(
+    fleet: CyclicProblem,
+    groups: Sequence[Sequence[CyclicRoute]],
+    rounds: int | None,
+    seed: int,
+    report: Callable[[str], None],
+    params: ChoiceParams,
+) -> list[GroupResult]:
+    """Choose a timetable for each group, small ones first, none through vertices of another."""
+    taken = {vertex for lap in fleet.context.laps for vertex in lap.vertices}
+    found: dict[int, GroupResult] = {}
+    left = len(fleet)
+    for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
+        group = groups[index]
+        report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
+        taken -= {vertex for route in group for vertex in route.lap.vertices}
+        draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
+        problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
+        left -= len(group)
+        found[index] = _choose(problem, rounds, params)
+        taken |= {vertex for lap in found[index].context.laps for vertex in lap.vertices}
+    return [found[index] for index in range(len(groups))]
+
+
+def _part(
+    fleet: CyclicProblem,
+    group: Sequence[CyclicRoute],
+    taken: set[VertexId],
+    draw: random.Random,
+    params: ChoiceParams,
+) -> CyclicProblem:
+    """Return the problem of one group, where others take some vertices."""
+    scenario, robots = fleet.context.scenario, [route.robot for route in group]
+    trips: tuple[RoundTrip, ...] = ()
+    if len(fleet) <= params.most_with_round_trips:
+        distances = Distances(scenario.roadmap)
+        once = (one_lap(scenario, robot) for robot in robots)
+        trips = tuple(RoundTrip.of(stages, distances, forbidden=taken) for stages in once)
+    ways = []
+    for usual, other in (fleet.ways[robot] for robot in robots):
+        fits = other != usual and not taken.intersection(other.vertices)
+        ways.append((usual, other) if fits else (usual,))
+    return replace(
+        fleet,
+        context=GroupContext(scenario=scenario, routes=tuple(group)),
+        ways=tuple(ways),
+        round_trips=trips,
+        forbidden=frozenset(taken),
+        weights=tuple(fleet.weights[robot] for robot in robots),
+        draw=draw,
+    )
+
+
+def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> GroupResult:
+    """Choose the timetable of one group."""
+    if len(problem) == 1:
+        lap = min(problem.ways[0], key=lambda lap: lap.duration)
+        enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
+        alone = Candidate.as_it_is(problem.timetable([RobotCycle(lap, 1, enter)], lap.duration))
+        return _started(problem, alone, "repeats", problem.value(alone))
+    if len(problem) > params.large and (closed := _closed_run(problem)):
+        return closed
+    baseline = _simulated(problem, "first-come", params.baseline_share)
+    ends, worth = _baseline(problem, baseline)
+    pattern = _fair_pattern(problem, baseline)
+    starts = [
+        *_by_other_rules(problem, params),
+        *_cut_out(problem, baseline, params),
+        *_built(problem, rounds, params),
+    ]
+    if pattern is not None:
+        starts.append(problem.candidate(pattern.timetable))
+    if not starts and (together := repeated_plan(problem)):
+        problem = problem.with_ways(together.timetable.laps)
+        starts = [together]
+    if not starts or not problem.accepts(starts[0]):
+        who = f"{len(problem)} robots that have to do with each other"
+        if problem.least_fairness:
+            why = f"for {who} that is fair enough (ask for less, or give time)"
+        else:
+            why = f"for {who} (give more time)"
+        raise GaveUp(f"no timetable was found {why}")
+    whole = _whole(problem, _improved(problem, starts, rounds, params), params)
+    if pattern is not None and worth > problem.value(whole):
+        whole = pattern
+    return _started(problem, whole, ends, worth)
+
+
+def _closed_run(problem: CyclicProblem) -> GroupResult | None:
+    """Return a long stretch of a simulation, or the baseline's pattern if that is better."""
+    if problem.deadline.at is None:
+        return None
+    baseline = first_come_run(problem)
+    found = extract_cycle(problem, choose_runs(problem, baseline))
+    fair = [one for one in (found, _fair_pattern(problem, baseline.result)) if one is not None]
+    if not fair:
+        return None
+    return _started(problem, max(fair, key=problem.value), *_baseline(problem, baseline.result))
+
+
+def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
+    """Return the pattern of a simulation; None without one, or if it is not fair."""
+    pattern = None if run.timetable is None else Candidate.as_it_is(run.timetable)
+    return None if pattern is None or not problem.accepts(pattern) else pattern
+
+
+def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
+    """Simulate the group on its usual routes for a share of the time."""
+    return advance(simulation_of(problem.context, rule), problem.deadline.sooner(share))
+
+
+def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:
+    """Return how first come first served ends, and the value of its laps per tick."""
+    if run.ends == "deadlock":
+        return "deadlock", Fraction(0)
+    starves = run.ends == "repeats" and run.timetable is None
+    return "starves" if starves else run.ends, run.rate(problem.weights)
+
+
+def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Candidate]:
+    """Yield the patterns of other rules that are found soon; none without a time limit."""
+    if problem.deadline.at is None or len(problem) > params.many:
+        return
+    for rule in ("two-level", "fixed-order"):
+        found = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
+        if found is not None:
+            yield problem.candidate(found.timetable)
+
+
+def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> list[Candidate]:
+    """Return the best timetables cut out of a simulation, with more laps where there is room."""
+    if not all(run.mean_laps()):
+        return []
+    cutting = problem.sooner(params.cutting_share)
+    windows = closed_windows(cutting.sooner(params.closing_share), run)
+    best = sorted(filter(problem.accepts, windows), key=problem.value, reverse=True)
+    short = [one for one in best if one.n_visits <= params.short]
+    kept = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))
+    filled = [fill(cutting, *cutting.booked(one)) for one in kept]
+    return [max(pair, key=problem.value) for pair in zip(kept, filled, strict=True)]
+
+
+def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
+    """Return the best of many timetables, built by insertion for various periods."""
+    is_small = len(problem) <= params.many
+    building = problem.sooner(params.building_share if is_small else params.filling_share)
+    first = problem.sooner(params.placing_share)
+    built: list[Candidate] = []
+    for number in islice(count(), rounds):
+        times = problem.draw.uniform(1, params.longest_period) if number else params.first_period
+        period = int(max(problem.alone) * times)
+        try:
+            built.append(insert_all(building if built else first, period, filling=building))
+        except GaveUp:
+            break
+        if problem.value(built[-1]) == problem.bound:
+            break
+    return sorted(filter(problem.accepts, built), key=problem.value, reverse=True)[: params.kept]
+
+
+def _improved(
+    problem: CyclicProblem,
+    starts: Sequence[Candidate],
+    rounds: int | None,
+    params: ChoiceParams,
+) -> Candidate:
+    """Improve all short timetables a little, then the best of these, then the best of all."""
+    net = max(starts, key=problem.value)
+    short = [one for one in starts if one.n_visits <= params.short] or [net]
+    trying, tried = problem.sooner(params.trying_share), []
+    for index, one in enumerate(short):
+        tried.append(improve(trying.sooner(1 / (len(short) - index)), one, steps=rounds))
+    continuing = problem.sooner(params.continuing_share)
+    best = improve(continuing, max(tried, key=problem.value), steps=rounds)
+    return improve(problem, max(net, best, key=problem.value), steps=rounds)
+
+
+def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> Candidate:
+    """Return the timetable in whole ticks, over several periods if its cycle time is a fraction."""
+    timetable, cycle_time = candidate.timetable, candidate.cycle_time
+    if cycle_time.denominator * candidate.n_visits <= params.most_visits:
+        timetable = unrolled(timetable, cycle_time.denominator)
+        cycle_time *= cycle_time.denominator
+    period = Tick(Candidate(timetable, cycle_time).period)
+    return Candidate.as_it_is(problem.graph(timetable).earliest(period, cycle_time=cycle_time))
+
+
+def _started(
+    problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
+) -> GroupResult:
+    comparison = Comparison(
+        throughput=problem.value(chosen),
+        fairness=problem.fairness(chosen.timetable.counts, chosen.cycle_time),
+        baseline_ends=ends,
+        baseline=baseline,
+    )
+    return start(problem.context.scenario, chosen.timetable, comparison)

@@ -1,0 +1,152 @@
+"""A stretch of a simulation, closed by orders or by a seam, keeps every rule and loses little."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+from itertools import islice
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rightofway.cyclic import run_laps
+from rightofway.cyclic.closing import Stretch, close_stretch, closed_windows, stretches
+from rightofway.cyclic.pattern import Pattern
+from rightofway.cyclic.problem import CyclicProblem
+from rightofway.cyclic.result import GroupResult
+from rightofway.cyclic.route import GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.run import advance
+from rightofway.cyclic.simulator import CyclicSimulator
+from rightofway.errors import InputError, NoPlanExists
+from rightofway.model import Rules, Scenario
+from rightofway.planners import Deadline
+from tests.builders.fleets import random_fleet
+from tests.oracles import periodic_bookings as oracle
+
+few = settings(max_examples=30, derandomize=True, deadline=None)
+many = settings(max_examples=60, derandomize=True, deadline=None)
+RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rotations=False)]
+PERIODS = 6
+"""How many periods of a pattern the history of an open group holds."""
+
+LAPS = 20
+"""How many of the longest laps the history of a long run holds at least."""
+
+
+def problem_of(run: GroupResult) -> CyclicProblem:
+    """Return the problem of a group without other laps, other groups and weights."""
+    return CyclicProblem(
+        context=run.context,
+        ways=tuple((lap,) for lap in run.context.laps),
+        round_trips=(),
+        forbidden=frozenset(),
+        weights=(Fraction(1),) * len(run.context),
+        least_fairness=Fraction(0),
+        deadline=Deadline(),
+        draw=random.Random(0),  # noqa: S311 (no secret depends on it)
+    )
+
+
+@st.composite
+def fleets(draw: st.DrawFn, most_robots: int = 4) -> Scenario:
+    return random_fleet(
+        draw(st.integers(0, 10**6)),
+        size=draw(st.integers(4, 7)),
+        robots=draw(st.integers(2, most_robots)),
+        rules=draw(st.sampled_from(RULES)),
+    )
+
+
+def open_run(scenario: Scenario) -> tuple[GroupResult, Pattern]:
+    """Return the largest group first come first served, as if its end were open."""
+    assume(all(robot.stops[0].at != robot.home for robot in scenario.robots))
+    run = max(run_laps(scenario, time_limit=None).groups, key=lambda group: len(group.context))
+    assume(len(run.context) > 1)
+    assume(run.pattern is not None and all(run.pattern.counts))
+    pattern = run.pattern
+    assert pattern is not None
+    history = tuple(
+        tuple(
+            pattern.enter(robot, visit)
+            for visit in range((regular // length + PERIODS * count) * length + 1)
+        )
+        for robot, (length, count, regular) in enumerate(
+            zip(pattern.lengths, pattern.counts, pattern.regular, strict=True)
+        )
+    )
+    return replace(run, ends="open", history=history, pattern=None), pattern
+
+
+@few
+@given(fleets())
+def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> None:
+    run, _ = open_run(scenario)
+    problem, context = problem_of(run), run.context
+    # the oracle compares every two visits
+    short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
+    for window in islice(short, 4):
+        timetable = problem.timetable(problem.booked(window)[1], window.period)
+        ahead = context.books_ahead
+        assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
+
+
+@few
+@given(fleets())
+def test_the_best_window_is_not_below_the_run_in_the_long_run(scenario: Scenario) -> None:
+    run, pattern = open_run(scenario)
+    problem = problem_of(run)
+    best = max(map(problem.value, closed_windows(problem, run)), default=Fraction(0))
+    assert best >= Fraction(sum(pattern.counts), pattern.period)
+
+
+@st.composite
+def long_runs(draw: st.DrawFn) -> GroupResult:
+    """The largest group of a small fleet, as it continued for some laps."""
+    scenario = draw(fleets(6))
+    try:
+        routes = cyclic_routes(scenario, draw(st.sampled_from(["clear", "direct"])))
+    except (InputError, NoPlanExists):
+        assume(False)
+    group = max(independent_groups(routes), key=len)
+    assume(len(group) > 1)
+    context = GroupContext(scenario=scenario, routes=tuple(group))
+    simulation = CyclicSimulator(context, draw(st.sampled_from(["first-come", "least-loss"])))
+    run = advance(simulation, Deadline())
+    while run.ends == "repeats" and max(past[-1] for past in run.history) < LAPS * context.longest:
+        simulation.reset_states()
+        run = advance(simulation, Deadline())
+    assume(all(run.mean_laps()) and run.ends == "repeats")
+    return run
+
+
+@many
+@given(long_runs(), st.integers(3, 15), st.integers(1, 3))
+def test_a_closed_stretch_keeps_every_rule_across_the_seam(
+    run: GroupResult, laps: int, begins: int
+) -> None:
+    problem, context = problem_of(run), run.context
+    stretch = Stretch(begins=begins * context.longest, period=laps * context.longest)
+    assume(stretch.begins + stretch.period <= max(past[-1] for past in run.history))
+    closed = close_stretch(problem, run, stretch)
+    assume(closed is not None)
+    assert closed is not None
+    timetable = closed.timetable
+    assert timetable.period == stretch.period
+    graph = problem.graph(timetable)
+    assert graph.slack().min() >= 0
+    assert not graph.has_swaps()
+    if sum(map(len, timetable.enter)) <= 400:  # the oracle compares every two visits
+        ahead = context.books_ahead
+        assert oracle.faults(timetable, headway=context.headway, books_ahead=ahead) == []
+
+
+@many
+@given(long_runs())
+def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
+    problem = problem_of(run)
+    for value, stretch in stretches(problem, run)[:2]:
+        closed = close_stretch(problem, run, stretch)
+        if closed is not None:
+            assert float(problem.value(closed)) <= value + 1e-9
+            assert value <= problem.bound + Fraction(1, 10**9)

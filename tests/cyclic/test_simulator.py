@@ -1,0 +1,103 @@
+"""Simulations of repeated laps: the kernel against slow rules, and what follows a recurrence."""
+
+import random
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rightofway.cyclic.pattern import pattern_of
+from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
+from rightofway.cyclic.rules import NATIVE_RULES, RULES
+from rightofway.cyclic.run import Simulation, simulation_of
+from rightofway.cyclic.simulator import Deadlock
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Rules, Scenario
+from rightofway.planners import Deadline
+from tests.builders.fleets import fleet_on, random_grid
+from tests.oracles.lap_rules import rolling
+
+some_rules = st.sampled_from(
+    [
+        Rules(),
+        Rules(headway=1),  # type: ignore[arg-type]
+        Rules(occupancy="both"),
+        Rules(rotations=False),
+        Rules(headway=1, occupancy="both"),  # type: ignore[arg-type]
+    ]
+)
+
+
+def groups_of(
+    draw: random.Random, *, size: int, robots: int, walls: float, rules: Rules
+) -> list[GroupContext]:
+    """Return the groups of a random fleet, on any routes; none if a robot has nowhere to go."""
+    grid = random_grid(draw, size=size, walls=walls)
+    try:
+        scenario: Scenario = fleet_on(grid, draw, robots=robots, rules=rules)
+        groups = independent_groups(cyclic_routes(scenario, draw.choice(ROUTES)))
+    except (InputError, NoPlanExists, ValueError):
+        assume(False)
+    return [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]
+
+
+def outcome(simulation: Simulation) -> tuple[int, int] | Deadlock | None:
+    """Return two ticks with one state, a deadlock, or None if it takes long."""
+    try:
+        return simulation.advance(Deadline.after(2))
+    except Deadlock as deadlock:
+        return deadlock
+    except GaveUp:
+        return None
+
+
+@pytest.mark.parametrize("rule", NATIVE_RULES)
+@settings(max_examples=150, deadline=None)
+@given(seed=st.integers(0, 2**32), rules=some_rules)
+def test_the_kernel_decides_as_one_window_after_the_other_does(
+    rule: str, seed: int, rules: Rules
+) -> None:
+    """On crowded floors: many simulations take windows back, and many end in a deadlock."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    groups = groups_of(
+        draw, size=draw.randint(3, 7), robots=draw.randint(2, 10), walls=0.1, rules=rules
+    )
+    for context in groups:
+        slow, fast = rolling(context, rule), simulation_of(context, rule)
+        expected, found = outcome(slow), outcome(fast)
+        if expected is None or found is None:
+            continue
+        if isinstance(expected, Deadlock):
+            assert isinstance(found, Deadlock)
+            assert vars(found) == vars(expected)
+        else:
+            assert found == expected
+        assert [list(past) for past in fast.history] == [list(past) for past in slow.history]
+
+
+@pytest.mark.parametrize("rule", RULES)
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32), rules=some_rules)
+def test_what_follows_a_recurrence_is_the_pattern(rule: str, seed: int, rules: Rules) -> None:
+    """The rule continues to decide, without the states seen so far."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    groups = groups_of(
+        draw, size=draw.randint(4, 7), robots=draw.randint(2, 5), walls=0.15, rules=rules
+    )
+    for context in groups:
+        simulation = simulation_of(context, rule)
+        try:
+            recurrence = simulation.advance(Deadline.after(2))
+            pattern = pattern_of(simulation.history, [len(lap) for lap in context.laps], recurrence)
+            simulation.reset_states()
+            simulation.advance(Deadline.after(2))
+        except (Deadlock, GaveUp):
+            continue
+        for robot, past in enumerate(simulation.history):
+            known = len(pattern.history[robot])
+            if pattern.counts[robot]:
+                assert list(past[known:]) == [
+                    pattern.enter(robot, visit) for visit in range(known, len(past))
+                ]
+            else:
+                assert len(past) == known
