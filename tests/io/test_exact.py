@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rightofway.io.text.exact import COORDINATE_DIGITS, decimal, exact, whole, written
+from rightofway.io.numbers import COORDINATE_DIGITS, decimal, exact, whole, written
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import pytest
 import yaml
 
 from rightofway.errors import InputError
-from rightofway.io.text.json_text import parse_json
-from rightofway.io.text.yaml_text import MAX_ALIASED, parse_yaml
+from rightofway.io.text import parse_json
+from rightofway.io.yaml_text import MAX_ALIASED, parse_yaml
 
 
 @pytest.fixture(params=["CSafeLoader", "SafeLoader"])

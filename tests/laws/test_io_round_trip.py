@@ -18,7 +18,7 @@ from rightofway.io import (
     save_scenario,
     scenario_of,
 )
-from rightofway.io.text.exact import exact, written
+from rightofway.io.numbers import exact, written
 from rightofway.model import (
     Decision,
     Edge,

@@ -14,7 +14,7 @@ from rightofway.bench.fleets import scenario_document
 from rightofway.bench.suite import Fleet, Suite
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
-from rightofway.io.text.exact import written
+from rightofway.io.numbers import written
 from rightofway.model import Scenario
 
 __all__ = ["Case", "cases_of"]

@@ -77,9 +77,9 @@ def width() -> int:
 
 def read_scenario(path: str) -> Scenario:
     """Read a scenario and pass on what its reader has to say; ``-`` is standard input."""
-    from rightofway.io import read
+    from rightofway.io import load_with_notes
 
-    return _noted(read(path), path)
+    return _noted(load_with_notes(path), path)
 
 
 def read_plan(path: str) -> Plan:
@@ -91,9 +91,9 @@ def read_plan(path: str) -> Plan:
 
 def read_either(path: str) -> Plan | Scenario:
     """Read a plan or a scenario, whichever it is; ``-`` is standard input."""
-    from rightofway.io import Loaded, read_either
+    from rightofway.io import Loaded, load_either
 
-    found = read_either(path)
+    found = load_either(path)
     return _noted(found, path) if isinstance(found, Loaded) else found
 
 

@@ -10,9 +10,9 @@ from itertools import chain
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.text.exact import exact
-from rightofway.model import NEVER, Clock, Scenario
-from rightofway.precedence import DelayModel, Stoppage
+from rightofway.io.numbers import exact
+from rightofway.model import NEVER, Clock, Scenario, Tick
+from rightofway.precedence import DelayModel
 
 __all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
 

@@ -19,9 +19,9 @@ from pydantic import (
     WithJsonSchema,
 )
 
+from rightofway.io.faults import is_printable, shown
+from rightofway.io.numbers import COORDINATE_DIGITS, DIGITS, PATTERN, exact
 from rightofway.io.scenario import places
-from rightofway.io.text.exact import COORDINATE_DIGITS, DIGITS, PATTERN, exact
-from rightofway.io.words import is_printable, shown
 
 __all__ = [
     "LEFT_OUT",

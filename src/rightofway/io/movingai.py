@@ -16,12 +16,11 @@ from pathlib import Path
 
 from rightofway.errors import InputError, InputFault
 from rightofway.files import write_whole
-from rightofway.io.faults import Faults, blaming
-from rightofway.io.text.files import read_text
-from rightofway.io.words import shown
+from rightofway.io.faults import Faults, blaming, shown
+from rightofway.io.text import read_text
 from rightofway.model import Grid, Roadmap, Scenario
 
-__all__ = ["ScenRow", "read_map", "read_scen", "write_map", "write_scen"]
+__all__ = ["ScenRow", "load_map", "load_scen", "save_map", "save_scen"]
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -51,7 +50,7 @@ class ScenRow:
     goal: tuple[int, int]
 
 
-def read_map(path: Path) -> tuple[str, ...]:
+def load_map(path: Path) -> tuple[str, ...]:
     """Return the rows of a `.map` file.
 
     Raises
@@ -111,7 +110,7 @@ def _check_rows(rows: tuple[str, ...], height: int, width: int, header: int) -> 
     faults.stop()
 
 
-def read_scen(path: Path) -> tuple[ScenRow, ...]:
+def load_scen(path: Path) -> tuple[ScenRow, ...]:
     """Return the rows of a `.scen` file.
 
     Raises
@@ -157,7 +156,7 @@ def _scen_row(line: int, text: str) -> ScenRow:
     )
 
 
-def write_map(roadmap: Roadmap, path: Path | str) -> None:
+def save_map(roadmap: Roadmap, path: Path | str) -> None:
     """Write a grid as a `.map` file.
 
     Raises
@@ -170,7 +169,7 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     write_whole(path, "\n".join((*header, *grid.lines())) + "\n")
 
 
-def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
+def save_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
     """Write the homes and targets of a fleet as a `.scen` file.
 
     Parameters

@@ -11,9 +11,9 @@ import numpy as np
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
+from rightofway.io.numbers import written
 from rightofway.io.scenario.writer import dump_scenario
-from rightofway.io.text.exact import written
-from rightofway.io.text.json_layout import Rendered, json_line, json_text
+from rightofway.io.text import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 
 __all__ = ["dump_plan", "plan_text", "save_plan"]

@@ -1,4 +1,4 @@
-"""Places as users write them, found on the map; or a sentence on what is there instead."""
+"""Places as users write them, found on the map."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from numbers import Integral
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.io.scenario.ground import Ground
-from rightofway.io.words import is_printable, nearest, shown
+from rightofway.io.faults import is_printable, nearest, shown
+from rightofway.io.scenario.maps import LoadedMap
 from rightofway.model import Floor, Grid, Roadmap, VertexId
 
 __all__ = ["Place", "as_place", "find_place"]
@@ -21,7 +21,7 @@ LONGEST_NUMBER = 18
 
 
 def as_place(value: object) -> Place | None:
-    """Return a value of a document as a place, or None if it has not the shape of one."""
+    """Return a value of a document as a place, or None if it does not have a place's shape."""
     if isinstance(value, str) and is_printable(value):
         return value
     if isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_whole, value)):  # noqa: PLR2004 - row and column
@@ -34,31 +34,35 @@ def _is_whole(value: object) -> bool:
     return isinstance(value, Integral) and not isinstance(value, bool)
 
 
-def find_place(place: Place, ground: Ground) -> VertexId:
+def find_place(place: Place, on: LoadedMap) -> VertexId:
     """Return the vertex at a place.
 
     Parameters
     ----------
     place
-        Where.
-    ground
+        The place as a document has it.
+    on
         The map.
 
     Raises
     ------
     InputError
-        If the place is outside the map, blocked, or not known; saying what is there.
+        If the place is outside the map, blocked, or not known; the message says what is there.
     """
-    grid = ground.roadmap.grid
+    grid = on.roadmap.grid
     if grid is None:
-        return _named(place, ground.roadmap)
+        return _named(place, on.roadmap)
     row, column = place if isinstance(place, tuple) else _numbered(place, grid)
     if not (0 <= row < grid.rows and 0 <= column < grid.columns):
         limits = f"rows are 0 to {grid.rows - 1}, columns 0 to {grid.columns - 1}"
         raise InputError.at("", f"{_written(place)} is outside the map ({limits})")
     vertex = int(grid.vertex_at[row * grid.columns + column])
     if vertex < 0:
-        raise InputError.at("", _blocked(place, row, column, ground, grid))
+        what = _obstacle(row, column, on.floor, grid) if on.floor else ""
+        at = "" if isinstance(place, tuple) else f", row {row}, column {column},"
+        by = what or repr(on.lines[row][column])
+        free = _free_cell(row, column, grid)
+        raise InputError.at("", f"{_written(place)}{at} is blocked by {by} ({free} is free)")
     return VertexId(vertex)
 
 
@@ -87,13 +91,6 @@ def _numbered(place: str, grid: Grid) -> tuple[int, int]:
 
 def _written(place: Place) -> str:
     return place if isinstance(place, str) else f"[{shown(place[0])}, {shown(place[1])}]"
-
-
-def _blocked(place: Place, row: int, column: int, ground: Ground, grid: Grid) -> str:
-    there = _obstacle(row, column, ground.floor, grid) if ground.floor else ""
-    what = there or repr(ground.lines[row][column])
-    at = "" if isinstance(place, tuple) else f", row {row}, column {column},"
-    return f"{_written(place)}{at} is blocked by {what} ({_free_cell(row, column, grid)} is free)"
 
 
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:

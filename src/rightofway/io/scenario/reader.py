@@ -1,46 +1,53 @@
-"""Scenario documents, read: every fault at once, or a scenario that is valid by construction."""
+"""Scenario documents, read: every fault at once, or a scenario that is valid by construction.
+
+A file becomes plain data (`read_document`), the data become checked parts (`shape`), the parts a
+`Scenario`. Each step notes its faults and goes on with the parts that have none.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import cycle
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError, InputFault
-from rightofway.io.faults import Faults, blaming, checked, checked_format
-from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.scenario.classic import classic_document, classic_fault
-from rightofway.io.scenario.draft import Draft
-from rightofway.io.scenario.ground import Ground
-from rightofway.io.scenario.maps import ground_of
-from rightofway.io.scenario.robots import fleet_of
-from rightofway.io.text.documents import read_document
-from rightofway.io.words import shown
-from rightofway.model import Robot, Rules, Scenario
+from rightofway.io.faults import Faults, blaming, checked, shown, under
+from rightofway.io.formats import SCENARIO_FORMAT, checked_format
+from rightofway.io.movingai import ScenRow, load_scen
+from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.scenario.places import Place, as_place, find_place
+from rightofway.io.text import read_document
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
-__all__ = ["MAX_STAGES", "Loaded", "load", "read", "read_scenario", "scenario_of"]
+if TYPE_CHECKING:
+    from rightofway.io.scenario.shape import FleetDocument, TripDocument
+
+__all__ = ["MAX_STAGES", "Loaded", "load", "load_with_notes", "read_scenario", "scenario_of"]
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
 
 MAX_TICKS = 2**40
-"""The longest duration of a scenario; routes of any length then stay within 64 bits."""
+"""Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
+
+DEFAULT_SPEED = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loaded:
-    """A scenario, and what its reader has to say about it.
+    """A scenario, and notes of its reader.
 
     Attributes
     ----------
     scenario
         The scenario.
     notes
-        Sentences for the user: what a floor was cut into, whether durations are rounded.
+        Sentences for the user: how a floor was cut into cells, whether durations are rounded.
     """
 
     scenario: Scenario
@@ -48,12 +55,7 @@ class Loaded:
 
 
 def load(path: Path | str) -> Scenario:
-    """Return the scenario of a file; see `read`."""
-    return read(path).scenario
-
-
-def read(path: Path | str) -> Loaded:
-    """Read a scenario file.
+    """Return the scenario of a file.
 
     Parameters
     ----------
@@ -66,20 +68,16 @@ def read(path: Path | str) -> Loaded:
     InputError
         With every independent fault, its place, value and remedy.
     """
+    return load_with_notes(path).scenario
+
+
+def load_with_notes(path: Path | str) -> Loaded:
+    """Return the scenario of a file with the notes of its reader; otherwise as `load`."""
     path = Path(path)
-    if path.suffix.lower() == ".scen":
-        return _read_classic(path)
     with blaming(str(path)):
+        if path.suffix.lower() == ".scen":
+            return _classic(path)
         return read_scenario(read_document(path), path.parent)
-
-
-def _read_classic(path: Path) -> Loaded:
-    document = classic_document(path)
-    try:
-        return read_scenario(document, path.parent)
-    except InputError as error:
-        faults = (classic_fault(fault, path) for fault in error.faults)
-        raise InputError(faults, str(path)) from None
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -93,7 +91,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
     base
         The directory that files in it are relative to; None if it may name none.
     source
-        What faults are said to be in.
+        The name of the document in messages.
 
     Raises
     ------
@@ -105,49 +103,229 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
 
 
 def read_scenario(document: Any, base: Path | None) -> Loaded:
-    """Return a scenario and notes on it: the work behind `read` and `scenario_of`."""
-    from rightofway.io.scenario.shape import ScenarioFrame
+    """Return the scenario of a document with notes; the work behind `load` and `scenario_of`."""
+    from rightofway.io.scenario.shape import MapDocument, RulesDocument, ScenarioFrame
+
+    def rules_of(data: Any) -> Rules:
+        given = checked(RulesDocument, data).given
+        return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+
+    def loaded_map_of(data: Any) -> LoadedMap | None:
+        return map_of(checked(MapDocument, data), speeds, base)
 
     document = checked_format(document, SCENARIO_FORMAT)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
-    rules = faults.part(document, "rules", _rules) or Rules()
-    fleet = fleet_of(document["robots"], base, faults) if "robots" in document else None
-    speeds = fleet.speeds() if fleet else None
-    ground = faults.part(document, "map", _ground, speeds, base)
-    drafts = fleet.drafts(ground, faults) if fleet and ground else []
-    scenario = _assembled(ground, drafts, rules, faults) if drafts and ground else None
+    rules = faults.part(document, "rules", rules_of) or Rules()
+    entries = faults.part(document, "robots", _entries, base, faults) or []
+    known = [entry.speed for entry in entries if entry.speed is not None]
+    speeds = known if len(known) == len(entries) else None
+    loaded = faults.part(document, "map", loaded_map_of)
+    placed = _placed(entries, loaded, faults) if loaded else []
+    scenario = _assembled(loaded.roadmap, placed, rules, faults) if loaded and placed else None
     faults.stop(document)
+    assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    assert ground is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*ground.notes(), *_clock_notes(scenario)))
+    return Loaded(scenario=scenario, notes=(*loaded.notes(), *_clock_notes(scenario)))
 
 
-def _rules(data: Any) -> Rules:
-    from rightofway.io.scenario.shape import RulesDocument
+def _classic(path: Path) -> Loaded:
+    """Return the scenario of all rows of a `.scen` file."""
+    map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
+    beside = [Path(map_name), Path("..", "maps", map_name)]
+    found = next((each for each in beside if (path.parent / each).is_file()), None)
+    if found is None:
+        message = f"its map {map_name!r} is neither beside it nor in ../maps (put it there)"
+        raise InputError.at("", message)
+    document = {
+        "format": SCENARIO_FORMAT,
+        "map": {"file": str(found)},
+        "robots": {"scen": path.name},
+        "rules": {"turn": 0, "return": "none"},
+    }
+    try:
+        return read_scenario(document, path.parent)
+    except InputError as error:  # places in the document mean nothing to the user of the file
+        raise InputError(
+            InputFault("", fault.message.removeprefix(f"{path}: "))
+            if fault.place == "robots.scen"
+            else fault
+            for fault in error.faults
+        ) from None
 
-    document = checked(RulesDocument, data)
-    return Rules(**document.given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Entry:
+    """A robot of a document, its places not yet found on the map.
+
+    Attributes
+    ----------
+    place
+        Where the document speaks of the robot: ``robots[3]``.
+    places
+        Home and stops: the key of each, and the place as it is written.
+    name, works, own
+        Its name, its work time at each stop [time unit], its own rules.
+    speed
+        Length units per time unit; None for a robot with faults, of which only places are read.
+    aliases
+        Places in the document of values that the model finds at the robot.
+    row, file
+        Row of the `.scen` file that it stands on, if any.
+    """
+
+    place: str
+    places: Sequence[tuple[str, Place]]
+    name: str = ""
+    works: Sequence[Fraction] = ()
+    own: Mapping[str, Any] = field(default_factory=dict)
+    speed: Fraction | None = None
+    aliases: Mapping[str, str] = field(default_factory=dict)
+    row: ScenRow | None = None
+    file: Path | None = None
 
 
-def _ground(data: Any, speeds: Sequence[Fraction] | None, base: Path | None) -> Ground | None:
-    from rightofway.io.scenario.shape import MapDocument
+def _entries(data: Any, base: Path | None, faults: Faults) -> list[_Entry]:
+    from rightofway.io.scenario.shape import FleetDocument
 
-    return ground_of(checked(MapDocument, data), speeds, base)
+    if isinstance(data, dict):
+        return _entries_of_rows(checked(FleetDocument, data), base)
+    if not isinstance(data, list) or not data:
+        message = f"{shown(data)} is no fleet (give a list of robots, or {{scen: a file}})"
+        raise InputError.at("", message)
+    return [_entry(f"robots[{index}]", robot, faults) for index, robot in enumerate(data)]
+
+
+def _entry(place: str, data: Any, faults: Faults) -> _Entry:
+    from rightofway.io.scenario.shape import RobotDocument
+
+    document = faults.attempt(place, checked, RobotDocument, data)
+    if document is None:
+        return _Entry(place=place, places=list(_readable_places(data)))
+    if document.stops is None:
+        stops = [("target", document.target, document.work)]
+    else:
+        stops = [(f"stops[{i}].at", stop.at, stop.work) for i, stop in enumerate(document.stops)]
+    return _Entry(
+        place=place,
+        places=[("home", document.home), *((key, at) for key, at, _ in stops)],
+        name=document.name,
+        works=[work or Fraction(0) for _, _, work in stops],
+        own=document.given("turn", "ends", "laps"),
+        speed=document.speed or DEFAULT_SPEED,
+        aliases={"laps": _place_of_laps(document, place)},
+    )
+
+
+def _readable_places(data: Any) -> Iterator[tuple[str, Place]]:
+    """Yield the places of a robot with faults, so that all its faults are reported at once."""
+    robot = data if isinstance(data, dict) else {}
+    stops = robot.get("stops")
+    written = [("home", robot.get("home")), ("target", robot.get("target"))]
+    for index, stop in enumerate(stops if isinstance(stops, list) else ()):
+        written.append((f"stops[{index}].at", stop.get("at") if isinstance(stop, dict) else None))
+    for key, value in written:
+        place = as_place(value)
+        if place is not None:
+            yield key, place
+
+
+def _place_of_laps(document: TripDocument, place: str) -> str:
+    """Return where the document asks a robot without a way back for several laps."""
+    if document.laps is not None:
+        return f"{place}.laps"
+    return "rules.laps" if document.ends is None else f"{place}.return"
+
+
+def _entries_of_rows(document: FleetDocument, base: Path | None) -> list[_Entry]:
+    """Return robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt in turn."""
+    with under("scen"):
+        file = file_beside(base, document.scen)
+        rows = load_scen(file)
+    if document.count is not None and document.count > len(rows):
+        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
+        raise InputError.at("count", message)
+    speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
+    aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
+    return [
+        _Entry(
+            place="robots.scen",
+            places=[(f"line {row.line}, start", row.start), (f"line {row.line}, goal", row.goal)],
+            name=f"R{number}",
+            works=[work],
+            own=document.given("turn", "ends", "laps"),
+            speed=speed,
+            aliases=aliases,
+            row=row,
+            file=file,
+        )
+        for number, (row, speed, work) in enumerate(
+            zip(rows[: document.count], speeds, works, strict=False), start=1
+        )
+    ]
+
+
+def _placed(entries: Sequence[_Entry], on: LoadedMap, faults: Faults) -> list[tuple[_Entry, Robot]]:
+    """Return the robots that can be placed on a map; note why others cannot."""
+    placed: list[tuple[_Entry, Robot]] = []
+    lines: dict[tuple[int, int], int] = {}  # of rows, by start
+    for entry in entries:
+        if entry.row and not faults.attempt(entry.place, _fits, entry, on):
+            return []  # further rows are for the same map
+        robot = faults.attempt(entry.place, _robot, entry, on, lines)
+        if robot:
+            placed.append((entry, robot))
+    return placed
+
+
+def _fits(entry: _Entry, on: LoadedMap) -> bool:
+    """Return True for a row made for this map; InputError for others."""
+    row, grid = entry.row, on.roadmap.grid
+    assert row is not None, "only rows are asked"
+    with blaming(str(entry.file)):
+        if grid is None:
+            raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
+        place = f"line {row.line}"
+        if (row.width, row.height) != (grid.columns, grid.rows):
+            size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
+            raise InputError.at(place, f"{size} (give the map it was made for)")
+        name = re.split(r"[\\/]", row.map_name)[-1]
+        if on.file is not None and name != on.file.name:
+            message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
+            raise InputError.at(place, message)
+    return True
+
+
+def _robot(entry: _Entry, on: LoadedMap, lines: dict[tuple[int, int], int]) -> Robot | None:
+    """Return a robot at the vertices of its places; None if it has faults elsewhere."""
+    faults = Faults()
+    with blaming(str(entry.file or "")):
+        found = [faults.attempt(key, find_place, place, on) for key, place in entry.places]
+        row = entry.row
+        if row and None not in found and lines.setdefault(row.start, row.line) != row.line:
+            message = f"line {lines[row.start]} starts there already (a cell holds one robot)"
+            faults.note(f"line {row.line}, start", message)
+        faults.stop()
+    if entry.speed is None:
+        return None
+    home, *targets = (vertex for vertex in found if vertex is not None)
+    stops = tuple(Stop(at=at, work=work) for at, work in zip(targets, entry.works, strict=True))
+    return Robot(name=entry.name, home=home, stops=stops, speed=entry.speed, **entry.own)
 
 
 def _assembled(
-    ground: Ground, drafts: Sequence[Draft], rules: Rules, faults: Faults
+    roadmap: Roadmap, placed: Sequence[tuple[_Entry, Robot]], rules: Rules, faults: Faults
 ) -> Scenario | None:
-    """Return the scenario, or None after noting what the model finds wrong."""
+    """Return the scenario, or None after noting the faults that the model finds."""
+    robots = tuple(robot for _, robot in placed)
     try:
-        _check_stages([draft.robot for draft in drafts], rules)
-        robots = tuple(draft.robot for draft in drafts)
-        scenario = Scenario(roadmap=ground.roadmap, robots=robots, rules=rules)
+        _check_stages(robots, rules)
+        scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules)
         _check_ticks(scenario)
     except InputError as error:
+        entries = [entry for entry, _ in placed]
         for fault in error.faults:
-            faults.note(*_in_document(fault, drafts))
+            faults.note(*_in_document(fault, entries))
         return None
     return scenario
 
@@ -174,21 +352,19 @@ def _check_ticks(scenario: Scenario) -> None:
         raise InputError.at("robots", message)
 
 
-def _in_document(fault: InputFault, drafts: Sequence[Draft]) -> tuple[str, str]:
-    """Return place and message of a model's problem as the document has them.
+def _in_document(fault: InputFault, entries: Sequence[_Entry]) -> tuple[str, str]:
+    """Return place and message of a fault of the model as the document has them.
 
-    The model numbers the robots it was given, which lack those with faults of their own.
+    The model numbers the robots that it was given, among which those with faults are missing.
     """
     found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", fault.place)
     if not found:
         return fault.place, fault.message
-    draft, key = drafts[int(found[1])], found[2]
-    other = re.match(r"(.*) of robots\[(\d+)\] already", fault.message)
-    message = fault.message
+    entry, key, message = entries[int(found[1])], found[2], fault.message
+    other = re.match(r"(.*) of robots\[(\d+)\] already", message)
     if other:
-        twin = drafts[int(other[2])].place
-        message = f"{other[1]} of {twin} already{message[other.end() :]}"
-    return draft.aliases.get(key, f"{draft.place}.{key}"), message
+        message = f"{other[1]} of {entries[int(other[2])].place} already{message[other.end() :]}"
+    return entry.aliases.get(key, f"{entry.place}.{key}"), message
 
 
 def _clock_notes(scenario: Scenario) -> Iterator[str]:

@@ -7,6 +7,7 @@ from typing import Any, Literal, Self
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
 
+from rightofway.io.faults import shown
 from rightofway.io.fields import (
     LEFT_OUT,
     CellSize,
@@ -24,7 +25,6 @@ from rightofway.io.fields import (
     Words,
     described,
 )
-from rightofway.io.words import shown
 from rightofway.model import Occupancy, TripEnd
 
 __all__ = [

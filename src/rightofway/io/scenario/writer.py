@@ -8,8 +8,8 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.text.exact import written
-from rightofway.io.text.json_layout import json_text
+from rightofway.io.numbers import written
+from rightofway.io.text import json_text
 from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
 
 __all__ = ["dump_scenario", "save_scenario"]

@@ -8,12 +8,12 @@ from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational
 
-from rightofway.io.words import shown
+from rightofway.io.faults import shown
 
 __all__ = ["COORDINATE_DIGITS", "DIGITS", "PATTERN", "decimal", "exact", "whole", "written"]
 
 DIGITS = 18
-"""Numerator and denominator of a speed, a length or a time have at most that many digits."""
+"""Most digits of numerator and denominator of a speed, a length or a time."""
 
 COORDINATE_DIGITS = 400
 """The same for coordinates and the tick: any decimal that stands for a float fits in."""
@@ -22,16 +22,16 @@ PATTERN = r"[+-]?([0-9]+/[0-9]+|([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?)"
 """How a number may be written as text; a dialect that JSON Schema understands too."""
 
 LONGEST_TOKEN = 40
-"""A number of more characters stays text when a file is read; whoever needs a number refuses it."""
+"""A number of more characters stays text when a file is read, and is refused as a number."""
 
 LARGEST_EXPONENT = 400
-"""The same for a decimal with a larger exponent."""
+"""A decimal with a larger exponent stays text, too."""
 
 _NUMBER = re.compile(PATTERN.replace("([eE][+-]?[0-9]+)", "([eE](?P<exponent>[+-]?[0-9]+))"))
 
 
 def exact(value: object, *, digits: int = DIGITS) -> Fraction:
-    """Return the number that was written, exactly.
+    """Return a written number exactly.
 
     Parameters
     ----------
@@ -47,29 +47,26 @@ def exact(value: object, *, digits: int = DIGITS) -> Fraction:
         For anything else: words, true and false, NaN, infinity, 1/0, and numbers out of range.
     """
     if isinstance(value, Rational) and not isinstance(value, bool):
-        return _in_range(Fraction(int(value.numerator), int(value.denominator)), value, digits)
+        number = Fraction(int(value.numerator), int(value.denominator))
+    else:
+        number = _parsed(value, digits)
+    if max(abs(number.numerator), number.denominator) > 10**digits:
+        raise _out_of_range(value, digits)
+    return number
+
+
+def _parsed(value: object, digits: int) -> Fraction:
     text = str(value) if isinstance(value, str | Decimal | float) else ""
     match = _NUMBER.fullmatch(text)
     if not match:
         raise ValueError(f"{shown(value)} is not a number (write it like 3, 0.5 or 1/3)")
-    if _is_huge(text, match["exponent"] or "0"):
+    most = 2 * COORDINATE_DIGITS  # computing 1e999999999 would fill the memory
+    if len(text) > most or abs(int(match["exponent"] or "0")) > most:
         raise _out_of_range(value, digits)
     try:
-        return _in_range(Fraction(text), value, digits)
+        return Fraction(text)
     except ZeroDivisionError:
         raise ValueError(f"{shown(value)} divides by zero (give another denominator)") from None
-
-
-def _is_huge(text: str, exponent: str) -> bool:
-    """Return whether computing the number could take long: 1e999999999 would fill the memory."""
-    most = 2 * COORDINATE_DIGITS
-    return len(text) > most or abs(int(exponent)) > most
-
-
-def _in_range(number: Fraction, value: object, digits: int) -> Fraction:
-    if max(abs(number.numerator), number.denominator) > 10**digits:
-        raise _out_of_range(value, digits)
-    return number
 
 
 def _out_of_range(value: object, digits: int) -> ValueError:
@@ -84,7 +81,7 @@ def written(number: Fraction) -> int | str:
 
 
 def whole(token: str) -> int | str:
-    """Return a whole number of a file, or its text where that is too long to be one."""
+    """Return a whole number of a file, or its text where it is too long."""
     return int(token) if len(token) <= LONGEST_TOKEN else token
 
 

@@ -14,10 +14,10 @@ from pydantic import (
     model_validator,
 )
 
+from rightofway.io.faults import shown
 from rightofway.io.fields import LEFT_OUT, Count, Document, Name, Positive, described
+from rightofway.io.numbers import exact
 from rightofway.io.scenario.shape import RulesDocument
-from rightofway.io.text.exact import exact
-from rightofway.io.words import shown
 
 __all__ = ["MAX_SEED", "MapCasesDocument", "PlannerDocument", "SuiteDocument", "SuiteFleetDocument"]
 

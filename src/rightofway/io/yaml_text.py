@@ -1,8 +1,8 @@
 """YAML text to plain data: mappings, lists, text, whole numbers, decimals, true, false, nothing.
 
-Built from the parser's events rather than by its constructors, because those take more than a
-document needs: tags that make objects, keys that are no text, the later of two equal keys, decimals
-as floats, aliases that expand without end.
+Built from the parser's events, not by its constructors: those accept tags that make objects, keys
+that are no text, the later of two equal keys, decimals as floats, and aliases that expand without
+end ("billion laughs").
 """
 
 from __future__ import annotations
@@ -12,14 +12,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.text.exact import decimal, whole
-from rightofway.io.text.json_text import MAX_DEPTH
-from rightofway.io.words import shown
+from rightofway.io.faults import shown
+from rightofway.io.numbers import decimal, whole
 
-__all__ = ["MAX_ALIASED", "parse_yaml"]
+__all__ = ["MAX_ALIASED", "MAX_DEPTH", "parse_yaml"]
 
 MAX_ALIASED = 100_000
 """The most values that may be reached through aliases."""
+
+MAX_DEPTH = 64
+"""Mappings and lists inside each other, at most; ours need a dozen."""
 
 # What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]*)")
