@@ -71,18 +71,7 @@ class Faults:
         self._faults.append(InputFault(place, message))
 
     def stop(self, order: Iterable[str] = ()) -> None:
-        """Raise the noted faults, if there are any.
-
-        Parameters
-        ----------
-        order
-            The keys of the document; faults are listed in the order of their keys.
-
-        Raises
-        ------
-        InputError
-            With every fault once.
-        """
+        """Raise the noted faults, if there are any: each once, in the order of the keys given."""
         if not self._faults:
             return
         ranks = {key: rank for rank, key in enumerate(order)}
@@ -120,13 +109,7 @@ def blaming(source: str) -> Iterator[None]:
 
 
 def checked(model: type[M], data: Any) -> M:
-    """Return data as a pydantic model.
-
-    Raises
-    ------
-    InputError
-        With each fault that pydantic finds, in words for the user; places relative to the data.
-    """
+    """Return data as a pydantic model, or raise all its faults in words for the user."""
     from pydantic import ValidationError
 
     try:

@@ -15,13 +15,7 @@ SUITE_FORMAT = "rightofway-suite/1"
 
 
 def checked_format(document: Any, known: str) -> dict[str, Any]:
-    """Return a document whose ``format`` is the known one.
-
-    Raises
-    ------
-    InputError
-        If it is another one. No other fault is reported then: the keys of other formats differ.
-    """
+    """Return a document of a known format; InputError, and no other fault, for one that is not."""
     line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
         found = "nothing is in it" if document is None else f"{shown(document)} is no document"

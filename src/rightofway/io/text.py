@@ -1,7 +1,7 @@
 """Text files to plain data and back: UTF-8, JSON and TOML read strictly, JSON laid out for people.
 
-Plain data are mappings, lists, text, whole numbers, decimals, true, false and nothing. YAML has a
-module of its own.
+Plain data are mappings, lists, text, whole numbers, decimals, true, false and nothing. Whatever a
+file holds instead is an InputError with its place. YAML has a module of its own.
 """
 
 from __future__ import annotations
@@ -32,13 +32,7 @@ _TOML_PLACE = re.compile(r"(?P<what>.*) \((?P<place>at .*)\)", re.DOTALL)
 
 
 def read_document(path: Path) -> Any:
-    """Return the data of a YAML or JSON file, told apart by its name, else by its first character.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or is neither.
-    """
+    """Return the data of a YAML or JSON file, told apart by its name, else by its start."""
     text = read_text(path)
     suffix = path.suffix.lower()
     if suffix == ".map":
@@ -53,13 +47,7 @@ def read_document(path: Path) -> Any:
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is empty, too long, or no UTF-8 text.
-    """
+    """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
     try:
         data = _read(path, MAX_BYTES + 1)
@@ -104,13 +92,7 @@ def _decoded(data: bytes, source: str) -> str:
 
 
 def parse_json(text: str) -> Any:
-    """Return the data of a JSON text, decimals exactly as they are written.
-
-    Raises
-    ------
-    InputError
-        For a fault in the syntax, a key given twice, or too deep a nesting.
-    """
+    """Return the data of a JSON text; no key may be given twice, nor be nested too deeply."""
     doubled: list[tuple[dict[str, Any], str]] = []  # mappings, each with a key given twice
 
     def mapping_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -197,13 +179,7 @@ def _line(value: Any) -> str:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Return the data of a TOML text, decimals exactly as they are written.
-
-    Raises
-    ------
-    InputError
-        If it is no TOML.
-    """
+    """Return the data of a TOML text."""
     try:
         return tomllib.loads(text, parse_float=decimal)
     except RecursionError:

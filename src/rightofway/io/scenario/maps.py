@@ -71,27 +71,10 @@ class LoadedMap:
 def map_of(
     document: MapDocument, speeds: Sequence[Fraction] | None, base: Path | None
 ) -> LoadedMap | None:
-    """Make the roadmap of a map document.
+    """Make the roadmap of a map document; None where a floor's cells depend on unknown speeds.
 
-    Parameters
-    ----------
-    document
-        The map.
-    speeds
-        Speeds of the whole fleet [length units per time unit], for node clustering; None where
-        some are unknown.
-    base
-        The directory that files are relative to; None where no file may be read.
-
-    Returns
-    -------
-    LoadedMap or None
-        None where the cells of a floor depend on unknown speeds.
-
-    Raises
-    ------
-    InputError
-        With places relative to the map.
+    The speeds of the whole fleet [length units per time unit] are for node clustering. Files are
+    relative to the directory ``base``; without one, none may be read.
     """
     if document.roadmap is not None:
         with under("roadmap"):
@@ -111,13 +94,7 @@ def map_of(
 
 
 def file_beside(base: Path | None, name: str) -> Path:
-    """Return the path of a file that a document names.
-
-    Raises
-    ------
-    InputError
-        If the document is in no directory, and so may read no file.
-    """
+    """Return the path of a file that a document names; InputError for a document in no file."""
     if base is None:
         message = f"{shown(name)} is relative to no file (write the contents into the document)"
         raise InputError.at("", message)

@@ -35,20 +35,7 @@ def _is_whole(value: object) -> bool:
 
 
 def find_place(place: Place, on: LoadedMap) -> VertexId:
-    """Return the vertex at a place.
-
-    Parameters
-    ----------
-    place
-        The place as a document has it.
-    on
-        The map.
-
-    Raises
-    ------
-    InputError
-        If the place is outside the map, blocked, or not known; the message says what is there.
-    """
+    """Return the vertex at a place of a map, or raise an InputError that says what is there."""
     grid = on.roadmap.grid
     if grid is None:
         return _named(place, on.roadmap)

@@ -156,32 +156,16 @@ def _classic(path: Path) -> Loaded:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Entry:
-    """A robot of a document, its places not yet found on the map.
+    """A robot of a document, its places not yet found on the map."""
 
-    Attributes
-    ----------
-    place
-        Where the document speaks of the robot: ``robots[3]``.
-    places
-        Home and stops: the key of each, and the place as it is written.
-    name, works, own
-        Its name, its work time at each stop [time unit], its own rules.
-    speed
-        Length units per time unit; None for a robot with faults, of which only places are read.
-    aliases
-        Places in the document of values that the model finds at the robot.
-    row, file
-        Row of the `.scen` file that it stands on, if any.
-    """
-
-    place: str
-    places: Sequence[tuple[str, Place]]
+    place: str  # of the robot in the document: robots[3]
+    places: Sequence[tuple[str, Place]]  # home and stops: the key and the place as written
     name: str = ""
-    works: Sequence[Fraction] = ()
-    own: Mapping[str, Any] = field(default_factory=dict)
-    speed: Fraction | None = None
-    aliases: Mapping[str, str] = field(default_factory=dict)
-    row: ScenRow | None = None
+    works: Sequence[Fraction] = ()  # work time at each stop [time unit]
+    own: Mapping[str, Any] = field(default_factory=dict)  # rules of its own
+    speed: Fraction | None = None  # None for a robot with faults, of which only places are read
+    aliases: Mapping[str, str] = field(default_factory=dict)  # keys that stand elsewhere
+    row: ScenRow | None = None  # of the .scen file that the robot is from
     file: Path | None = None
 
 
@@ -224,10 +208,7 @@ def _readable_places(data: Any) -> Iterator[tuple[str, Place]]:
     written = [("home", robot.get("home")), ("target", robot.get("target"))]
     for index, stop in enumerate(stops if isinstance(stops, list) else ()):
         written.append((f"stops[{index}].at", stop.get("at") if isinstance(stop, dict) else None))
-    for key, value in written:
-        place = as_place(value)
-        if place is not None:
-            yield key, place
+    yield from ((key, place) for key, value in written if (place := as_place(value)) is not None)
 
 
 def _place_of_laps(document: TripDocument, place: str) -> str:
