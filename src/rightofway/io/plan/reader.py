@@ -204,15 +204,12 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     document = checked(PlannerDocument, data)
     if names is None:
         return None
-    faults = Faults()
-    decisions = [
-        faults.attempt(f"decisions[{index}]", _decision, each, names)
-        for index, each in enumerate(document.decisions)
-    ]
-    reroutes = [
-        faults.attempt(f"reroutes[{index}]", _reroute, each, names)
-        for index, each in enumerate(document.reroutes)
-    ]
+    faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute | None]()
+    for index, decision in enumerate(document.decisions):
+        place = f"decisions[{index}]"
+        decisions.append(faults.attempt(place, _decision, decision, names))
+    for index, reroute in enumerate(document.reroutes):
+        reroutes.append(faults.attempt(f"reroutes[{index}]", _reroute, reroute, names))
     faults.stop()
     return PlannerRun(
         name=document.name,

@@ -59,14 +59,6 @@ class LoadedMap:
     floor: Floor | None = None
     file: Path | None = None
 
-    def notes(self) -> tuple[str, ...]:
-        """Return sentences on what was made of the document."""
-        grid = self.roadmap.grid
-        if self.floor is None or grid is None:
-            return ()
-        cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        return (f"floor cut into {cells} cells of {grid.cell_size}",)
-
 
 def map_of(
     document: MapDocument, speeds: Sequence[Fraction] | None, base: Path | None

@@ -126,7 +126,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*loaded.notes(), *_clock_notes(scenario)))
+    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
 
 
 def _classic(path: Path) -> Loaded:
@@ -251,7 +251,7 @@ def _placed(entries: Sequence[_Entry], on: LoadedMap, faults: Faults) -> list[tu
     placed: list[tuple[_Entry, Robot]] = []
     lines: dict[tuple[int, int], int] = {}  # of rows, by start
     for entry in entries:
-        if entry.row and not faults.attempt(entry.place, _fits, entry, on):
+        if entry.row and not faults.attempt(entry.place, _fits, entry.row, entry.file, on):
             return []  # further rows are for the same map
         robot = faults.attempt(entry.place, _robot, entry, on, lines)
         if robot:
@@ -259,21 +259,19 @@ def _placed(entries: Sequence[_Entry], on: LoadedMap, faults: Faults) -> list[tu
     return placed
 
 
-def _fits(entry: _Entry, on: LoadedMap) -> bool:
+def _fits(row: ScenRow, file: Path | None, on: LoadedMap) -> bool:
     """Return True for a row made for this map; InputError for others."""
-    row, grid = entry.row, on.roadmap.grid
-    assert row is not None, "only rows are asked"
-    with blaming(str(entry.file)):
-        if grid is None:
-            raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
-        place = f"line {row.line}"
-        if (row.width, row.height) != (grid.columns, grid.rows):
-            size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
-            raise InputError.at(place, f"{size} (give the map it was made for)")
-        name = re.split(r"[\\/]", row.map_name)[-1]
-        if on.file is not None and name != on.file.name:
-            message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
-            raise InputError.at(place, message)
+    grid, place, source = on.roadmap.grid, f"line {row.line}", str(file)
+    if grid is None:
+        message = "its rows need a grid (give the map as grid, file or floor)"
+        raise InputError.at("", message, source)
+    if (row.width, row.height) != (grid.columns, grid.rows):
+        size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
+        raise InputError.at(place, f"{size} (give the map it was made for)", source)
+    name = re.split(r"[\\/]", row.map_name)[-1]
+    if on.file is not None and name != on.file.name:
+        message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
+        raise InputError.at(place, message, source)
     return True
 
 
@@ -299,8 +297,11 @@ def _assembled(
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(robot for _, robot in placed)
+    stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
     try:
-        _check_stages(robots, rules)
+        if stages > MAX_STAGES:
+            message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
+            raise InputError.at("robots", f"{message} (give fewer laps)")
         scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules)
         _check_ticks(scenario)
     except InputError as error:
@@ -309,15 +310,6 @@ def _assembled(
             faults.note(*_in_document(fault, entries))
         return None
     return scenario
-
-
-def _check_stages(robots: Sequence[Robot], rules: Rules) -> None:
-    stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
-    if stages > MAX_STAGES:
-        message = (
-            f"{stages} stops and ways home in all laps, more than {MAX_STAGES} (give fewer laps)"
-        )
-        raise InputError.at("robots", message)
 
 
 def _check_ticks(scenario: Scenario) -> None:
@@ -348,7 +340,11 @@ def _in_document(fault: InputFault, entries: Sequence[_Entry]) -> tuple[str, str
     return entry.aliases.get(key, f"{entry.place}.{key}"), message
 
 
-def _clock_notes(scenario: Scenario) -> Iterator[str]:
+def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
+    grid = loaded.roadmap.grid
+    if loaded.floor and grid:
+        cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
+        yield f"floor cut into {cells} cells of {grid.cell_size}"
     if not scenario.problem.clock.exact:
         yield (
             f"durations are rounded up to 1/{MAX_TICKS_OF_SHORTEST} of the shortest;"
