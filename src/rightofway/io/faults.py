@@ -108,18 +108,27 @@ def blaming(source: str) -> Iterator[None]:
         raise InputError(error.faults, error.source or source) from None
 
 
-def checked(model: type[M], data: Any) -> M:
-    """Return data as a pydantic model, or raise all its faults in words for the user."""
+def checked(model: type[M], data: Any, context: Any = None) -> M:
+    """Return data as a pydantic model, or raise all its faults in words for the user.
+
+    Names and places in the data are looked up in the context.
+    """
     from pydantic import ValidationError
 
     try:
-        return model.model_validate(data)
+        return model.model_validate(data, context=context)
     except ValidationError as error:
         faults = error.errors()
-    raise InputError(
-        InputFault(place_of(part for part in fault["loc"] if part != "[key]"), _said(fault, model))
-        for fault in faults
-    )
+    raise InputError(each for fault in faults for each in _translated(fault, model))
+
+
+def _translated(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
+    place = place_of(part for part in details["loc"] if part != "[key]")
+    error = details.get("ctx", {}).get("error")
+    if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
+        yield from (fault.within(place) if place else fault for fault in error.faults)
+    else:
+        yield InputFault(place, _said(details, model))
 
 
 _KINDS = {

@@ -10,12 +10,22 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    ValidationInfo,
+    WithJsonSchema,
+)
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.io.faults import is_printable, shown
 from rightofway.io.numbers import COORDINATE_DIGITS, DIGITS, PATTERN, exact
 from rightofway.io.scenario import places
+from rightofway.model import VertexId
 
 __all__ = [
     "CellSize",
@@ -38,6 +48,7 @@ __all__ = [
     "described",
     "exactly_one_of",
     "optional",
+    "positive",
 ]
 
 MAX_TICK = 2**53 - 1
@@ -112,7 +123,8 @@ def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
     return found[0]
 
 
-def _positive(value: object) -> Fraction:
+def positive(value: object) -> Fraction:
+    """Return a number above 0; ValueError for any other value."""
     number = exact(value)
     if number <= 0:
         raise ValueError(f"{shown(value)} is not positive (give a number above 0)")
@@ -146,7 +158,7 @@ _ANY = _number_schema()
 _NOT_NEGATIVE = _number_schema(minimum=0)
 _POSITIVE = _number_schema(exclusiveMinimum=0)
 
-Positive = Annotated[Fraction, Kind(_positive, _POSITIVE)]
+Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
 TickLength = Annotated[Fraction, Kind(_tick_length, _ANY)]
 Count = Annotated[int, Field(ge=1)]
@@ -165,7 +177,7 @@ def _or_word(word: str, number: Callable[[object], Fraction], schema: Schema) ->
     return Kind(read, {"anyOf": [{"const": word}, schema]})
 
 
-CellSize = Annotated[Fraction | Literal["clustered"], _or_word("clustered", _positive, _POSITIVE)]
+CellSize = Annotated[Fraction | Literal["clustered"], _or_word("clustered", positive, _POSITIVE)]
 Turning = Annotated[Fraction | Literal["cell"], _or_word("cell", _not_negative, _NOT_NEGATIVE)]
 
 
@@ -198,11 +210,12 @@ def _words(value: str) -> str:
     return value
 
 
-def _place(value: object) -> places.Place:
+def _place(value: object, info: ValidationInfo) -> VertexId:
+    """Return the vertex at a place of the map in the context; without one, any vertex."""
     place = places.as_place(value)
     if place is None:
         raise ValueError(f"{shown(value)} is no place (give N<k>, [row, column] or a vertex name)")
-    return place
+    return places.find_place(place, info.context) if info.context else VertexId(0)
 
 
 def _lines(value: object) -> object:
@@ -215,7 +228,7 @@ _TEXTS: Schema = {"type": "array", "items": {"type": "string"}}
 
 Name = Annotated[str, AfterValidator(_name), WithJsonSchema(_TEXT)]
 Words = Annotated[str, AfterValidator(_words)]
-Place = Annotated[places.Place, Kind(_place, {"anyOf": [_TEXT, _CELL]})]
+Place = Annotated[VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL]})]
 Lines = Annotated[
     list[str], BeforeValidator(_lines), WithJsonSchema({"anyOf": [{"type": "string"}, _TEXTS]})
 ]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import cycle
 from pathlib import Path
@@ -19,9 +19,9 @@ from rightofway.io.faults import Faults, blaming, checked, shown, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
-from rightofway.io.scenario.places import Place, as_place, find_place
+from rightofway.io.scenario.places import find_place
 from rightofway.io.text import read_document
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -117,11 +117,13 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", rules_of) or Rules()
-    entries = faults.part(document, "robots", _entries, base, faults) or []
-    known = [entry.speed for entry in entries if entry.speed is not None]
-    speeds = known if len(known) == len(entries) else None
+    robots = faults.part(document, "robots", _written_robots, base) or []
+    speeds = _speeds(robots)
     loaded = faults.part(document, "map", loaded_map_of)
-    placed = _placed(entries, loaded, faults) if loaded else []
+    if not isinstance(robots, _Rows):
+        placed = list(_listed(robots, loaded, faults))
+    else:
+        placed = _dealt(robots, loaded, faults) if loaded else []
     scenario = _assembled(loaded.roadmap, placed, rules, faults) if loaded and placed else None
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
@@ -155,60 +157,52 @@ def _classic(path: Path) -> Loaded:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Entry:
-    """A robot of a document, its places not yet found on the map."""
+class _Rows:
+    """Robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt out in turn."""
 
-    place: str  # of the robot in the document: robots[3]
-    places: Sequence[tuple[str, Place]]  # home and stops: the key and the place as written
-    name: str = ""
-    works: Sequence[Fraction] = ()  # work time at each stop [time unit]
-    own: Mapping[str, Any] = field(default_factory=dict)  # rules of its own
-    speed: Fraction | None = None  # None for a robot with faults, of which only places are read
-    aliases: Mapping[str, str] = field(default_factory=dict)  # keys that stand elsewhere
-    row: ScenRow | None = None  # of the .scen file that the robot is from
-    file: Path | None = None
+    document: FleetDocument
+    file: Path
+    rows: Sequence[ScenRow]
 
 
-def _entries(data: Any, base: Path | None, faults: Faults) -> list[_Entry]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Placed:
+    """A robot, its place in the document, and keys of it that stand elsewhere."""
+
+    robot: Robot
+    place: str
+    aliases: Mapping[str, str]
+
+
+def _written_robots(data: Any, base: Path | None) -> Sequence[Any] | _Rows:
+    """Return robots as they are listed, or the rows of a file that they stand on."""
     from rightofway.io.scenario.shape import FleetDocument
 
-    if isinstance(data, dict):
-        return _entries_of_rows(checked(FleetDocument, data), base)
-    if not isinstance(data, list) or not data:
+    if isinstance(data, list) and data:
+        return data
+    if not isinstance(data, dict):
         message = f"{shown(data)} is no fleet (give a list of robots, or {{scen: a file}})"
         raise InputError.at("", message)
-    return [_entry(f"robots[{index}]", robot, faults) for index, robot in enumerate(data)]
+    document = checked(FleetDocument, data)
+    with under("scen"):
+        file = file_beside(base, document.scen)
+        rows = load_scen(file)
+    if document.count is not None and document.count > len(rows):
+        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
+        raise InputError.at("count", message)
+    return _Rows(document=document, file=file, rows=rows[: document.count])
 
 
-def _entry(place: str, data: Any, faults: Faults) -> _Entry:
-    from rightofway.io.scenario.shape import RobotDocument
+def _speeds(robots: Sequence[Any] | _Rows) -> list[Fraction] | None:
+    """Return the speeds of all robots, or None if some cannot be read."""
+    from rightofway.io.fields import positive
 
-    document = faults.attempt(place, checked, RobotDocument, data)
-    if document is None:
-        return _Entry(place=place, places=list(_readable_places(data)))
-    if document.stops is None:
-        stops = [("target", document.target, document.work)]
-    else:
-        stops = [(f"stops[{i}].at", stop.at, stop.work) for i, stop in enumerate(document.stops)]
-    return _Entry(
-        place=place,
-        places=[("home", document.home), *((key, at) for key, at, _ in stops)],
-        name=document.name,
-        works=[work or Fraction(0) for _, _, work in stops],
-        own=document.given("turn", "ends", "laps"),
-        speed=document.speed or DEFAULT_SPEED,
-        aliases={"laps": _place_of_laps(document, place)},
-    )
-
-
-def _readable_places(data: Any) -> Iterator[tuple[str, Place]]:
-    """Yield the places of a robot with faults, so that all its faults are reported at once."""
-    robot = data if isinstance(data, dict) else {}
-    stops = robot.get("stops")
-    written = [("home", robot.get("home")), ("target", robot.get("target"))]
-    for index, stop in enumerate(stops if isinstance(stops, list) else ()):
-        written.append((f"stops[{index}].at", stop.get("at") if isinstance(stop, dict) else None))
-    yield from ((key, place) for key, value in written if (place := as_place(value)) is not None)
+    if isinstance(robots, _Rows):
+        return (robots.document.speeds or [DEFAULT_SPEED])[: len(robots.rows)]
+    try:
+        return [positive(robot.get("speed", DEFAULT_SPEED)) for robot in robots]
+    except (AttributeError, ValueError):
+        return None
 
 
 def _place_of_laps(document: TripDocument, place: str) -> str:
@@ -218,85 +212,73 @@ def _place_of_laps(document: TripDocument, place: str) -> str:
     return "rules.laps" if document.ends is None else f"{place}.return"
 
 
-def _entries_of_rows(document: FleetDocument, base: Path | None) -> list[_Entry]:
-    """Return robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt in turn."""
-    with under("scen"):
-        file = file_beside(base, document.scen)
-        rows = load_scen(file)
-    if document.count is not None and document.count > len(rows):
-        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
-        raise InputError.at("count", message)
+def _listed(robots: Sequence[Any], on: LoadedMap | None, faults: Faults) -> Iterator[_Placed]:
+    """Yield robots that are listed; note the faults of others. Without a map, only note faults."""
+    from rightofway.io.scenario.shape import RobotDocument
+
+    for index, data in enumerate(robots):
+        place = f"robots[{index}]"
+        document = faults.attempt(place, checked, RobotDocument, data, on)
+        if document is None or on is None:
+            continue
+        own = document.given("speed", "turn", "ends", "laps")
+        stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
+        robot = Robot(name=document.name, home=document.home, stops=stops, **own)
+        aliases = {"laps": _place_of_laps(document, place)}
+        yield _Placed(robot=robot, place=place, aliases=aliases)
+
+
+def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
+    """Return the robots on the rows of a file, or none after noting why."""
+    document, placed = robots.document, list[_Placed]()
+    ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
+    own = document.given("turn", "ends", "laps")
     aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
-    return [
-        _Entry(
-            place="robots.scen",
-            places=[(f"line {row.line}, start", row.start), (f"line {row.line}, goal", row.goal)],
-            name=f"R{number}",
-            works=[work],
-            own=document.given("turn", "ends", "laps"),
-            speed=speed,
-            aliases=aliases,
-            row=row,
-            file=file,
-        )
-        for number, (row, speed, work) in enumerate(
-            zip(rows[: document.count], speeds, works, strict=False), start=1
-        )
-    ]
-
-
-def _placed(entries: Sequence[_Entry], on: LoadedMap, faults: Faults) -> list[tuple[_Entry, Robot]]:
-    """Return the robots that can be placed on a map; note why others cannot."""
-    placed: list[tuple[_Entry, Robot]] = []
-    lines: dict[tuple[int, int], int] = {}  # of rows, by start
-    for entry in entries:
-        if entry.row and not faults.attempt(entry.place, _fits, entry.row, entry.file, on):
-            return []  # further rows are for the same map
-        robot = faults.attempt(entry.place, _robot, entry, on, lines)
-        if robot:
-            placed.append((entry, robot))
+    dealt = zip(ends, speeds, works, strict=False)
+    for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
+        stops = (Stop(at=goal, work=work),)
+        robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
+        placed.append(_Placed(robot=robot, place="robots.scen", aliases=aliases))
     return placed
 
 
-def _fits(row: ScenRow, file: Path | None, on: LoadedMap) -> bool:
-    """Return True for a row made for this map; InputError for others."""
-    grid, place, source = on.roadmap.grid, f"line {row.line}", str(file)
+def _starts_and_goals(robots: _Rows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
+    faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
+    with blaming(str(robots.file)):
+        for row in robots.rows:
+            _check_map(row, on)  # stops at the first: the others are for the same map
+        for row in robots.rows:
+            start = faults.attempt(f"line {row.line}, start", find_place, row.start, on)
+            goal = faults.attempt(f"line {row.line}, goal", find_place, row.goal, on)
+            if start is None or goal is None:
+                continue
+            if taken.setdefault(start, row.line) != row.line:
+                message = f"line {taken[start]} starts there already (a cell holds one robot)"
+                faults.note(f"line {row.line}, start", message)
+            ends.append((start, goal))
+        faults.stop()
+    return ends
+
+
+def _check_map(row: ScenRow, on: LoadedMap) -> None:
+    grid, place = on.roadmap.grid, f"line {row.line}"
     if grid is None:
-        message = "its rows need a grid (give the map as grid, file or floor)"
-        raise InputError.at("", message, source)
+        raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
     if (row.width, row.height) != (grid.columns, grid.rows):
         size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
-        raise InputError.at(place, f"{size} (give the map it was made for)", source)
+        raise InputError.at(place, f"{size} (give the map it was made for)")
     name = re.split(r"[\\/]", row.map_name)[-1]
     if on.file is not None and name != on.file.name:
         message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
-        raise InputError.at(place, message, source)
-    return True
-
-
-def _robot(entry: _Entry, on: LoadedMap, lines: dict[tuple[int, int], int]) -> Robot | None:
-    """Return a robot at the vertices of its places; None if it has faults elsewhere."""
-    faults = Faults()
-    with blaming(str(entry.file or "")):
-        found = [faults.attempt(key, find_place, place, on) for key, place in entry.places]
-        row = entry.row
-        if row and None not in found and lines.setdefault(row.start, row.line) != row.line:
-            message = f"line {lines[row.start]} starts there already (a cell holds one robot)"
-            faults.note(f"line {row.line}, start", message)
-        faults.stop()
-    if entry.speed is None:
-        return None
-    home, *targets = (vertex for vertex in found if vertex is not None)
-    stops = tuple(Stop(at=at, work=work) for at, work in zip(targets, entry.works, strict=True))
-    return Robot(name=entry.name, home=home, stops=stops, speed=entry.speed, **entry.own)
+        raise InputError.at(place, message)
 
 
 def _assembled(
-    roadmap: Roadmap, placed: Sequence[tuple[_Entry, Robot]], rules: Rules, faults: Faults
+    roadmap: Roadmap, placed: Sequence[_Placed], rules: Rules, faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
-    robots = tuple(robot for _, robot in placed)
+    robots = tuple(each.robot for each in placed)
     stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
     try:
         if stages > MAX_STAGES:
@@ -305,9 +287,8 @@ def _assembled(
         scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules)
         _check_ticks(scenario)
     except InputError as error:
-        entries = [entry for entry, _ in placed]
         for fault in error.faults:
-            faults.note(*_in_document(fault, entries))
+            faults.note(*_in_document(fault, placed))
         return None
     return scenario
 
@@ -325,7 +306,7 @@ def _check_ticks(scenario: Scenario) -> None:
         raise InputError.at("robots", message)
 
 
-def _in_document(fault: InputFault, entries: Sequence[_Entry]) -> tuple[str, str]:
+def _in_document(fault: InputFault, placed: Sequence[_Placed]) -> tuple[str, str]:
     """Return place and message of a fault of the model as the document has them.
 
     The model numbers the robots that it was given, among which those with faults are missing.
@@ -333,11 +314,11 @@ def _in_document(fault: InputFault, entries: Sequence[_Entry]) -> tuple[str, str
     found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", fault.place)
     if not found:
         return fault.place, fault.message
-    entry, key, message = entries[int(found[1])], found[2], fault.message
+    it, key, message = placed[int(found[1])], found[2], fault.message
     other = re.match(r"(.*) of robots\[(\d+)\] already", message)
     if other:
-        message = f"{other[1]} of {entries[int(other[2])].place} already{message[other.end() :]}"
-    return entry.aliases.get(key, f"{entry.place}.{key}"), message
+        message = f"{other[1]} of {placed[int(other[2])].place} already{message[other.end() :]}"
+    return it.aliases.get(key, f"{it.place}.{key}"), message
 
 
 def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any, Literal, Self
 
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, model_validator
@@ -26,7 +27,7 @@ from rightofway.io.fields import (
     exactly_one_of,
     optional,
 )
-from rightofway.model import Occupancy, TripEnd
+from rightofway.model import Occupancy, TripEnd, VertexId
 
 __all__ = [
     "EdgeDocument",
@@ -187,6 +188,10 @@ class RobotDocument(TripDocument):
         if self.stops is not None and self.work is not None:
             raise ValueError("has work beside stops (write it at each stop)")
         return self
+
+    def trip(self) -> list[tuple[VertexId, Fraction | None]]:
+        """Return where the robot works, and how long [time unit] if that is written."""
+        return [(stop.at, stop.work) for stop in self.stops or ()] or [(self.target, self.work)]
 
 
 class FleetDocument(TripDocument):
