@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import load, load_map, load_scen, save_map, save_scen
+from rightofway.io import load, load_map, load_scen, write_map, write_scen
 from rightofway.model import Edge, Robot, Rules, Scenario, Stop, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 
@@ -161,8 +161,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     scenario = Scenario(
         roadmap=fleet.roadmap, robots=fleet.robots, rules=Rules(turn=Fraction(0), ends="none")
     )
-    save_map(scenario.roadmap, tmp_path / "a.map")
-    assert save_scen(scenario, tmp_path / "a.scen", map_name="a.map") == ()
+    write_map(scenario.roadmap, tmp_path / "a.map")
+    assert write_scen(scenario, tmp_path / "a.scen", map_name="a.map") == ()
     assert (tmp_path / "a.map").read_text(encoding="utf-8") == (
         "type octile\nheight 2\nwidth 3\nmap\n..@\n...\n"
     )
@@ -174,7 +174,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 
 def test_what_a_scen_cannot_say_is_told(tmp_path: Path) -> None:
     fleet = grid_fleet(["...."], [("N0", "N3")], speeds=[Fraction(1, 2)], work=[3])
-    assert save_scen(fleet, tmp_path / "a.scen", map_name="a.map") == (
+    assert write_scen(fleet, tmp_path / "a.scen", map_name="a.map") == (
         "speeds and the size of cells are left out; .scen robots drive one cell a tick",
         "work times are left out",
         "ways back and laps are left out; .scen robots stay at their goals",
@@ -186,16 +186,16 @@ def test_several_stops_and_roadmaps_fit_in_no_movingai_file(tmp_path: Path) -> N
     robot = Robot(name="R", home=fleet.robots[0].home, stops=(*fleet.robots[0].stops,) * 2)
     busy = Scenario(roadmap=fleet.roadmap, robots=(robot,))
     with pytest.raises(InputError, match=r"robots\[0\].stops: 2 stops, a .scen row has one goal"):
-        save_scen(busy, tmp_path / "a.scen", map_name="a.map")
+        write_scen(busy, tmp_path / "a.scen", map_name="a.map")
     drawn = roadmap_of_edges(
         {"A": (0, 0), "B": (1, 0)}, [Edge(tail="A", head="B", length=Fraction(1))]
     )
     with pytest.raises(InputError, match="map: the roadmap is no grid"):
-        save_map(drawn, tmp_path / "a.map")
+        write_map(drawn, tmp_path / "a.map")
     one_way = Scenario(
         roadmap=drawn,
         robots=(Robot(name="R", home=drawn.vertex("A"), stops=(Stop(at=drawn.vertex("B")),)),),
     )
     with pytest.raises(InputError, match="map: the roadmap is no grid"):
-        save_scen(one_way, tmp_path / "a.scen", map_name="a.map")
+        write_scen(one_way, tmp_path / "a.scen", map_name="a.map")
     assert list(tmp_path.iterdir()) == []

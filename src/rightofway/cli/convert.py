@@ -43,14 +43,14 @@ def convert(source: str, target: str) -> None:
 
 
 def _write_pair(scenario: Scenario, path: Path) -> None:
-    from rightofway.io import save_map, save_scen
+    from rightofway.io import write_map, write_scen
 
     map_path = path.with_suffix(".map")
     try:
-        losses = save_scen(scenario, path, map_name=map_path.name)
+        losses = write_scen(scenario, path, map_name=map_path.name)
     except InputError as error:
         raise InputError(error.faults, error.source or str(path)) from None
-    save_map(scenario.roadmap, map_path)
+    write_map(scenario.roadmap, map_path)
     for loss in losses:
         say(f"{path}: {loss}")
     say(f"wrote {path} and {map_path}")

@@ -19,10 +19,12 @@ from rightofway.cli.terminal import (
     time_limit_option,
     writable,
 )
+from rightofway.cyclic import ROUTES, RULES
 
 __all__ = ["laps"]
 
-RULES = ["first-come", "fixed-order", "least-loss", "two-level", "timetable"]
+TIMETABLE = "timetable"
+"""Beside the rules: no rule, but a search for the orders with the highest throughput."""
 
 EXAMPLES = """\b
 Examples:
@@ -42,10 +44,10 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
 
 @click.command(epilog=EXAMPLES, short_help="Find the cycle time of a fleet that repeats its work.")
 @click.argument("scenario", type=click.Path())
-@click.option("--rule", type=click.Choice(RULES), default="first-come", show_default=True,
+@click.option("--rule", type=click.Choice([*RULES, TIMETABLE]), default="first-come", show_default=True,
               help="Rule that gives the right of way; timetable: search orders with the highest"
               " throughput.")  # fmt: skip
-@click.option("--routes", type=click.Choice(["clear", "direct", "shortest"]),
+@click.option("--routes", type=click.Choice(ROUTES),
               help="Routes of the round trips: clear of other robots' places, straight there and"
               " back, or shortest.  [default: clear]")  # fmt: skip
 @time_limit_option
@@ -83,12 +85,12 @@ def laps(
     from rightofway.model.steady_state import within
 
     refuse_outputs(scenario, output, as_json=as_json)
-    if rule == "timetable" and routes:
+    if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
     problem = read_scenario(scenario)
     with progress() as report:
         if rule == TIMETABLE:
-            run = best_timetable(
+            chosen = best_timetable(
                 problem,
                 least_fairness=least_fairness,
                 time_limit=time_limit,

@@ -1,13 +1,13 @@
 """Files: scenarios and plans, read with every fault reported and written whole; MovingAI files.
 
-``load_…`` reads a file and ``save_…`` writes one; ``…_of`` reads plain data, as JSON has them, and
+``load_…`` reads a file and ``write_…`` writes one; ``…_of`` reads plain data, as JSON has them, and
 ``dump_…`` makes them. Pydantic and PyYAML are imported when the first file is read, and nowhere
 else in the package.
 """
 
 from rightofway.io.delays import DELAY_FILES, load_delays
 from rightofway.io.formats import schema
-from rightofway.io.movingai import load_map, load_scen, save_map, save_scen
+from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, save_plan
 from rightofway.io.scenario.reader import Loaded, load, load_with_notes, scenario_of
@@ -27,10 +27,10 @@ __all__ = [
     "load_with_notes",
     "plan_of",
     "plan_text",
-    "save_map",
     "save_plan",
-    "save_scen",
     "save_scenario",
     "scenario_of",
     "schema",
+    "write_map",
+    "write_scen",
 ]

@@ -20,7 +20,7 @@ from rightofway.io.faults import Faults, blaming, shown
 from rightofway.io.text import read_text
 from rightofway.model import Grid, Roadmap, Scenario
 
-__all__ = ["ScenRow", "load_map", "load_scen", "save_map", "save_scen"]
+__all__ = ["ScenRow", "load_map", "load_scen", "write_map", "write_scen"]
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -138,7 +138,7 @@ def _scen_row(line: int, text: str) -> ScenRow:
     )
 
 
-def save_map(roadmap: Roadmap, path: Path | str) -> None:
+def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """Write a grid as a `.map` file.
 
     Raises
@@ -151,7 +151,7 @@ def save_map(roadmap: Roadmap, path: Path | str) -> None:
     write_whole(path, "\n".join((*header, *grid.lines())) + "\n")
 
 
-def save_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
+def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
     """Write the homes and targets of a fleet as a `.scen` file.
 
     Parameters
