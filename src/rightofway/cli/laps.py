@@ -44,12 +44,13 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
 
 @click.command(epilog=EXAMPLES, short_help="Find the cycle time of a fleet that repeats its work.")
 @click.argument("scenario", type=click.Path())
-@click.option("--rule", type=click.Choice([*RULES, TIMETABLE]), default="first-come", show_default=True,
+@click.option("--rule", type=click.Choice([*RULES, TIMETABLE]), default="first-come",
+              show_default=True,
               help="Rule that gives the right of way; timetable: search orders with the highest"
               " throughput.")  # fmt: skip
 @click.option("--routes", type=click.Choice(ROUTES),
-              help="Routes of the round trips: clear of other robots' places, straight there and"
-              " back, or shortest.  [default: clear]")  # fmt: skip
+              help="Routes of the round trips. clear: avoid other robots; direct: avoid them less;"
+              " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
 @click.option("--least-fairness", metavar="SHARE", default="0", show_default=True, callback=_share,
               help="With --rule timetable: share of the laps it makes alone that each robot must"

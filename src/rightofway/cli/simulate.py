@@ -58,7 +58,11 @@ class _SimulateCommand(click.Command):
         super().format_epilog(ctx, formatter)
 
 
-@click.command(cls=_SimulateCommand, epilog=EXAMPLES)
+@click.command(
+    cls=_SimulateCommand,
+    epilog=EXAMPLES,
+    short_help="Execute a PLAN many times with robots that are late.",
+)
 @click.argument("plan", type=click.Path())
 @click.option("--delays", multiple=True, metavar="DELAYS",
               help="Kinds of delays, see below; or a file with a list of them. May be repeated."
