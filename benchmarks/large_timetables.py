@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.cyclic import best_timetable, run_laps, run_of
+from rightofway.cyclic import best_timetable, run_laps
 from rightofway.io.movingai import load_map
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.builders.fleets import largest_part

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import load
-from rightofway.cli.laps_report import baseline_lines
+from rightofway.cli.laps_report import comparison_lines
 from rightofway.cyclic import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
@@ -131,9 +131,11 @@ def test_a_chosen_timetable_reports_its_gain_and_its_fairness(cli: Cli, slower: 
 
 
 def test_a_timetable_below_its_baseline_says_so(slower: Path) -> None:
-    [chosen] = best_timetable(load(slower), time_limit=None, rounds=2)
-    worse = replace(chosen, first_come_ends="open", first_come=chosen.throughput * 2)
-    said = " ".join(" ".join(baseline_lines(worse)).split())
+    [group] = best_timetable(load(slower), time_limit=None, rounds=2).groups
+    assert group.comparison is not None
+    found = group.comparison
+    worse = replace(found, baseline_ends="open", baseline=found.throughput * 2)
+    said = " ".join(" ".join(comparison_lines(worse)).split())
     assert "throughput: 50.00% below first come first served as measured within its time" in said
 
 

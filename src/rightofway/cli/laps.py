@@ -19,12 +19,9 @@ from rightofway.cli.terminal import (
     time_limit_option,
     writable,
 )
-from rightofway.cyclic import ROUTES, RULES
+from rightofway.cyclic import ROUTES, RULES, TIMETABLE
 
 __all__ = ["laps"]
-
-TIMETABLE = "timetable"
-"""Beside the rules: no rule, but a search for the orders with the highest throughput."""
 
 EXAMPLES = """\b
 Examples:
@@ -91,7 +88,7 @@ def laps(
     problem = read_scenario(scenario)
     with progress() as report:
         if rule == TIMETABLE:
-            chosen = best_timetable(
+            run = best_timetable(
                 problem,
                 least_fairness=least_fairness,
                 time_limit=time_limit,
@@ -102,13 +99,13 @@ def laps(
             ways = routes or "clear"
             run = run_laps(problem, rule, routes=ways, time_limit=time_limit, report=report)
     if as_json:
-        put_json(laps_data(run, chosen))
+        put_json(laps_data(run))
     elif output != "-":
-        put(laps_report(run, chosen))
+        put(laps_report(run))
     if page:
         from rightofway.viz import write_page
 
-        plan, steady = shown(run)
+        plan, steady = excerpt(run)
         write_page(plan, page, steady=steady)
         say(f"wrote {page}")
     if output:

@@ -13,17 +13,17 @@ from typing import Any
 from rightofway.cli.terminal import wrapped
 from rightofway.cyclic import (
     Bottleneck,
-    Conflict,
+    Comparison,
     CyclicResult,
-    GroupRun,
-    GroupTimetable,
+    GroupResult,
+    LapWait,
     ParameterEffect,
     in_words,
     parameter_effects,
 )
 from rightofway.model import Scenario
 
-__all__ = ["baseline_lines", "laps_data", "laps_report"]
+__all__ = ["comparison_lines", "laps_data", "laps_report"]
 
 HOUR = 3600
 """Time units of a scenario in an hour, if they are seconds."""
@@ -53,24 +53,8 @@ Sites = dict[tuple[int, int, int], list[Fraction]]
 """Waits by vertex, waiting robot and awaited robot: their times [time unit]."""
 
 
-def laps_data(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> dict[str, Any]:
-    """Return a result for programs.
-
-    Parameters
-    ----------
-    run
-        The result of a rule, or of the timetables that were chosen.
-    chosen
-        The timetables, to be compared with their baseline.
-
-    Returns
-    -------
-    dict
-        Plain data; times are exact fractions of the scenario's time unit.
-    """
-    groups = [_group_data(run, group) for group in run.groups]
-    for data, timetable in zip(groups, chosen, strict=False):
-        data.update(_baseline_data(run.scenario, timetable))
+def laps_data(run: CyclicResult) -> dict[str, Any]:
+    """Return a result for programs: plain data, times as exact fractions of the time unit."""
     return {
         "rule": run.rule,
         "routes": run.routes,
@@ -84,7 +68,7 @@ def _group_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
     time = run.scenario.problem.clock.time
     means = [None if mean is None else str(mean * time(1)) for mean in group.mean_laps()]
     shares = [None if share is None else str(share) for share in group.waiting_shares()]
-    data = {
+    data: dict[str, Any] = {
         "robots": names,
         "ends": group.ends,
         "why": group.why,
@@ -98,31 +82,27 @@ def _group_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
         "waiting_share": dict(zip(names, shares, strict=True)),
     }
     if _is_long(group):
-        return {**data, "conflicts": None, "first_lap": None, "bottleneck": None,
-                "sensitivity": None}  # fmt: skip
-    return {
-        **data,
-        "conflicts": [_conflict_data(run, one, "offset") for one in run.conflicts(group)],
-        "first_lap": [_conflict_data(run, one, "time") for one in run.first_conflicts(group)],
-        "bottleneck": _bottleneck_data(run.scenario, run.bottleneck(group)),
-        "sensitivity": _sensitivity_data(run, group),
-    }
+        data |= dict.fromkeys(("conflicts", "first_lap", "bottleneck", "sensitivity"))
+    else:
+        data |= {
+            "conflicts": [_wait_data(run, wait, "offset") for wait in group.waits()],
+            "first_lap": [_wait_data(run, wait, "time") for wait in group.first_waits()],
+            "bottleneck": _bottleneck_data(run.scenario, group.bottleneck()),
+            "sensitivity": _sensitivity_data(run.scenario, group),
+        }
+    return data | _baseline_data(run.scenario, group.comparison)
 
 
-def _names(run: CyclicResult, group: GroupRun) -> list[str]:
+def _names(run: CyclicResult, group: GroupResult) -> list[str]:
     return [run.scenario.robots[robot].name for robot in group.robots]
 
 
-def _is_long(group: GroupRun) -> bool:
+def _is_long(group: GroupResult) -> bool:
     """Return whether a period is too long to be computed visit by visit."""
-    pattern = group.pattern
-    if pattern is None:
-        return False
-    visits = zip(pattern.counts, pattern.lengths, strict=True)
-    return sum(laps * each for laps, each in visits) > MAX_VISITS
+    return group.pattern is not None and group.pattern.n_visits > MAX_VISITS
 
 
-def _measured_data(run: CyclicResult, group: GroupRun) -> dict[str, Any] | None:
+def _measured_data(run: CyclicResult, group: GroupResult) -> dict[str, Any] | None:
     """Return which laps the means are of, where no period is known."""
     if group.pattern:
         return None
@@ -133,14 +113,14 @@ def _measured_data(run: CyclicResult, group: GroupRun) -> dict[str, Any] | None:
     }
 
 
-def _conflict_data(run: CyclicResult, conflict: LapWait, when: str) -> dict[str, Any]:
+def _wait_data(run: CyclicResult, wait: LapWait, when: str) -> dict[str, Any]:
     time, robots = run.scenario.problem.clock.time, run.scenario.robots
     return {
-        "vertex": run.scenario.roadmap.name(conflict.vertex),
-        "robots": [robots[robot].name for robot in conflict.pair],
-        "waits": robots[conflict.waits].name,
-        when: str(time(conflict.tick)),
-        "for": str(time(conflict.ticks)),
+        "vertex": run.scenario.roadmap.name(wait.vertex),
+        "robots": [robots[robot].name for robot in wait.pair],
+        "waits": robots[wait.waits].name,
+        when: str(time(wait.tick)),
+        "for": str(time(wait.ticks)),
     }
 
 
@@ -156,14 +136,14 @@ def _bottleneck_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[
     ]
 
 
-def _sensitivity_data(run: CyclicResult, group: GroupRun) -> list[dict[str, Any]]:
-    graph, tick = run.graph(group), run.scenario.problem.clock.tick
+def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
+    graph, tick = group.graph(), scenario.problem.clock.tick
     if graph is None or len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
         return []
     return [
         {
             "kind": one.kind,
-            "robot": None if one.robot is None else run.scenario.robots[one.robot].name,
+            "robot": None if one.robot is None else scenario.robots[one.robot].name,
             "stop": one.stop,
             "gain": str(one.effect.gain * tick),
             "loss": str(one.effect.loss * tick),
@@ -171,25 +151,27 @@ def _sensitivity_data(run: CyclicResult, group: GroupRun) -> list[dict[str, Any]
             "at_best": str(one.effect.at_best * tick),
             "ten_per_cent": str(one.ten_per_cent * tick),
         }
-        for one in parameter_effects(run.scenario, graph)
+        for one in parameter_effects(scenario, graph)
     ]
 
 
-def _baseline_data(scenario: Scenario, chosen: GroupTimetable) -> dict[str, Any]:
+def _baseline_data(scenario: Scenario, found: Comparison | None) -> dict[str, Any]:
+    if found is None:
+        return {}
     hour = HOUR / scenario.problem.clock.tick
     return {
-        "throughput_per_hour": str(chosen.throughput * hour),
-        "fairness": str(chosen.fairness),
+        "throughput_per_hour": str(found.throughput * hour),
+        "fairness": str(found.fairness),
         "first_come": {
-            "ends": chosen.first_come_ends,
-            "throughput_per_hour": str(chosen.first_come * hour),
+            "ends": found.baseline_ends,
+            "throughput_per_hour": str(found.baseline * hour),
         },
     }
 
 
-def laps_report(run: CyclicResult, chosen: Sequence[GroupTimetable] = ()) -> str:
-    """Return a result for people; parameters as for `laps_data`."""
-    return "\n".join(_lines(run, {one.timetable.robots: one for one in chosen}))
+def laps_report(run: CyclicResult) -> str:
+    """Return a result for people."""
+    return "\n".join(_lines(run))
 
 
 def _lines(run: CyclicResult) -> Iterator[str]:
@@ -201,8 +183,8 @@ def _lines(run: CyclicResult) -> Iterator[str]:
     for group in largest[:MAX_GROUPS]:
         yield ""
         yield from _group_lines(run, group)
-        if group.robots in chosen:
-            yield from baseline_lines(chosen[group.robots])
+        if group.comparison is not None:
+            yield from comparison_lines(group.comparison)
     if len(largest) > MAX_GROUPS:
         yield ""
         yield f"… and {len(largest) - MAX_GROUPS} more groups, none larger (--json has them all)"
@@ -220,7 +202,7 @@ def _groups(run: CyclicResult, together: Sequence[GroupResult]) -> str:
     return "; ".join([*found, *([f"{alone} robots meet no other"] if alone else [])])
 
 
-def _group_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _group_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     time, size = run.scenario.problem.clock.time, f"{len(group.robots)} robots"
     if group.pattern is None:
         yield from wrapped(f"{size}: {group.why}. {_source_of_means(run, group)}:")
@@ -233,13 +215,13 @@ def _group_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
     yield from _wait_lines(run, group)
-    bottleneck = run.bottleneck(group)
+    bottleneck = group.bottleneck()
     if bottleneck:
         yield from wrapped(f"bottleneck: {in_words(bottleneck, run.scenario)}")
-        yield from _sensitivity_lines(run, group)
+        yield from _sensitivity_lines(run.scenario, group)
 
 
-def _source_of_means(run: CyclicResult, group: GroupRun) -> str:
+def _source_of_means(run: CyclicResult, group: GroupResult) -> str:
     """Say which laps the means are of, where no period is known."""
     if group.ends == "deadlock":
         return "Laps until then"
@@ -251,14 +233,15 @@ def _source_of_means(run: CyclicResult, group: GroupRun) -> str:
 
 def _robot_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     names, tick = _names(run, group), run.scenario.problem.clock.tick
+    routes = group.context.laps
     counts = group.pattern.counts if group.pattern else group.measured().laps
     title = "laps/period" if group.pattern else "laps"
     width = max(map(len, ("robot", *names[:MAX_LINES])))
     yield f"{'robot':{width}}  {title:>11}  mean lap     alone  waiting"
-    rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), group.group, strict=True)
+    rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), routes, strict=True)
     for name, laps, mean, share, route in list(rows)[:MAX_LINES]:
         lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
-        alone = _short(route.lap.duration * tick)
+        alone = _short(route.duration * tick)
         waits = "" if share is None else f"{float(share):7.1%}"
         yield f"{name:{width}}  {laps:11}  {lap:>8}  {alone:>8}  {waits}".rstrip()
     if len(names) > MAX_LINES:
@@ -269,9 +252,9 @@ def _short(number: Fraction) -> str:
     return str(number) if number.denominator <= MAX_DENOMINATOR else f"{float(number):.2f}"
 
 
-def _wait_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _wait_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
-    first, periodic = _sites(run, run.first_conflicts(group)), _sites(run, run.conflicts(group))
+    first, periodic = _sites(run, group.first_waits()), _sites(run, group.waits())
     both = len(first.keys() & periodic.keys())
     yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
     robots, place = run.scenario.robots, run.scenario.roadmap.name
@@ -289,11 +272,11 @@ def _wait_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
         yield f"  … and {len(sites) - MAX_LINES} more"
 
 
-def _sites(run: CyclicResult, conflicts: Sequence[Conflict]) -> Sites:
+def _sites(run: CyclicResult, waits: Sequence[LapWait]) -> Sites:
     found: Sites = {}
-    for one in conflicts:
-        when = run.scenario.problem.clock.time(one.tick)
-        found.setdefault((one.vertex, one.waits, one.for_robot), []).append(when)
+    for wait in waits:
+        when = run.scenario.problem.clock.time(wait.tick)
+        found.setdefault((wait.vertex, wait.waits, wait.for_robot), []).append(when)
     return found
 
 
@@ -303,19 +286,19 @@ def _times(times: Sequence[Fraction]) -> str:
     return listed if more <= 0 else f"{listed} and {more} more times"
 
 
-def _sensitivity_lines(run: CyclicResult, group: GroupRun) -> Iterator[str]:
+def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     """Say which changes of a parameter by 10 % would shorten the period."""
-    graph = run.graph(group)
+    graph = group.graph()
     if graph is None:
         return
     if len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
         yield f"  sensitivity: not computed for more than {MAX_VISITS_OF_SENSITIVITY} visits"
         return
-    effects = parameter_effects(run.scenario, graph, most=MAX_EFFECTS)
+    effects = parameter_effects(scenario, graph, most=MAX_EFFECTS)
     helpful = [one for one in effects if one.ten_per_cent < one.effect.cycle_time]
     for one in helpful:
         saved = 1 - one.ten_per_cent / one.effect.cycle_time
-        change = _change(run.scenario, one)
+        change = _change(scenario, one)
         yield f"  {change}: the period gets {float(saved):.2%} shorter"
     if not helpful:
         yield "  no single change shortens the period: another circuit is as long"
@@ -332,21 +315,21 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
     return f"{robot.name} 10% less work at {scenario.roadmap.name(robot.stops[effect.stop].at)}"
 
 
-def baseline_lines(chosen: GroupTimetable) -> Iterator[str]:
+def comparison_lines(found: Comparison) -> Iterator[str]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
     baseline = {
         "repeats": "first come first served",
         "open": "first come first served as measured within its time",
         "starves": "first come first served, where a robot stands still for ever",
         "deadlock": "",
-    }[chosen.first_come_ends]
-    if not chosen.first_come:
+    }[found.baseline_ends]
+    if not found.baseline:
         yield "throughput: first come first served ends in a deadlock"
-    elif chosen.throughput < chosen.first_come:
-        below = float(1 - chosen.throughput / chosen.first_come)
+    elif found.throughput < found.baseline:
+        below = float(1 - found.throughput / found.baseline)
         yield from wrapped(f"throughput: {below:.2%} below {baseline} (give more time)")
     else:
-        gain = float(chosen.throughput / chosen.first_come - 1)
+        gain = float(found.throughput / found.baseline - 1)
         yield from wrapped(f"throughput: {gain:+.1%} against {baseline}")
-    share = f"{float(chosen.fairness):.0%}"
+    share = f"{float(found.fairness):.0%}"
     yield f"fairness: every robot makes at least {share} of the laps that it makes alone"

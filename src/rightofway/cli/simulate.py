@@ -117,7 +117,7 @@ def simulate(
         from rightofway.viz import write_page
 
         played = outcome.typical() if run is None else run
-        write_page(outcome.plan, page, actual=outcome.happened(played))
+        write_page(outcome.plan, page, actual=outcome.trace(played))
         say(f"wrote {page}: run {played} of {outcome.runs}")
     return 1 if outcome.collisions or outcome.deadlocks else 0
 
@@ -150,8 +150,8 @@ def _totals(outcome: Outcome) -> Iterator[str]:
         rows.append(("switched", f"{outcome.switches / outcome.runs:.1f} times per run"))
     if outcome.replans:
         rows.append(("replanned", f"{outcome.replans / outcome.runs:.1f} times per run"))
-    if outcome.won and outcome.won.runs:
-        rows.append(("gain", _gain(outcome.won)))
+    if outcome.gain and outcome.gain.runs:
+        rows.append(("gain", _gain(outcome.gain)))
     if outcome.broken:
         rows.append(("broken", _broken(outcome)))
     for key, text in rows:
@@ -203,12 +203,12 @@ def _broken(outcome: Outcome) -> str:
 def _robots(outcome: Outcome) -> Iterator[str]:
     names = [short(robot.name) for robot in outcome.plan.scenario.robots]
     robots = outcome.lateness.robots
-    latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].spread.mean or 0))
+    latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     listed = sorted(latest[:MAX_ROBOTS])
     width = max(len("robot"), *(len(names[robot]) for robot in listed))
     yield f"{'robot':{width}}  late     95 %   most  own    waiting for"
     for number in listed:
-        robot, late = robots[number], robots[number].spread
+        robot, late = robots[number], robots[number].quantiles
         if late.mean is None:
             yield f"{names[number]:{width}}  never completes"
             continue

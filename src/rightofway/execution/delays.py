@@ -11,8 +11,8 @@ from typing import Any
 
 from rightofway.errors import InputError
 from rightofway.io.numbers import exact
-from rightofway.model import NEVER, Clock, Scenario, Tick
-from rightofway.precedence import DelayModel
+from rightofway.model import NEVER, Clock, Scenario
+from rightofway.precedence import DelayModel, Stoppage
 
 __all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
 

@@ -19,7 +19,16 @@ from rightofway.io.faults import place_of, shown
 from rightofway.io.numbers import decimal, whole
 from rightofway.io.yaml_text import MAX_DEPTH, parse_yaml
 
-__all__ = ["MAX_BYTES", "json_text", "parse_json", "parse_toml", "read_document", "read_text"]
+__all__ = [
+    "MAX_BYTES",
+    "Rendered",
+    "json_line",
+    "json_text",
+    "parse_json",
+    "parse_toml",
+    "read_document",
+    "read_text",
+]
 
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
@@ -28,7 +37,14 @@ SPREAD_KEYS = {"scenario", "map", "grid", "roadmap", "vertices", "edges", "robot
 SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
 """Values of these keys are spread over lines in JSON; each item in them stays on one line."""
 
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _TOML_PLACE = re.compile(r"(?P<what>.*) \((?P<place>at .*)\)", re.DOTALL)
+
+
+class Rendered(str):
+    """JSON text that stands in a document in place of its value."""
+
+    __slots__ = ()
 
 
 def read_document(path: Path) -> Any:
@@ -166,16 +182,18 @@ def json_text(document: dict[str, Any]) -> str:
 def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     inner = margin + "  "
     if isinstance(value, list):
-        return f"[{inner}{f',{inner}'.join(map(_line, value))}{margin}]"
+        return f"[{inner}{f',{inner}'.join(map(json_line, value))}{margin}]"
     pairs = (
-        f"{_line(key)}: {_spread(child, inner) if key in SPREAD_KEYS and child else _line(child)}"
+        f"{json_line(key)}: "
+        f"{_spread(child, inner) if key in SPREAD_KEYS and child else json_line(child)}"
         for key, child in value.items()
     )
     return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
 
 
-def _line(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+def json_line(value: Any) -> str:
+    """Return a value as JSON text on one line."""
+    return value if isinstance(value, Rendered) else _ENCODER.encode(value)
 
 
 def parse_toml(text: str) -> dict[str, Any]:
