@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
     Asked,
     PlanningCommand,
     hand_over,
@@ -44,10 +45,11 @@ def improve(*, plan: str, asked: Asked) -> int:
         found = make_better(
             first,
             asked.planner,
-            asked.time_limit,
+            asked.time_left,
             asked.seed,
             options=asked.options,
             report=report,
             keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

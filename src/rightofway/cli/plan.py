@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
     Asked,
     PlanningCommand,
     hand_over,
@@ -42,10 +43,11 @@ def plan(*, scenario: str, asked: Asked) -> int:
         found = solve(
             problem,
             asked.planner,
-            asked.time_limit,
+            asked.time_left,
             asked.seed,
             options=asked.options,
             report=report,
             keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from rightofway.model import Plan
 
 __all__ = [
+    "SECONDS_PER_VISIT",
     "Asked",
     "PlanningCommand",
     "hand_over",
@@ -27,10 +29,14 @@ __all__ = [
     "write",
 ]
 
+SECONDS_PER_VISIT = 1e-6
+"""The time to judge a plan, to write it and to report on it, for each visit that it has at least.
+Planning ends so much earlier, so that the time limit holds for the whole command."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Asked:
-    """What the options of a command that plans say."""
+    """What the options of a command that plans say, and when it was called [s]."""
 
     output: str | None
     planner: str
@@ -41,6 +47,14 @@ class Asked:
     log: bool
     table: bool
     as_json: bool
+    began: float = field(default_factory=time.monotonic, init=False)
+
+    @property
+    def time_left(self) -> float | None:
+        """What the time limit leaves for planning, after reading; at least half of it [s]."""
+        if self.time_limit is None:
+            return None
+        return max(self.time_limit - (time.monotonic() - self.began), self.time_limit / 2)
 
 
 class PlanningCommand(click.Command):
@@ -111,7 +125,8 @@ def options_of_planning(planner: str) -> Callable[[Callable[..., Any]], Callable
     def add_to(command: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(command)
         def with_options(**given: Any) -> Any:
-            asked = Asked(**{field.name: given.pop(field.name) for field in fields(Asked)})
+            said = [option.name for option in fields(Asked) if option.init]
+            asked = Asked(**{name: given.pop(name) for name in said})
             return command(asked=asked, **given)
 
         for option in reversed(options):
