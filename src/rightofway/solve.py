@@ -26,6 +26,9 @@ from rightofway.planners import (
 
 __all__ = ["improve", "solve"]
 
+JUDGING = 0.3e-6
+"""The time to judge a plan, for each visit that it has at least [s]."""
+
 
 def solve(
     scenario: Scenario,
@@ -36,6 +39,7 @@ def solve(
     options: Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
     keep_best: bool = False,
+    seconds_per_visit: float = JUDGING,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
 
@@ -56,6 +60,9 @@ def solve(
     keep_best
         Whether Ctrl-C returns the best plan so far, where there is one. By default
         `KeyboardInterrupt` is raised.
+    seconds_per_visit
+        The time to leave, for each visit of the plan, to judge it and to use it [s]: planning ends
+        so much before the time limit, but takes at least half of it.
 
     Returns
     -------
@@ -72,7 +79,14 @@ def solve(
         If none was found in time, or by the means of the planner.
     """
     limit, spec = checked_time_limit(time_limit), find(planner)
-    given = _Given(time_limit=limit, seed=seed, options=options, report=report, keep_best=keep_best)
+    given = _Given(
+        time_limit=limit,
+        seed=seed,
+        options=options,
+        report=report,
+        keep_best=keep_best,
+        seconds_per_visit=seconds_per_visit,
+    )
     return _run(spec, scenario, given)
 
 
@@ -85,6 +99,7 @@ def improve(
     options: Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
     keep_best: bool = False,
+    seconds_per_visit: float = JUDGING,
 ) -> Plan:
     """Make a plan better, whoever made it, and have the result judged.
 
@@ -94,7 +109,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report, keep_best
+    time_limit, seed, options, report, keep_best, seconds_per_visit
         As for `solve`.
 
     Returns
@@ -114,7 +129,14 @@ def improve(
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    given = _Given(time_limit=limit, seed=seed, options=options, report=report, keep_best=keep_best)
+    given = _Given(
+        time_limit=limit,
+        seed=seed,
+        options=options,
+        report=report,
+        keep_best=keep_best,
+        seconds_per_visit=seconds_per_visit,
+    )
     return _run(spec, plan.scenario, given, start=plan.tracks)
 
 
@@ -127,6 +149,7 @@ class _Given:
     options: Mapping[str, Any] | None
     report: Callable[[str], None] | None
     keep_best: bool
+    seconds_per_visit: float
 
 
 class _Clock:
@@ -148,12 +171,15 @@ class _Clock:
 def _run(
     spec: PlannerSpec, scenario: Scenario, given: _Given, start: tuple[Track, ...] | None = None
 ) -> Plan:
-    clock = _Clock()
+    clock, deadline = _Clock(), Deadline.after(given.time_limit)
+    options = spec.settle(given.options or {})
+    with kernel_limits():
+        alone = _alone(scenario)
     task = Task(
         scenario=scenario,
-        options=spec.settle(given.options or {}),
+        options=options,
         seed=given.seed,
-        deadline=Deadline.after(given.time_limit),
+        deadline=deadline.earlier(given.seconds_per_visit * _least_visits(scenario, alone)),
         report=given.report or (lambda _: None),
         has_plan=clock.keep,
         keep_best=given.keep_best,
@@ -163,8 +189,7 @@ def _run(
         clock.keep()
     with kernel_limits():
         draft = spec.load()(task)
-        clock.keep()
-        alone = _alone(scenario) if draft.alone is None else draft.alone
+    clock.keep()
     run = PlannerRun(
         name=spec.name,
         options=task.options,
@@ -185,6 +210,15 @@ def _alone(scenario: Scenario) -> NDArray[np.int64]:
     from rightofway.search import alone_completions  # loads the native core, which help needs not
 
     return alone_completions(scenario)
+
+
+def _least_visits(scenario: Scenario, alone: NDArray[np.int64]) -> int:
+    """Return about how many visits the shortest routes of a fleet have."""
+    visits = 0
+    for itinerary, ticks in zip(scenario.problem.itineraries, alone.tolist(), strict=True):
+        dwell = sum(stage.work + stage.turn for stage in itinerary.stages)
+        visits += max(ticks - dwell, 0) // min(itinerary.edge_ticks, default=1)
+    return visits
 
 
 def _refuse_faults(plan: Plan, draft: Draft) -> None:

@@ -6,7 +6,13 @@ from typing import Any
 
 import click
 
-from rightofway.cli.planning import Asked, PlanningCommand, hand_over, planning_options
+from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
+    Asked,
+    PlanningCommand,
+    hand_over,
+    planning_options,
+)
 from rightofway.cli.terminal import progress, read_plan
 from rightofway.planners import IMPROVER
 
@@ -34,6 +40,13 @@ def improve(*, plan: str, **given: Any) -> int:
     first = read_plan(plan)
     with progress() as report:
         found = improved(
-            first, asked.planner, asked.time_limit, asked.seed, options=asked.options, report=report
+            first,
+            asked.planner,
+            asked.time_left,
+            asked.seed,
+            options=asked.options,
+            report=report,
+            keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

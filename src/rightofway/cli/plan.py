@@ -6,7 +6,13 @@ from typing import Any
 
 import click
 
-from rightofway.cli.planning import Asked, PlanningCommand, hand_over, planning_options
+from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
+    Asked,
+    PlanningCommand,
+    hand_over,
+    planning_options,
+)
 from rightofway.cli.terminal import progress, read_scenario
 from rightofway.planners import DEFAULT
 
@@ -38,10 +44,11 @@ def plan(*, scenario: str, **given: Any) -> int:
         found = solve(
             problem,
             asked.planner,
-            asked.time_limit,
+            asked.time_left,
             asked.seed,
             options=asked.options,
             report=report,
             keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,12 +25,24 @@ from rightofway.planners import PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = ["Asked", "PlanningCommand", "hand_over", "planning_options", "refuse_outputs", "write"]
+__all__ = [
+    "SECONDS_PER_VISIT",
+    "Asked",
+    "PlanningCommand",
+    "hand_over",
+    "planning_options",
+    "refuse_outputs",
+    "write",
+]
+
+SECONDS_PER_VISIT = 1e-6
+"""The time to judge a plan, to write it and to report on it, for each visit that it has at least.
+Planning ends so much earlier, so that the time limit holds for the whole command."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Asked:
-    """The values of `planning_options`."""
+    """The values of `planning_options`, and when the command began [s]."""
 
     output: str | None
     planner: str
@@ -40,6 +53,14 @@ class Asked:
     log: bool
     table: bool
     as_json: bool
+    began: float = field(default_factory=time.monotonic, init=False)
+
+    @property
+    def time_left(self) -> float | None:
+        """What the time limit leaves for planning, after reading; at least half of it [s]."""
+        if self.time_limit is None:
+            return None
+        return max(self.time_limit - (time.monotonic() - self.began), self.time_limit / 2)
 
     def refuse_outputs(self, source: str) -> None:
         """Refuse, before any work, results that would be lost or replace the source."""

@@ -51,7 +51,7 @@ def auto(task: Task) -> Draft:
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better
-    return replace(explained, status=better.status, alone=better.alone)
+    return replace(explained, status=better.status)
 
 
 def _explained(task: Task) -> Draft | None:

@@ -104,7 +104,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         task.scenario, first.tracks
     ):
         found = first.tracks  # the headway of planning costs more than was won
-    return Draft(tracks=found, status=improvement.status(first.status), alone=search.alone())
+    return Draft(tracks=found, status=improvement.status(first.status))
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
