@@ -19,7 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from rightofway.cyclic import best_timetable, run_laps
-from rightofway.io.movingai import read_map
+from rightofway.io.movingai import load_map
 from rightofway.model import Robot, Scenario, Stop, VertexId, roadmap_of_grid
 from tests.builders.fleets import largest_part
 
@@ -35,7 +35,7 @@ class Row:
 
 
 def _map(name: str) -> Callable[[Path, int], Sequence[str]]:
-    return lambda folder, _seed: read_map(folder / "maps" / f"{name}.map")
+    return lambda folder, _seed: load_map(folder / "maps" / f"{name}.map")
 
 
 def _square(size: int, walls: float) -> Callable[[Path, int], Sequence[str]]:

@@ -94,9 +94,9 @@ class FleetBuilder:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
             self._roadmap = _within("grid", roadmap_of_grid, rows, cell_size=cell_size)
         elif map_file is not None:
-            from rightofway.io import read_map
+            from rightofway.io import load_map
 
-            self._roadmap = roadmap_of_grid(read_map(Path(map_file)), cell_size=cell_size)
+            self._roadmap = roadmap_of_grid(load_map(Path(map_file)), cell_size=cell_size)
         elif graph is not None:
             self._add_graph(graph)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from numbers import Integral
 from typing import Any
 
@@ -26,6 +27,9 @@ __all__ = ["improve", "solve"]
 LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
 
+JUDGING = 0.3e-6
+"""The time to judge a plan, for each visit that it has at least [s]."""
+
 
 def solve(
     scenario: Scenario,
@@ -36,6 +40,7 @@ def solve(
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
     keep_best: bool = False,
+    seconds_per_visit: float = JUDGING,
     **named: Any,
 ) -> Plan:
     """Plan a fleet and have the plan judged.
@@ -59,6 +64,9 @@ def solve(
     keep_best
         Whether Ctrl-C returns the best plan so far, where there is one. By default
         `KeyboardInterrupt` is raised.
+    seconds_per_visit
+        The time to leave, for each visit of the plan, to judge it and to use it [s]: planning ends
+        so much before the time limit, but takes at least half of it.
     named
         Options one by one, like ``iterations=100``, instead of ``options``.
 
@@ -79,17 +87,15 @@ def solve(
     if not isinstance(scenario, Scenario):
         remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
         raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
-    clock, spec = _Clock(), find(planner)
+    spec, limit = find(planner), checked_time_limit(time_limit)
     task = Task(
         scenario=scenario,
         options=_settled(spec, options, named),
         seed=_checked_seed(seed),
-        deadline=Deadline.after(checked_time_limit(time_limit)),
-        report=report or (lambda _: None),
-        has_plan=clock.keep,
+        report=report or _silent,
         keep_best=keep_best,
     )
-    return _run(spec, task, clock)
+    return _run(spec, task, limit, seconds_per_visit)
 
 
 def improve(
@@ -101,6 +107,7 @@ def improve(
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
     keep_best: bool = False,
+    seconds_per_visit: float = JUDGING,
     **named: Any,
 ) -> Plan:
     """Make a plan better, also one of another program, and have the result judged.
@@ -111,7 +118,8 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report, keep_best, named
+    time_limit, seed, options, report, keep_best, seconds_per_visit,
+    named
         As for `solve`.
 
     Returns
@@ -133,18 +141,15 @@ def improve(
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    clock = _Clock()
-    clock.keep()
     task = Task(
         scenario=plan.scenario,
         options=_settled(spec, options, named),
         seed=_checked_seed(seed),
-        deadline=Deadline.after(limit),
-        report=report or (lambda _: None),
+        report=report or _silent,
         keep_best=keep_best,
         start=plan.tracks,
     )
-    return _run(spec, task, clock)
+    return _run(spec, task, limit, seconds_per_visit)
 
 
 def _settled(
@@ -181,15 +186,21 @@ class _Clock:
             self.kept = self.seconds()
 
 
-def _run(spec: PlannerSpec, task: Task, clock: _Clock) -> Plan:
-    with kernel_limits():
-        draft = spec.load()(task)
-        clock.keep()
-        alone = draft.alone
-        if alone is None:
-            from rightofway.search import alone_completions  # loads the native core: not for help
+def _silent(_: str) -> None:
+    """Take a sentence on progress, and say nothing."""
 
-            alone = alone_completions(task.scenario)
+
+def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_visit: float) -> Plan:
+    from rightofway.search import alone_completions  # loads the native core: not for help
+
+    clock, deadline = _Clock(), Deadline.after(time_limit)
+    with kernel_limits():
+        alone = alone_completions(task.scenario).tolist()
+        deadline = deadline.earlier(seconds_per_visit * _least_visits(task.scenario, alone))
+        if task.start is not None:
+            clock.keep()
+        draft = spec.load()(replace(task, deadline=deadline, has_plan=clock.keep))
+    clock.keep()
     run = PlannerRun(
         name=spec.name,
         options=task.options,
@@ -199,10 +210,19 @@ def _run(spec: PlannerSpec, task: Task, clock: _Clock) -> Plan:
         first_plan_seconds=clock.kept,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
-        alone=tuple(alone.tolist()),
+        alone=tuple(alone),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
     report = check(plan)
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     return plan
+
+
+def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:
+    """Return about how many visits the shortest routes of a fleet have."""
+    visits = 0
+    for itinerary, ticks in zip(scenario.problem.itineraries, alone, strict=True):
+        dwell = sum(stage.work + stage.turn for stage in itinerary.stages)
+        visits += max(ticks - dwell, 0) // min(itinerary.edge_ticks, default=1)
+    return visits

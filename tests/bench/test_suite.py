@@ -15,7 +15,7 @@ import pytest
 from rightofway.bench import cases_of, read_suite
 from rightofway.errors import InputError
 from rightofway.io import load, schema
-from rightofway.io.text.toml_text import parse_toml
+from rightofway.io.text import parse_toml
 from rightofway.planners import find
 
 ROOT = Path(__file__).parents[2]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import load
-from rightofway.cli.laps_theory import comparison_lines
+from rightofway.cli.laps_report import comparison_lines
 from rightofway.cyclic import best_timetable
 from tests.cli.conftest import EXAMPLES, Cli
 
@@ -33,7 +33,7 @@ def test_the_report_sets_the_first_lap_against_the_later_ones(cli: Cli, slower: 
     ended = cli("laps", slower)
     assert ended.code == 0
     assert max(map(len, ended.out.splitlines())) <= 80
-    assert "2 robots: from time 8 on, all repeats every 30" in ended.out
+    assert "2 robots: period 30, from time 8 on" in ended.out
     assert "R1               1        30        20    33.3%" in ended.out
     assert "  N7: R1 waits for R2, first lap at 12; each period at 19" in ended.out
     assert "  N1: R2 waits for R1, first lap at 3\n" in ended.out
@@ -55,7 +55,7 @@ def test_the_report_for_programs_has_exact_times(cli: Cli, slower: Path) -> None
     assert {piece["robot"] for piece in group["bottleneck"]} == {"R2"}
 
 
-def test_a_robot_that_waits_for_ever_is_told(cli: Cli, slower: Path) -> None:
+def test_a_robot_that_waits_for_ever_never_makes_a_lap(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "fixed-order")
     assert "R2               0     never        30\n" in ended.out
 
@@ -89,8 +89,8 @@ def test_time_that_runs_out_ends_with_3_and_says_what_was_seen(cli: Cli) -> None
     ended = cli("laps", EXAMPLES / "warehouse.yaml", "--time-limit", "0.5")
     assert ended.code == 3
     told = " ".join(ended.out.split())
-    assert "no state came again within the time limit. Means of " in told
-    assert " laps each, from time " in told
+    assert "no state came again within the time limit. Measured, not proven: means of " in told
+    assert " laps per robot from time " in told
     found = json.loads(
         cli("laps", EXAMPLES / "warehouse.yaml", "--time-limit", "0.5", "--json").out
     )
@@ -106,6 +106,7 @@ def test_time_that_runs_out_ends_with_3_and_says_what_was_seen(cli: Cli) -> None
         (["--rule", "last-come"], "'last-come' is not one of"),
         (["--time-limit", "0"], "0 is not positive"),
         (["-o", "-", "--json"], "both go to standard output"),
+        (["--page", "l.json"], "'l.json' does not end in .html (give a name that does)"),
     ],
 )
 def test_bad_use_ends_with_2(cli: Cli, door: Path, args: list[str], message: str) -> None:
@@ -121,9 +122,7 @@ def test_trips_without_a_way_back_are_refused_with_their_place(cli: Cli, slower:
     assert "robots[0].return: 'none' leaves nothing to repeat (set return: home)" in ended.err
 
 
-def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
-    cli: Cli, slower: Path
-) -> None:
+def test_a_chosen_timetable_reports_its_gain_and_its_fairness(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "timetable", "--time-limit", "2", "-o", "plan.json")
     assert ended.code == 0
     assert "against first come first served\n" in ended.out
@@ -131,13 +130,13 @@ def test_a_chosen_timetable_tells_what_it_wins_and_that_nobody_starves(
     assert cli("check", "plan.json").code == 0
 
 
-def test_a_chosen_timetable_that_is_below_its_rival_says_so(slower: Path) -> None:
+def test_a_timetable_below_its_baseline_says_so(slower: Path) -> None:
     [group] = best_timetable(load(slower), time_limit=None, rounds=2).groups
     assert group.comparison is not None
-    chosen = group.comparison
-    below = replace(chosen, baseline_ends="open", baseline=chosen.throughput * 2)
-    said = " ".join(" ".join(comparison_lines(below)).split())
-    assert "not reached: 50.00% below first come first served as far as it was seen" in said
+    found = group.comparison
+    worse = replace(found, baseline_ends="open", baseline=found.throughput * 2)
+    said = " ".join(" ".join(comparison_lines(worse)).split())
+    assert "throughput: 50.00% below first come first served as measured within its time" in said
 
 
 def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:

@@ -45,18 +45,18 @@ def test_the_contract_for_programs_is_kept(cli: Cli, plan: Path) -> None:
     assert data["delays"] == ["exponential:0.2"]
 
 
-def test_a_broken_robot_is_told_apart_from_who_waits_for_it(cli: Cli, plan: Path) -> None:
+def test_a_broken_robot_is_counted_apart_from_those_that_wait_for_it(cli: Cli, plan: Path) -> None:
     ended = cli("simulate", plan, "--delays", "stop:R2@2", "--runs", 10)
     words = " ".join(ended.out.split())
-    assert "broken 1.00 robots a run break down, 1.00 wait for them for ever" in words
+    assert "broken 1.00 robots per run break down, 1.00 wait for them for ever" in words
     assert "R1 never completes" in words
 
 
-def test_switching_and_new_plans_are_told(cli: Cli, plan: Path) -> None:
+def test_switching_and_replanning_are_reported(cli: Cli, plan: Path) -> None:
     ended = cli("simulate", plan, "--delays", "stop:R2@1", "--runs", 5, "--replan", "--switch")
     words = " ".join(ended.out.split())
     assert "1.00 are cut off from a place" in words
-    assert "planned anew 1.0 times a run" in words
+    assert "replanned 1.0 times per run" in words
 
 
 def test_a_deadlock_would_be_told_by_the_exit_code(

@@ -35,7 +35,7 @@ def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> Non
         for one in (outcome, changed):
             assert (one.collisions, one.deadlocks) == (0, 0)
         assert changed.stranded == 0
-        happened = rightofway.check(replace(plan, tracks=outcome.tracks(7)))
+        happened = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
         if delays not in EARLY or not plan.scenario.rules.books_ahead:
             assert not MEETINGS & set(happened.counts)
         if delays == DELAYS[0]:

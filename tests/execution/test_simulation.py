@@ -24,7 +24,7 @@ def plan() -> Plan:
 
 def test_without_delays_everything_is_as_planned(plan: Plan) -> None:
     outcome = rightofway.simulate(plan, "uniform:0..0", runs=3)
-    assert outcome.tracks(2) == plan.tracks
+    assert outcome.trace(2).tracks == plan.tracks
     assert outcome.collisions == outcome.deadlocks == outcome.by_clock.total == 0
     assert outcome.lateness.all.max == 0
 
@@ -66,10 +66,10 @@ def test_a_run_shown_is_the_run_counted() -> None:
     for switch in (False, True):
         outcome = rightofway.simulate(plan, "chance:0.1x9", runs=5, switch=switch)
         for run in range(5):
-            ends = [int(track.enter[-1]) for track in outcome.tracks(run)]
+            ends = [int(track.enter[-1]) for track in outcome.trace(run).tracks]
             assert ends == outcome.completion[run].tolist()
     with pytest.raises(IndexError, match="run 5 is not among the 5 runs"):
-        outcome.tracks(5)
+        outcome.trace(5)
 
 
 def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:

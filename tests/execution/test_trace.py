@@ -13,7 +13,7 @@ def test_what_befell_a_run_accounts_for_its_times() -> None:
     """R1 stands still in N4 from 3 to 8, and R2 has to pass there behind it: 4 late."""
     outcome = simulate(door(), "stop:R1@3+5", runs=1)
     actual = outcome.trace(0)
-    assert actual.tracks == outcome.tracks(0)
+    assert actual.tracks == outcome.trace(0).tracks
     assert actual.stoppages == (((3, 5),), ())
     assert actual.completion == (15, 13)
     one, planned = actual.tracks[0], door().tracks[0]

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.io import load, read
+from rightofway.io import load, load_with_notes
 from tests.builders.fleets import PAPER, paper_scenario
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -16,7 +16,7 @@ def test_door_and_crossroad_are_cases_of_the_paper() -> None:
 
 
 def test_the_floor_is_cut_for_its_fastest_robot() -> None:
-    loaded = read(EXAMPLES / "floor.yaml")
+    loaded = load_with_notes(EXAMPLES / "floor.yaml")
     assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 1/2",)
     assert [robot.name for robot in loaded.scenario.robots] == [
         "porter",

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import load, read_map, read_scen, write_map, write_scen
+from rightofway.io import load, load_map, load_scen, write_map, write_scen
 from rightofway.model import Edge, Robot, Rules, Scenario, Stop, roadmap_of_edges
 from tests.builders.fleets import grid_fleet
 
@@ -34,7 +34,7 @@ def hall(tmp_path: Path) -> Path:
 )
 def test_a_map_is_its_rows(tmp_path: Path, text: str) -> None:
     (tmp_path / "hall.map").write_bytes(text.encode())
-    assert read_map(tmp_path / "hall.map") == ("..T", "G@S")
+    assert load_map(tmp_path / "hall.map") == ("..T", "G@S")
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_what_is_wrong_with_a_map_is_told_with_its_line(
     path = tmp_path / "hall.map"
     path.write_text(MAP.replace(old, new), encoding="utf-8")
     with pytest.raises(InputError) as caught:
-        read_map(path)
+        load_map(path)
     told = str(caught.value).splitlines()
     assert len(told) == len(faults)
     for line, fault in zip(told, faults, strict=True):
@@ -67,7 +67,7 @@ def test_what_is_wrong_with_a_map_is_told_with_its_line(
 
 
 def test_a_scen_row_says_x_then_y(hall: Path) -> None:
-    first, second = read_scen(hall)
+    first, second = load_scen(hall)
     assert (first.line, first.map_name, first.width, first.height) == (2, "hall.map", 3, 2)
     assert (first.start, first.goal) == ((0, 1), (1, 2))  # x 1, y 0 to x 2, y 1
     assert (second.start, second.goal) == ((0, 0), (1, 0))
@@ -88,7 +88,7 @@ def test_what_is_wrong_with_a_scen_is_told_with_its_line(
     path = tmp_path / "hall.scen"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as caught:
-        read_scen(path)
+        load_scen(path)
     assert str(caught.value).startswith(f"{path}: {fault}")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, load, read, scenario_of, write_scenario
+from rightofway.io import dump_scenario, load, load_with_notes, scenario_of, write_scenario
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
 
@@ -186,12 +186,12 @@ def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path:
     ]
     floor = document(map={"floor": {"size": [12, 8]}, "cell_size": 0.5}, robots=robots)
     path.write_text(json.dumps(floor), encoding="utf-8")
-    loaded = read(path)
+    loaded = load_with_notes(path)
     assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 1/2",)
     # A cell takes R1 1000/1999 = 2000/3998 and R2 1999/3998: too many ticks to be exact.
     robots[0]["speed"] = "1999/2000"
     path.write_text(json.dumps(floor), encoding="utf-8")
-    assert read(path).notes[1] == (
+    assert load_with_notes(path).notes[1] == (
         "durations are rounded up to 1/1000 of the shortest;"
         " give speeds with smaller denominators to be exact"
     )

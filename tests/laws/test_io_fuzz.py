@@ -15,16 +15,15 @@ from rightofway.errors import InputError
 from rightofway.io import (
     dump_plan,
     load,
+    load_map,
     load_plan,
+    load_scen,
     plan_of,
-    read_map,
-    read_scen,
     scenario_of,
     schema,
 )
-from rightofway.io.text.documents import read_document
-from rightofway.io.text.json_text import parse_json
-from rightofway.io.text.yaml_text import parse_yaml
+from rightofway.io.text import parse_json, read_document
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]
@@ -180,5 +179,5 @@ def test_any_file(name: str, content: bytes) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, name)
         path.write_bytes(content)
-        for read in (load, load_plan, read_map, read_scen):
+        for read in (load, load_plan, load_map, load_scen):
             accepts(read, path)

@@ -18,7 +18,6 @@ from rightofway.io import (
     write_plan,
     write_scenario,
 )
-from rightofway.io.text.exact import exact, written
 from rightofway.model import (
     Decision,
     Edge,
@@ -37,6 +36,7 @@ from rightofway.model import (
     roadmap_of_edges,
     roadmap_of_grid,
 )
+from rightofway.model.values import exact, written
 
 names = st.one_of(
     st.text(min_size=1, max_size=8).filter(str.isprintable),

@@ -15,6 +15,7 @@ from rightofway.check import check
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.model import NEVER, Tick
+from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
 from tests.builders.executions import RULES, oracle_of, some_delays, some_plan, times
 from tests.builders.fleets import random_fleet
@@ -40,7 +41,7 @@ def test_robots_that_look_find_the_new_plan_possible(
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     delays = some_delays(draw, len(plan.tracks), 20)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
-    monitor = ExecutionMonitor(adg, policy, chance, 0)
+    monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     slow = oracle_of(monitor.adg, monitor.delay_sample)
     expected = execution.by_right_of_way(slow)
     assert times(monitor.execution) == times(expected)
@@ -66,7 +67,7 @@ def test_the_judge_finds_everything_done_and_nobody_meeting(
         stoppages=tuple(() for _ in plan.tracks),
     )
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
-    monitor = ExecutionMonitor(adg, policy, chance, 0)
+    monitor = ExecutionMonitor(adg, policy, chance, 0, Deadline())
     assert (monitor.completion < NEVER).all()
     found = check(replace(plan, tracks=monitor.adg.tracks_at(monitor.execution.enter)))
     assert found.ok, found
@@ -79,7 +80,7 @@ def test_nothing_is_changed_where_nobody_is_late(
 ) -> None:
     plan = some_plan(seed, rules)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, DelayModel.none(len(plan.tracks)))
-    assert ExecutionMonitor(adg, policy, 0, 0).adg is adg
+    assert ExecutionMonitor(adg, policy, 0, 0, Deadline()).adg is adg
 
 
 def booked_until(monitor: ExecutionMonitor, tick: int) -> list[list[tuple[int, int]]]:
@@ -91,22 +92,20 @@ def booked_until(monitor: ExecutionMonitor, tick: int) -> list[list[tuple[int, i
 
 
 class Witness(ExecutionMonitor):
-    """Looks whether changes leave alone what was before them."""
+    """Looks at each forecast whether the past is as it was at the forecast before."""
 
+    last: tuple[int, list[list[tuple[int, int]]]] = (0, [])
     seen = 0
 
-    def try_to_reorder(self, forecast: Forecast) -> Forecast:
-        before = booked_until(self, forecast.now)
-        found = super().try_to_reorder(forecast)
-        assert booked_until(self, forecast.now) == before
-        Witness.seen += found is not forecast
-        return found
+    def forecast(self, now: int) -> Forecast:
+        self.look()
+        self.last = (now, booked_until(self, now))
+        return super().forecast(now)
 
-    def replan(self, forecast: Forecast, limit: int) -> None:
-        before = booked_until(self, forecast.now)
-        super().replan(forecast, limit)
-        assert booked_until(self, forecast.now) == before
-        Witness.seen += self.adg is not forecast.adg
+    def look(self) -> None:
+        tick, before = self.last
+        assert not before or booked_until(self, tick) == before
+        Witness.seen += self.switches + self.replans
 
 
 @given(
@@ -122,14 +121,16 @@ def test_no_change_reaches_into_the_past(
     """Who has waited until now for its right of way goes now, not when it could have gone."""
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     delays = some_delays(draw, len(plan.tracks), 20)
-    Witness(ActionDependencyGraph(plan.scenario, plan.tracks, delays), policy, chance, 0)
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
+    Witness(adg, policy, chance, 0, Deadline()).look()
 
 
 def test_the_witness_has_seen_changes() -> None:
     plan = some_plan(0, 1)
     delays = replace(DelayModel.none(len(plan.tracks)), random=(("chance", 0.1, 20.0),))
+    adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
     for run in range(20):
-        Witness(ActionDependencyGraph(plan.scenario, plan.tracks, delays), POLICIES[2], run, 0)
+        Witness(adg, POLICIES[2], run, 0, Deadline()).look()
     assert Witness.seen > 0
 
 
@@ -152,7 +153,7 @@ def test_what_is_still_to_come_decides_nothing(
         adg = ActionDependencyGraph(
             plan.scenario, plan.tracks, replace(delays, stoppages=stoppages)
         )
-        seen.append(booked_until(ExecutionMonitor(adg, policy, 0, 0), cut))
+        seen.append(booked_until(ExecutionMonitor(adg, policy, 0, 0, Deadline()), cut))
     assert seen[0] == seen[1] == seen[2]
 
 

@@ -116,7 +116,9 @@ def test_no_robots_collide_over_all_plans_of_a_run_and_the_rest_complete(
     if plan is None:
         return
     adg = with_breakdowns(draw, plan, most=2)
-    monitor = ExecutionMonitor(adg, ExecutionPolicy(switch=switch, replan=True), chance, 0)
+    monitor = ExecutionMonitor(
+        adg, ExecutionPolicy(switch=switch, replan=True), chance, 0, Deadline()
+    )
     tracks = monitor.adg.tracks_at(monitor.execution.enter)
     report = check(replace(plan, tracks=tracks))
     assert not MEETINGS & set(report.counts)

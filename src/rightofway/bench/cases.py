@@ -14,8 +14,8 @@ from rightofway.bench.fleets import scenario_document
 from rightofway.bench.suite import Fleet, Suite
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
-from rightofway.io.text.exact import written
 from rightofway.model import Scenario
+from rightofway.model.values import written
 
 __all__ = ["Case", "cases_of"]
 

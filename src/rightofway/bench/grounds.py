@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.bench.fleets import largest_part, random_grid
 from rightofway.errors import InputError, InputFault
-from rightofway.io import dump_scenario, read, scenario_of
+from rightofway.io import dump_scenario, load, scenario_of
 from rightofway.io.faults import Faults, under
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.model import Grid, Scenario
 
 if TYPE_CHECKING:
-    from rightofway.io.suite.shape import MapCasesDocument, RandomGridDocument
+    from rightofway.io.suite import MapCasesDocument, RandomGridDocument
 
 __all__ = ["Ground", "Source", "ground_of"]
 
@@ -99,7 +99,7 @@ def ground_of(document: MapCasesDocument, counts: Sequence[int] | None, base: Pa
 
 def _whole_scenario(file: str, base: Path) -> Ground:
     with under("scenario"):
-        scenario = read(base / file).scenario
+        scenario = load(base / file)
     source = Source(map={"scenario": dump_scenario(scenario)})
     return Ground(
         name=Path(file).stem, counts=(len(scenario.robots),), sources=(source,), has_fleet=True

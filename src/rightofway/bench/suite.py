@@ -11,15 +11,14 @@ from typing import TYPE_CHECKING, Any
 from rightofway.bench.grounds import Ground, ground_of
 from rightofway.errors import InputError, InputFault
 from rightofway.io import scenario_of
-from rightofway.io.faults import Faults, blaming, checked, checked_format
-from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT
-from rightofway.io.text.exact import written
-from rightofway.io.text.files import read_text
-from rightofway.io.text.toml_text import parse_toml
+from rightofway.io.faults import Faults, blaming, checked
+from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
+from rightofway.io.text import parse_toml, read_text
+from rightofway.model.values import written
 from rightofway.planners import find
 
 if TYPE_CHECKING:
-    from rightofway.io.suite.shape import PlannerDocument, SuiteDocument, SuiteFleetDocument
+    from rightofway.io.suite import PlannerDocument, SuiteDocument, SuiteFleetDocument
 
 __all__ = ["Contender", "Fleet", "Suite", "read_suite"]
 
@@ -98,7 +97,7 @@ def read_suite(path: Path | str) -> Suite:
     InputError
         With every independent fault, its place, value and remedy.
     """
-    from rightofway.io.suite.shape import SuiteDocument
+    from rightofway.io.suite import SuiteDocument
 
     path = Path(path)
     with blaming(str(path)):

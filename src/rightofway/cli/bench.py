@@ -8,32 +8,32 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import put, put_json, say, writable
+from rightofway.cli.terminal import as_json_option, put, put_json, say, writable
 
 if TYPE_CHECKING:
-    from rightofway.bench import Case, Group, Results, Row
+    from rightofway.bench import Case, Results, Row
 
 __all__ = ["bench"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway bench examples/suite.toml -o results.csv --report report.html
   rightofway bench examples/suite.toml --dask tcp://host:8786
 """
 
 
-@click.command(epilog=EXAMPLE)
+@click.command(epilog=EXAMPLES)
 @click.argument("suite", type=click.Path())
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
               callback=writable(".csv", ".parquet"),
-              help="Where rows are added; cases that it has are not run again.")  # fmt: skip
+              help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
 @click.option("--report", metavar="REPORT", callback=writable(".html", ".md"),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), metavar="N",
-              help="How many cases to run at a time; all cores by default.")  # fmt: skip
+              help="Cases that run at a time; all cores by default.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS",
               help="Run on a cluster: the address of a Dask scheduler.")  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
+@as_json_option("summary")
 def bench(
     *,
     suite: str,
@@ -45,10 +45,10 @@ def bench(
 ) -> int:
     """Run every case of a SUITE (TOML), each in a process of its own.
 
-    Prints how many cases each planner solves, how well and how fast. What was interrupted goes on
-    where it stopped when the same command is given again. Exit code 1 if a plan was wrong.
+    Prints for each planner how many cases it solves, how well and how fast. An interrupted run goes
+    on when the same command is given again. Exit code 1 if a plan was wrong.
     """
-    from rightofway.bench import Results, cases_of, need, read_suite
+    from rightofway.bench import Results, cases_of, need, read_suite, write_report
 
     if dask and jobs:
         raise click.UsageError("--jobs is for this machine, --dask for a cluster: choose one")
@@ -67,21 +67,26 @@ def bench(
             raise
         rows = [results.rows[case.key] for case in cases]
     say(f"wrote {output}")
-    _tell(rows, output, as_json=as_json)
+    _summarize(rows, output, as_json=as_json)
     if report:
-        _write_report(rows, report, found.name)
+        write_report(rows, report, f"Results of {found.name}")
+        say(f"wrote {report}")
     return 1 if any(row["valid"] is False for row in rows) else 0
 
 
 def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str | None) -> None:
     """Run the cases that have no row yet."""
-    from rightofway.bench import run_here, run_on_cluster
+    from rightofway.bench import machine, run_here, run_on_cluster
 
     left = {case.key: case for case in cases if case.key not in results.rows}
     done = len(cases) - len(left)
     if done:
         say(f"{done} of {len(cases)} cases are there already")
-        _warn_of_other_commits([results.rows[case.key] for case in cases if case.key not in left])
+        commit = machine()["commit"]
+        earlier = [results.rows[case.key]["commit"] for case in cases if case.key not in left]
+        others = sum(each != commit for each in earlier)
+        if others:
+            say(f"{others} of them by another commit (give another -o to run them again)")
     if not left:
         return
     rows = (
@@ -94,15 +99,6 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
         say(f"[{number}/{len(cases)}] {left[row['key']]}: {_ending(row)}")
 
 
-def _warn_of_other_commits(rows: Sequence[Row]) -> None:
-    from rightofway.bench import machine
-
-    commit = machine()["commit"]
-    others = sum(row["commit"] != commit for row in rows)
-    if others:
-        say(f"{others} of them by another commit (give another -o to run them anew)")
-
-
 def _ending(row: Row) -> str:
     if row["solved"]:
         ratio = "" if row["ratio"] is None else f"flowtime / bound {row['ratio']:.3f} in "
@@ -110,7 +106,7 @@ def _ending(row: Row) -> str:
     return f"{row['status']}: {row['message']}"
 
 
-def _tell(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
+def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
     from rightofway.bench import Group, by_planner
 
     groups = {name: Group.of(each) for name, each in by_planner(rows).items()}
@@ -118,23 +114,11 @@ def _tell(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
         planners = [{"planner": name, **asdict(group)} for name, group in groups.items()]
         put_json({"results": output, "cases": len(rows), "planners": planners})
         return
-    lines = [HEADS, *((name, *_numbers(group)) for name, group in groups.items())]
+    lines = [("planner", "solved", "ratio", "first plan [s]")]
+    for name, group in groups.items():
+        ratio = f"{group.ratio.median:.3f}" if group.ratio else ""
+        seconds = f"{group.seconds.median:.2f}" if group.seconds else ""
+        lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
     width = max(len(name) for name, *_ in lines)
     for name, solved, ratio, seconds in lines:
         put(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())
-
-
-HEADS = ("planner", "solved", "ratio", "first plan [s]")
-
-
-def _numbers(group: Group) -> tuple[str, str, str]:
-    ratio = f"{group.ratio.median:.3f}" if group.ratio else ""
-    seconds = f"{group.seconds.median:.2f}" if group.seconds else ""
-    return f"{group.solved}/{group.cases}", ratio, seconds
-
-
-def _write_report(rows: Sequence[Row], path: str, name: str) -> None:
-    from rightofway.bench import write_report
-
-    write_report(rows, path, f"Results of {name}")
-    say(f"wrote {path}")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_plan
+from rightofway.cli.terminal import as_json_option, put, put_json, read_plan
 
 if TYPE_CHECKING:
     from rightofway.check import Report
@@ -18,14 +18,14 @@ __all__ = ["check"]
 @click.command(epilog="Example:  rightofway check plan.json")
 @click.argument("plan", type=click.Path())
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
-              help="How many faults to list; all are counted.")  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
+              help="Faults to list; all are counted.")  # fmt: skip
+@as_json_option("report")
 def check(plan: str, limit: int, as_json: bool) -> int:
     """Check a PLAN; exit code 1 if it breaks a rule.
 
-    The judge shares no code with the planners. It looks for jumps, drives that are too fast, work
-    cut short, missed stops, wrong homes and ends, vertex and swap conflicts, headways and, where
-    they are forbidden, rotations.
+    The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
+    short, missed stops, wrong homes and ends, vertex and swap conflicts, headways that are too
+    short and, where they are forbidden, rotations. A PLAN of - is standard input.
     """
     from rightofway.check import check as judge
 

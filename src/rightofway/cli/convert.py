@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["convert"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway convert examples/warehouse.yaml warehouse.json
   rightofway convert maze.scen maze.yaml
@@ -23,14 +23,14 @@ Examples:
 """
 
 
-@click.command(epilog=EXAMPLE)
+@click.command(epilog=EXAMPLES, short_help="Write a scenario in another format.")
 @click.argument("source", type=click.Path())
 @click.argument("target", type=click.Path(), callback=writable(".yaml", ".yml", ".json", ".scen"))
 def convert(source: str, target: str) -> None:
     """Write the scenario SOURCE as TARGET: .yaml, .json, or .scen with its .map beside it.
 
-    The map goes into a .yaml or .json, so that it needs no other file. What a .scen cannot say
-    (speeds, work, turning, ways home) is named.
+    A .yaml or .json holds its map, so that it needs no other file. A .scen holds no speeds, work,
+    turning and ways home; the command reports which of these it left out.
     """
     from rightofway.io import write_scenario
 

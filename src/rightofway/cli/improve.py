@@ -2,52 +2,51 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
     Asked,
     PlanningCommand,
     hand_over,
-    options_of_planning,
-    refuse_bad_outputs,
+    planning_options,
 )
 from rightofway.cli.terminal import progress, read_plan
-from rightofway.planners import IMPROVER, PlannerSpec
+from rightofway.planners import IMPROVER
 
 __all__ = ["improve"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway improve plan.json -o better.json
   rightofway improve plan.json --planner local-search --option rounds=1000
 """
 
 
-class _ImproveCommand(PlanningCommand):
-    def can_use(self, spec: PlannerSpec) -> bool:
-        return spec.improves
-
-
-@click.command(cls=_ImproveCommand, epilog=EXAMPLE)
+@click.command(cls=PlanningCommand, only_improvers=True, epilog=EXAMPLES)
 @click.argument("plan", type=click.Path())
-@options_of_planning(IMPROVER)
-def improve(*, plan: str, asked: Asked) -> int:
-    """Make a PLAN better, whoever made it, and check the result.
+@planning_options(IMPROVER)
+def improve(*, plan: str, **given: Any) -> int:
+    """Improve a PLAN of any planner, and check the result.
 
-    The result is never worse. A PLAN of - is standard input.
+    The result is never worse than the PLAN. A PLAN of - is standard input.
     """
-    from rightofway.solve import improve as make_better
+    from rightofway.solve import improve as improved
 
-    refuse_bad_outputs(plan, asked.output, log=asked.log, table=asked.table, as_json=asked.as_json)
+    asked = Asked(**given)
+    asked.refuse_outputs(plan)
     first = read_plan(plan)
     with progress() as report:
-        found = make_better(
+        found = improved(
             first,
             asked.planner,
-            asked.time_limit,
+            asked.time_left,
             asked.seed,
             options=asked.options,
             report=report,
             keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

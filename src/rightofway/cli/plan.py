@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from rightofway.cli.planning import (
+    SECONDS_PER_VISIT,
     Asked,
     PlanningCommand,
     hand_over,
-    options_of_planning,
-    refuse_bad_outputs,
+    planning_options,
 )
 from rightofway.cli.terminal import progress, read_scenario
 from rightofway.planners import DEFAULT
 
 __all__ = ["plan"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway plan examples/door.yaml --show door.html
   rightofway plan examples/warehouse.yaml -o plan.json --log
@@ -24,28 +26,29 @@ Examples:
 """
 
 
-@click.command(cls=PlanningCommand, epilog=EXAMPLE)
+@click.command(cls=PlanningCommand, epilog=EXAMPLES)
 @click.argument("scenario", type=click.Path())
-@options_of_planning(DEFAULT)
-def plan(*, scenario: str, asked: Asked) -> int:
+@planning_options(DEFAULT)
+def plan(*, scenario: str, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
 
-    Prints what the plan costs and who waits for whom. A SCENARIO of - is standard input.
+    Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
+    standard input.
     """
     from rightofway.solve import solve
 
-    refuse_bad_outputs(
-        scenario, asked.output, log=asked.log, table=asked.table, as_json=asked.as_json
-    )
+    asked = Asked(**given)
+    asked.refuse_outputs(scenario)
     problem = read_scenario(scenario)
     with progress() as report:
         found = solve(
             problem,
             asked.planner,
-            asked.time_limit,
+            asked.time_left,
             asked.seed,
             options=asked.options,
             report=report,
             keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
         )
     return hand_over(found, asked)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["show"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway show plan.json -o plan.html
   rightofway show plan.json -o moment.png --tick 12
@@ -22,18 +22,18 @@ Examples:
 """
 
 
-@click.command(epilog=EXAMPLE)
+@click.command(epilog=EXAMPLES)
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO")
 @click.option("-o", "--output", required=True, metavar="FILE",
               callback=writable(".html", ".png", ".gif"),
-              help="Where; .html, .png or .gif says what.")  # fmt: skip
+              help="File to write: a page (.html), a picture (.png) or a film (.gif).")  # fmt: skip
 @click.option("--tick", type=click.IntRange(0), metavar="TICK",
-              help="The instant of a picture; at home without.")  # fmt: skip
+              help="Tick that a picture shows; the start by default.")  # fmt: skip
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under a picture.")
 def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
     """Show a plan as a page that plays it, a picture or a film.
 
-    A scenario is planned first, as `rightofway plan` would.
+    A scenario is planned first, as by `rightofway plan`.
     """
     suffix = Path(output).suffix.lower()
     if suffix != ".png" and (diagram or tick is not None):

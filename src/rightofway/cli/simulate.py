@@ -1,17 +1,39 @@
-"""``rightofway simulate``: a plan on a floor where robots are late."""
+"""``rightofway simulate``: a plan executed many times by robots that are late."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import click
 
-from rightofway.cli.terminal import progress, put, put_json, read_plan, say, writable
+from rightofway.cli.terminal import (
+    COLUMNS,
+    as_json_option,
+    progress,
+    put,
+    put_json,
+    read_plan,
+    row,
+    say,
+    seed_option,
+    short,
+    writable,
+)
 
 if TYPE_CHECKING:
-    from rightofway.execution import Outcome
+    from rightofway.execution import Outcome, PolicyGain, Quantiles
 
-__all__ = ["simulate"]
+__all__ = ["report", "simulate"]
+
+MAX_ROBOTS = 20
+"""Robots in the report; --json has them all."""
+
+MAX_SOURCES = 8
+"""Places in the report where lateness began; --json has them all."""
+
+LEAST_LATENESS = 0.05
+"""Lateness that the report does not show as 0.0 [ticks]."""
 
 EXAMPLES = """\b
 Examples:
@@ -23,67 +45,43 @@ Examples:
 
 
 class _SimulateCommand(click.Command):
-    """A command whose help lists what makes robots late."""
+    """A command whose help lists the kinds of delays."""
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the delays, then what else there is."""
+        """Write the delays, then the examples."""
         from rightofway.execution import CAUSES
 
         with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
             formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
             formatter.write_paragraph()
-            formatter.write_text("Several go with commas between, or in a YAML or JSON list.")
+            formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
         super().format_epilog(ctx, formatter)
 
 
-@click.command(cls=_SimulateCommand, epilog=EXAMPLES)
+@click.command(
+    cls=_SimulateCommand,
+    epilog=EXAMPLES,
+    short_help="Execute a PLAN many times with robots that are late.",
+)
 @click.argument("plan", type=click.Path())
-@click.option(
-    "--delays",
-    multiple=True,
-    metavar="DELAYS",
-    help="What makes robots late; may be repeated.  [default: exponential:0.2]",
-)
-@click.option(
-    "--runs",
-    type=click.IntRange(1),
-    default=1000,
-    show_default=True,
-    metavar="N",
-    help="How many runs.",
-)
-@click.option(
-    "--seed",
-    type=click.IntRange(0, 2**32 - 1),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="What delays are drawn from.",
-)
-@click.option(
-    "--switch",
-    is_flag=True,
-    help="Switch rights of way on the way, where that is expected to help.",
-)
-@click.option(
-    "--replan",
-    is_flag=True,
-    help="Plan what is left anew when the fleet has fallen behind and that is expected to help, "
-    "and when a robot breaks down for ever.",
-)
-@click.option(
-    "--page",
-    metavar="FILE",
-    callback=writable(".html"),
-    help="Write a page that plays one run against the plan.",
-)
-@click.option(
-    "--run",
-    type=click.IntRange(0),
-    metavar="K",
-    help="Which run to play, from 0; without, the one in the middle by lateness.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON.")  # fmt: skip
+@click.option("--delays", multiple=True, metavar="DELAYS",
+              help="Kinds of delays, see below; or a file with a list of them. May be repeated."
+              "  [default: exponential:0.2]")  # fmt: skip
+@click.option("--runs", type=click.IntRange(1), default=1000, show_default=True, metavar="N",
+              help="Number of runs.")  # fmt: skip
+@seed_option
+@click.option("--switch", is_flag=True,
+              help="Let a robot that is early go before one that is late, where this is expected"
+              " to save time.")  # fmt: skip
+@click.option("--replan", is_flag=True,
+              help="Replan the rest of the work where this is expected to save time, and when a"
+              " robot breaks down for ever.")  # fmt: skip
+@click.option("--page", metavar="FILE", callback=writable(".html"),
+              help="Write a page that plays one run beside the plan.")  # fmt: skip
+@click.option("--run", type=click.IntRange(0), metavar="K",
+              help="Run that the page plays, from 0; by default the one of median lateness.",
+              )  # fmt: skip
+@as_json_option("outcome")
 def simulate(
     *,
     plan: str,
@@ -96,32 +94,32 @@ def simulate(
     run: int | None,
     as_json: bool,
 ) -> int:
-    """Run a PLAN on a floor where robots are late.
+    """Execute a PLAN many times with robots that are late, and report how late.
 
-    By right of way robots keep the order of the plan at every place, and forget its clock: they
-    never collide nor deadlock, and exit code 1 says if they did. By the clock, to compare, each
-    robot keeps its planned times as well as it can. A PLAN of - is standard input.
+    Two ways of execution are compared. By right of way, robots keep the order of the plan at each
+    place and ignore its clock: they can neither collide nor deadlock (exit code 1 if they did). By
+    the clock, each robot keeps its planned times as well as it can. A PLAN of - is standard input.
     """
     if run is not None and not 0 <= run < runs:
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.execution import DEFAULT
-    from rightofway.execution import simulate as run_on_the_floor
+    from rightofway.execution import simulate as execute
 
     texts = [text for one in delays or [DEFAULT] for text in _texts(one)]
     found = read_plan(plan)
-    with progress() as told:
-        outcome = run_on_the_floor(
-            found, texts, runs, seed, switch=switch, replan=replan, report=told
-        )
+    with progress() as reported:
+        outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
     if as_json:
         put_json(outcome.as_dict())
     else:
-        from rightofway.cli.lateness import report
-
         put(report(outcome))
     if page:
-        _write_page(outcome, page, outcome.typical() if run is None else run)
-    return _end(outcome)
+        from rightofway.viz import write_page
+
+        played = outcome.typical() if run is None else run
+        write_page(outcome.plan, page, actual=outcome.trace(played))
+        say(f"wrote {page}: run {played} of {outcome.runs}")
+    return 1 if outcome.collisions or outcome.deadlocks else 0
 
 
 def _texts(delays: str) -> tuple[str, ...]:
@@ -131,12 +129,111 @@ def _texts(delays: str) -> tuple[str, ...]:
     return load_delays(delays) if delays.lower().endswith(DELAY_FILES) else (delays,)
 
 
-def _write_page(outcome: Outcome, page: str, run: int) -> None:
-    from rightofway.viz import write_page
-
-    write_page(outcome.plan, page, actual=outcome.trace(run))
-    say(f"wrote {page}: run {run} of {outcome.runs}")
+def report(outcome: Outcome) -> str:
+    """Return how often robots collided, how late each one was, and where lateness began."""
+    return "\n".join([*_totals(outcome), "", *_robots(outcome), *_sources(outcome)])
 
 
-def _end(outcome: Outcome) -> int:
-    return 1 if outcome.collisions or outcome.deadlocks else 0
+def _totals(outcome: Outcome) -> Iterator[str]:
+    late = outcome.lateness
+    collisions = _count(outcome.collisions, "collision")
+    rows = [
+        ("runs", f"{outcome.runs} with {', '.join(outcome.delays)}; seed {outcome.seed}"),
+        ("right of way", f"{collisions}, {_count(outcome.deadlocks, 'deadlock')}"),
+        ("by the clock", _by_clock(outcome)),
+        ("late", _quantiles(late.all)),
+    ]
+    if late.flowtime.mean is not None:
+        rows.append(("flowtime", f"later by {_quantiles(late.flowtime)}"))
+        rows.append(("makespan", f"later by {_quantiles(late.makespan)}"))
+    if outcome.switches:
+        rows.append(("switched", f"{outcome.switches / outcome.runs:.1f} times per run"))
+    if outcome.replans:
+        rows.append(("replanned", f"{outcome.replans / outcome.runs:.1f} times per run"))
+    if outcome.gain and outcome.gain.runs:
+        rows.append(("gain", _gain(outcome.gain)))
+    if outcome.broken:
+        rows.append(("broken", _broken(outcome)))
+    for key, text in rows:
+        yield row(key, text, 14)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}" + "s" * (number != 1)
+
+
+def _by_clock(outcome: Outcome) -> str:
+    clock = outcome.by_clock
+    if not clock.runs:
+        return "no run collides"
+    often = f"{clock.total / outcome.runs:.1f} times per run on average"
+    first = f"first at tick {clock.first.median:g} (median)"
+    return f"{clock.runs / outcome.runs:.1%} of runs collide, {often}, {first}"
+
+
+def _quantiles(found: Quantiles) -> str:
+    if found.mean is None:
+        return "no robot ever completes"
+    return (
+        f"{found.mean:.1f} ticks on average; median {found.median:g},"
+        f" 90 % {found.p90:g}, 95 % {found.p95:g}, most {found.max}"
+    )
+
+
+def _gain(gain: PolicyGain) -> str:
+    """Say how much flowtime was saved; a loss is below zero."""
+    runs = gain.runs
+    return (
+        f"{gain.flowtime.mean:.1f} ticks of flowtime per run on average, compared with the plan's"
+        f" rights of way in the same runs; {gain.earlier / runs:.0%} of runs earlier,"
+        f" {gain.later / runs:.0%} later"
+    )
+
+
+def _broken(outcome: Outcome) -> str:
+    parts = [
+        (outcome.broken, "robots per run break down"),
+        (outcome.stranded, "wait for them for ever"),
+        (outcome.cut_off, "are cut off from a place"),
+    ]
+    parts = parts if outcome.replans else parts[:2]
+    return ", ".join(f"{number / outcome.runs:.2f} {what}" for number, what in parts)
+
+
+def _robots(outcome: Outcome) -> Iterator[str]:
+    names = [short(robot.name) for robot in outcome.plan.scenario.robots]
+    robots = outcome.lateness.robots
+    latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
+    listed = sorted(latest[:MAX_ROBOTS])
+    width = max(len("robot"), *(len(names[robot]) for robot in listed))
+    yield f"{'robot':{width}}  late     95 %   most  own    waiting for"
+    for number in listed:
+        robot, late = robots[number], robots[number].quantiles
+        if late.mean is None:
+            yield f"{names[number]:{width}}  never completes"
+            continue
+        times = f"{late.mean:<7.1f}  {late.p95:<5g}  {late.max:<4}  {robot.own:<5.1f}"
+        waiting = [
+            f"{names[other]} {ticks:.1f}"
+            for other, ticks in robot.waiting.items()
+            if ticks >= LEAST_LATENESS
+        ]
+        line = f"{names[number]:{width}}  {times}  {', '.join(waiting[:3])}"
+        yield line.rstrip() if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
+    if len(robots) > len(listed):
+        yield f"… and {len(robots) - len(listed)} more robots, which are less late"
+
+
+def _sources(outcome: Outcome) -> Iterator[str]:
+    sources = outcome.lateness.sources
+    if not sources:
+        return
+    robots, place = outcome.plan.scenario.robots, outcome.plan.scenario.roadmap.name
+    yield ""
+    yield "Most lateness begins here [ticks per run]"
+    for source in sources[:MAX_SOURCES]:
+        where = f"{short(robots[source.robot].name)} at {place(source.vertex)}"
+        total, others = source.own + source.of_others, source.of_others
+        yield f"  {where}: {total:.2f}, of which {others:.2f} falls on other robots"
+    if len(sources) > MAX_SOURCES:
+        yield f"  … and {len(sources) - MAX_SOURCES} more places (--json lists all)"

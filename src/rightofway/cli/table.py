@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import put, put_json, read_plan, say, width, writable
+from rightofway.cli.terminal import as_json_option, put, put_json, read_plan, say, width, writable
 
 if TYPE_CHECKING:
     from rightofway.viz.table import TimeSpaceTable
 
 __all__ = ["table"]
 
-EXAMPLE = """\b
+EXAMPLES = """\b
 Examples:
   rightofway table plan.json --to 20
   rightofway table plan.json -o plan.xlsx --robots R1,R2
 """
 
 
-@click.command(epilog=EXAMPLE)
+@click.command(epilog=EXAMPLES, short_help="Print the vertex of each robot at each tick.")
 @click.argument("plan", type=click.Path())
 @click.option("-o", "--output", metavar="FILE", callback=writable(".csv", ".xlsx"),
               help="Write .csv or .xlsx instead of text.")  # fmt: skip
@@ -29,7 +29,7 @@ Examples:
               help="First tick shown.")  # fmt: skip
 @click.option("--to", "last", type=click.IntRange(0), metavar="TICK", help="Last tick shown.")
 @click.option("--robots", metavar="NAMES", help="Only these robots, with commas between.")
-@click.option("--json", "as_json", is_flag=True, help="Print the table as JSON.")
+@as_json_option("table")
 def table(
     *,
     plan: str,
@@ -39,9 +39,10 @@ def table(
     robots: str | None,
     as_json: bool,
 ) -> None:
-    """Show where each robot of a PLAN is at each tick.
+    """Print the time/space table of a PLAN: the vertex of each robot at each tick.
 
-    Planned rows are without any wait, collisions marked; final rows are as planned.
+    Planned rows are those of robots that never wait, with their collisions marked; final rows are
+    those of the plan. A PLAN of - is standard input.
     """
     from rightofway.viz.table import as_text, table_of
 

@@ -1,11 +1,13 @@
-"""What all commands share: where words go, the files they read, the files they will write."""
+"""Parts that all commands share: options, text of 80 columns, files that are read and written."""
 
 from __future__ import annotations
 
 import io
 import json
+import math
 import shutil
 import sys
+import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,18 +20,30 @@ if TYPE_CHECKING:
     from rightofway.model import Plan, Scenario
 
 __all__ = [
+    "COLUMNS",
+    "as_json_option",
     "progress",
     "put",
     "put_json",
     "read_either",
     "read_plan",
     "read_scenario",
+    "row",
     "say",
+    "seed_option",
+    "short",
     "speak_utf8",
+    "time_limit_option",
     "width",
+    "wrapped",
     "writable",
 ]
 
+COLUMNS = 80
+"""Longest line of a report."""
+
+MAX_NAME = 40
+"""Columns that a robot's name may take in a table."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -44,13 +58,13 @@ def speak_utf8() -> None:
 
 
 def say(message: str) -> None:
-    """Tell the user something that is not the result."""
+    """Write a message, not a result, to standard error."""
     click.echo(message, err=True)
 
 
 @contextmanager
 def progress() -> Iterator[Callable[[str], None]]:
-    """Yield what shows a passing sentence in the last line of a terminal; elsewhere, nothing."""
+    """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing."""
     if not sys.stderr.isatty():
         yield lambda _: None
         return
@@ -61,12 +75,12 @@ def progress() -> Iterator[Callable[[str], None]]:
 
 
 def put(text: str) -> None:
-    """Give out a result."""
+    """Write a result to standard output."""
     click.echo(text)
 
 
 def put_json(value: Any) -> None:
-    """Give out a result for programs."""
+    """Write a result for programs to standard output."""
     click.echo(json.dumps(value, indent=1, ensure_ascii=False))
 
 
@@ -75,11 +89,28 @@ def width() -> int:
     return shutil.get_terminal_size().columns
 
 
-def read_scenario(path: str) -> Scenario:
-    """Read a scenario and pass on what its reader has to say; ``-`` is standard input."""
-    from rightofway.io import read
+def wrapped(text: str, indent: str = "") -> list[str]:
+    """Return the lines of a sentence."""
+    return textwrap.wrap(text, COLUMNS, initial_indent=indent, subsequent_indent=indent + "    ")
 
-    return _noted(read(path), path)
+
+def row(key: str, text: str, column: int) -> str:
+    """Return a row of a report: a key, and from a column on its text, on several lines if long."""
+    return textwrap.fill(
+        text, COLUMNS, initial_indent=f"{key:{column}}", subsequent_indent=" " * column
+    )
+
+
+def short(name: str) -> str:
+    """Return a robot's name in the columns that it may take."""
+    return name if len(name) <= MAX_NAME else f"{name[: MAX_NAME - 1]}…"
+
+
+def read_scenario(path: str) -> Scenario:
+    """Read a scenario and write its reader's notes; ``-`` is standard input."""
+    from rightofway.io import load_with_notes
+
+    return _noted(load_with_notes(path), path)
 
 
 def read_plan(path: str) -> Plan:
@@ -90,10 +121,10 @@ def read_plan(path: str) -> Plan:
 
 
 def read_either(path: str) -> Plan | Scenario:
-    """Read a plan or a scenario, whichever it is; ``-`` is standard input."""
-    from rightofway.io import Loaded, read_either
+    """Read a plan or a scenario; ``-`` is standard input."""
+    from rightofway.io import Loaded, load_either
 
-    found = read_either(path)
+    found = load_either(path)
     return _noted(found, path) if isinstance(found, Loaded) else found
 
 
@@ -109,7 +140,7 @@ def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], 
     Parameters
     ----------
     suffixes
-        What its name may end in; anything if there are none.
+        The endings that its name may have; any if there are none.
     """
 
     def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
@@ -125,9 +156,42 @@ def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], 
 def _unwritable(path: Path, suffixes: tuple[str, ...]) -> str | None:
     if suffixes and path.suffix.lower() not in suffixes:
         *others, last = suffixes
-        return f"is no {', '.join(others)} or {last} (name one of them)"
+        known = f"{', '.join(others)} or {last}" if others else last
+        return f"does not end in {known} (give a name that does)"
     if path.is_dir():
         return "is a directory (give a file name in it)"
     if not path.parent.is_dir():
         return f"cannot be written: there is no directory {str(path.parent)!r} (make it first)"
     return None
+
+
+def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+    """Return a time limit [s]; None for no limit."""
+    if not given > 0:
+        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
+    return None if given == math.inf else given
+
+
+time_limit_option = click.option(
+    "--time-limit",
+    type=float,
+    default=10,
+    show_default=True,
+    callback=_seconds,
+    metavar="SECONDS",
+    help="Limit of the whole computation; inf for none.",
+)
+
+seed_option = click.option(
+    "--seed",
+    type=click.IntRange(0, 2**32 - 1),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Seed of all random choices.",
+)
+
+
+def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return the option that prints a result for programs."""
+    return click.option("--json", "as_json", is_flag=True, help=f"Print the {what} as JSON.")

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rightofway.execution.forecast import Forecast
-from rightofway.model import Route, Stage, Tick, VertexId
+from rightofway.model import Stage, Tick, VertexId
 
-__all__ = ["Commitment", "closures_of", "commitment_of", "visits_serving"]
+__all__ = ["Commitment", "closures_of", "commitment_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +69,7 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
         is_driving = False
         index += other < 0 or bool(forecast.entered[other + 1])
     ends = forecast.graph.enter(first + index) + forecast.graph.routes[robot].dwell[index]
-    begun = sum(at <= index for at in visits_serving(route, stages))
+    begun = sum(at <= index for at in route.serves)
     return Commitment(
         visit=index,
         vertex=route.vertices[index],
@@ -88,15 +88,3 @@ def closures_of(forecast: Forecast) -> frozenset[VertexId]:
         held = np.arange(here, end)[forecast.booked[here:end]]
         closed.update(adg.vertex[held].tolist())
     return frozenset(closed)
-
-
-def visits_serving(route: Route, stages: Sequence[Stage]) -> list[int]:
-    """Return the visit that serves each stage, as early as its dwell allows."""
-    visit, last, spare, serves = 0, len(route) - 1, list(route.dwell), []
-    for stage in stages[:-1]:
-        need = stage.work + stage.turn
-        while visit < last and (route.vertices[visit] != stage.vertex or spare[visit] < need):
-            visit += 1
-        spare[visit] = Tick(spare[visit] - need)
-        serves.append(visit)
-    return [*serves, last]

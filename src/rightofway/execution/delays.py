@@ -7,34 +7,33 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
-from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.text.exact import exact
-from rightofway.model import NEVER, Clock, Scenario
+from rightofway.model import NEVER, Scenario
+from rightofway.model.values import exact
 from rightofway.precedence import DelayModel, Stoppage
 
 __all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
 
 DEFAULT = "exponential:0.2"
-"""What makes robots late where nothing is said."""
+"""The delays if none are given."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Delay:
-    """One cause of lateness.
+    """One cause of delay.
 
     Attributes
     ----------
     kind
-        As it is written, before the colon.
+        The word before the colon.
     robot
-        Whom it befalls; empty for everybody.
+        The robot's name; empty for all robots.
     first, second
-        The numbers, in the order in which they are written; times in time units. ``second`` is None
-        where there is none.
+        The numbers in the order in which they are written; times in time units. ``second`` is None
+        if there is none.
     text
-        All of it as it was written.
+        The cause as it was written.
     """
 
     kind: str
@@ -51,9 +50,9 @@ class Cause:
     Attributes
     ----------
     form
-        What stands after the colon, as a regular expression: robot, first and second number.
+        The text after the colon as a regular expression: robot, first and second number.
     examples
-        One for each way to write it, and what it means.
+        One for each way to write it, and its meaning.
     """
 
     form: str
@@ -106,21 +105,20 @@ CAUSES = {
         examples=(("early:R1x0.8", "everything takes R1 0.8 of its time"),),
     ),
 }
-"""All kinds, by what stands before the colon; the help of the command and the documentation show
-their examples."""
+"""All kinds of delay by name, as help and documentation show them."""
 
 _BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(CAUSES)})\s*:)")
 
 
 def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, ...]:
-    """Read what makes robots late.
+    """Read causes of delay.
 
     Parameters
     ----------
     given
-        One cause or several with commas between, or several of these.
+        One cause, or several with commas between, or a sequence of these.
     scenario
-        Whose robots they befall.
+        The problem; it names the robots.
 
     Raises
     ------
@@ -133,47 +131,35 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
 
 
 def _delay(text: str, scenario: Scenario) -> Delay:
-    kind, _, rest = text.partition(":")
-    kind = kind.strip()
+    def wrong(message: str) -> InputError:
+        return InputError.at("delays", f"{text}: {message}")
+
+    kind, _, rest = (part.strip() for part in text.partition(":"))
     if kind not in CAUSES:
-        known = ", ".join(CAUSES)
-        raise _wrong(text, f"{kind!r} is no kind of delay (one of {known})")
-    match = re.fullmatch(CAUSES[kind].form, rest.strip())
+        raise wrong(f"{kind!r} is no kind of delay (one of {', '.join(CAUSES)})")
+    match = re.fullmatch(CAUSES[kind].form, rest)
     if not match:
         example, _ = CAUSES[kind].examples[-1]
-        raise _wrong(text, f"{rest.strip()!r} cannot be read (write it like {example})")
-    robot, first, second = match.groups()
-    delay = Delay(
-        kind=kind,
-        robot=robot,
-        first=_number(text, first),
-        second=_number(text, second) if second else None,
-        text=text,
-    )
-    _refuse_odd(delay, scenario)
+        raise wrong(f"{rest!r} cannot be read (write it like {example})")
+    robot, *written = match.groups()
+    try:
+        first, second = (exact(number.strip()) if number else None for number in written)
+    except ValueError as error:
+        raise wrong(str(error)) from None
+    assert first is not None  # every form has a first number
+    delay = Delay(kind=kind, robot=robot, first=first, second=second, text=text)
+    names = [one.name for one in scenario.robots]
+    if robot and robot not in names:
+        few = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")  # noqa: PLR2004
+        raise wrong(f"there is no robot {robot!r} (there are {few})")
+    for complaint, is_wrong in _complaints(delay):
+        if is_wrong:
+            raise wrong(complaint)
     return delay
 
 
-def _number(text: str, written: str) -> Fraction:
-    try:
-        return exact(written.strip())
-    except ValueError as error:
-        raise _wrong(text, str(error)) from None
-
-
-def _refuse_odd(delay: Delay, scenario: Scenario) -> None:
-    names = [robot.name for robot in scenario.robots]
-    if delay.robot and delay.robot not in names:
-        few = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")  # noqa: PLR2004
-        raise _wrong(delay.text, f"there is no robot {delay.robot!r} (there are {few})")
-    for complaint, is_odd in _complaints(delay):
-        if is_odd:
-            raise _wrong(delay.text, complaint)
-
-
 def _complaints(delay: Delay) -> list[tuple[str, bool]]:
-    first, second, kind = delay.first, delay.second, delay.kind
-    other = second if second is not None else Fraction(0)
+    first, second, kind = delay.first, delay.second or 0, delay.kind
     return [
         (f"{first} is not positive (give a factor above 0)",
          kind in {"slow", "early"} and first <= 0),
@@ -182,45 +168,33 @@ def _complaints(delay: Delay) -> list[tuple[str, bool]]:
         (f"{first} is no chance (give 0 to 1)",
          kind in {"chance", "breaks"} and not 0 <= first <= 1),
         (f"{first} is negative (give 0 or more)", kind in {"exponential", "stop"} and first < 0),
-        (f"{other} is negative (give 0 or more)",
-         kind in {"normal", "chance", "stop"} and other < 0),
+        (f"{second} is negative (give 0 or more)",
+         kind in {"normal", "chance", "stop"} and second < 0),
         (f"{first} is not above -1 (nothing takes no time)",
          kind in {"uniform", "normal"} and first <= -1),
-        (f"{first} is above {other} (give the smaller bound first)",
-         kind == "uniform" and first > other),
+        (f"{first} is above {second} (give the smaller bound first)",
+         kind == "uniform" and first > second),
     ]  # fmt: skip
 
 
-def _wrong(text: str, message: str) -> InputError:
-    return InputError.at("delays", f"{text}: {message}")
-
-
 def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
-    """Return what the delays are in the ticks of a scenario."""
-    clock = scenario.problem.clock
-    names = [robot.name for robot in scenario.robots]
-    pace = dict.fromkeys(names, 1.0)
-    stoppages: dict[str, list[Stoppage]] = {name: [] for name in names}
+    """Return delays in the ticks of a scenario."""
+    ticks = scenario.problem.clock.ticks
+    pace = {robot.name: 1.0 for robot in scenario.robots}
+    stoppages: dict[str, list[Stoppage]] = {name: [] for name in pace}
     random = []
     for delay in delays:
+        second = delay.second or Fraction(0)
         if delay.kind in {"slow", "early"}:
             pace[delay.robot] *= float(delay.first)
         elif delay.kind == "stop":
-            stoppages[delay.robot].append(_stoppage(delay, clock))
+            lasts = NEVER if delay.second is None else ticks(second)
+            stoppages[delay.robot].append(Stoppage(ticks(delay.first), lasts))
         else:
-            random.append((delay.kind, float(delay.first), _second(delay, clock)))
+            number = ticks(second) if delay.kind == "chance" else second
+            random.append((delay.kind, float(delay.first), float(number)))
     return DelayModel(
         random=tuple(random),
-        pace=tuple(pace[name] for name in names),
-        stoppages=tuple(tuple(sorted(stoppages[name])) for name in names),
+        pace=tuple(pace.values()),
+        stoppages=tuple(tuple(sorted(own)) for own in stoppages.values()),
     )
-
-
-def _stoppage(delay: Delay, clock: Clock) -> Stoppage:
-    lasts = NEVER if delay.second is None else clock.ticks(delay.second)
-    return Stoppage(clock.ticks(delay.first), lasts)
-
-
-def _second(delay: Delay, clock: Clock) -> float:
-    second: Any = delay.second or 0
-    return float(clock.ticks(second) if delay.kind == "chance" else second)

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from rightofway.execution.forecast import Forecast, Times
 from rightofway.execution.reorder import reordered
 from rightofway.execution.replan import replan
-from rightofway.model import NEVER, Tick
+from rightofway.model import NEVER, ExecutionTrace, Tick
 from rightofway.planners import Deadline
-from rightofway.precedence import ActionDependencyGraph, RunBatch, stoppage_arrays
+from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 __all__ = ["SHARE", "ExecutionMonitor", "ExecutionPolicy"]
 
@@ -88,22 +88,20 @@ class ExecutionMonitor:
         policy: ExecutionPolicy,
         seed: int,
         run: int,
-        deadline: Deadline | None = None,
+        deadline: Deadline,
     ) -> None:
-        self.adg, self.policy, self.seed, self.run_number = adg, policy, seed, run
-        self.deadline = deadline or Deadline()
+        self.adg, self.policy, self.seed, self.run = adg, policy, seed, run
+        self.deadline = deadline
         self.delay_sample = adg.delay_sample(seed, run)
         self.execution = adg.execute(self.delay_sample)
         self.stages = tuple(one.stages for one in adg.scenario.problem.itineraries)
-        self.switches = self.replans = self.tries = 0
-        self.broken: frozenset[int] = frozenset()
-        self.lost: frozenset[int] = frozenset()
-        self.cut_off: frozenset[int] = frozenset()
+        self.switches = self.replans = 0
+        self.broken = self.lost = self.cut_off = frozenset[int]()
         self.expected = adg.planned
-        self.patience = max(int(np.median(adg.dwell + adg.drive)), _last(adg.planned) // LOOKS, 1)
         ends = adg.first_visit[1:] - 1
-        self.planned = self.last_tried = int((adg.planned + adg.dwell)[ends].sum())
-        self._run()
+        self.last_tried = int((adg.planned + adg.dwell)[ends].sum())
+        if policy:
+            self._execute()
 
     @property
     def completion(self) -> NDArray[np.int64]:
@@ -111,11 +109,6 @@ class ExecutionMonitor:
         completion = self.execution.completion.copy()
         completion[sorted(self.lost | self.cut_off)] = NEVER
         return completion
-
-    def changes(self) -> tuple[int, int, int, bool]:
-        """Return switches, replans, robots cut off, and whether robots deadlock."""
-        cut_off = len(self.cut_off - self.lost)
-        return self.switches, self.replans, cut_off, bool(self.adg.deadlocked())
 
     def batch(self, kept: RunBatch) -> RunBatch:
         """Return this run as a batch of one.
@@ -127,7 +120,7 @@ class ExecutionMonitor:
             of lateness are not known and left out.
         """
         if not self.replans:
-            return self.adg.runs(self.seed, self.run_number, 1)
+            return self.adg.runs(self.seed, self.run, 1)
         is_broken = self.execution.is_broken.copy()
         is_broken[sorted(self.lost)] = 1
         return kept._replace(
@@ -139,85 +132,85 @@ class ExecutionMonitor:
             between=np.zeros((0, 3), np.int64),
         )
 
-    def _run(self) -> None:
-        """Execute the plan, and make a forecast whenever there is news."""
-        now = -1
+    def trace(self) -> ExecutionTrace:
+        """Return where robots were, and how long each visit and drive took."""
+        adg, sample = self.adg, self.delay_sample
+        tracks = adg.tracks_at(self.execution.enter)
+        firsts = adg.first_visit[:-1].tolist()
+        visits = [slice(k, k + len(track)) for k, track in zip(firsts, tracks, strict=True)]
+        return ExecutionTrace(
+            tracks=tracks,
+            dwell=tuple(sample.dwell[own] for own in visits),
+            drive=tuple(sample.drive[own] for own in visits),
+            completion=tuple(None if tick == NEVER else tick for tick in self.completion.tolist()),
+            stoppages=tuple(
+                tuple((k, None if n == NEVER else n) for k, n in sample.stoppages_of(robot))
+                for robot in range(len(tracks))
+            ),
+        )
+
+    def forecast(self, now: int) -> Forecast:
+        """Return what is expected at a tick."""
+        return Forecast(self.adg, self.delay_sample, self.execution, now, self.broken)
+
+    def _execute(self) -> None:
+        """Execute the plan, make a forecast whenever there is news, and act on it."""
+        adg, now, tries, planned = self.adg, -1, 0, self.last_tried
+        patience = max(int(np.median(adg.dwell + adg.drive)), _last(adg.planned) // LOOKS, 1)
         while True:
-            news, breakdown = self.next_news(now), self.next_breakdown()
-            now = min(news if news <= self.horizon() else NEVER, breakdown)
+            overdue = self.expected + patience
+            late = overdue[(self.execution.enter > overdue) & (overdue > now)]
+            news = int(late.min(initial=NEVER))
+            if news > HORIZON * max(_last(self.adg.planned), _last(self.execution.enter)):
+                news = NEVER
+            now = min(news, self._next_breakdown())
             if now == NEVER:
                 return
-            is_new = self.policy.replan and self.note_breakdowns(now)
+            has_new_breakdown = self.policy.replan and self._note_breakdowns(now)
             forecast = self.forecast(now)
             self.expected = forecast.times()
-            if self.policy.switch and not is_new:
-                forecast = self.try_to_reorder(forecast)
-            if is_new:
-                self.replan(forecast, NEVER)
-            elif self.policy.replan and self.has_fallen_behind(forecast):
-                self.tries += 1
-                self.last_tried = int(forecast.graph.flowtime())
-                self.replan(forecast, self.last_tried)
+            if has_new_breakdown:
+                self._replan(forecast, NEVER)
+                continue
+            switched = reordered(forecast) if self.policy.switch else None
+            if switched is not None:
+                self.switches += 1
+                self.adg, self.expected = switched, forecast.times()
+                self.execution = switched.execute(self.delay_sample)
+                forecast = self.forecast(now)
+            flowtime = int(forecast.graph.flowtime())
+            has_fallen_behind = (flowtime - self.last_tried) * SHARE >= planned
+            if self.policy.replan and has_fallen_behind and tries < MOST_PLANS:
+                tries += 1
+                self.last_tried = flowtime
+                self._replan(forecast, flowtime)
 
-    def note_breakdowns(self, now: int) -> bool:
+    def _next_breakdown(self) -> int:
+        """Return the next tick at which a robot breaks down before it completes."""
+        unfinished = np.flatnonzero(self.execution.completion == NEVER).tolist()
+        new = (robot for robot in unfinished if robot not in self.broken)
+        ticks = map(self.delay_sample.breakdown, new)
+        return min(ticks, default=NEVER) if self.policy.replan else NEVER
+
+    def _note_breakdowns(self, now: int) -> bool:
         """Note the robots that have broken down by now; return whether one has work left."""
         down = {r for r in range(len(self.stages)) if self.delay_sample.breakdown(r) <= now}
         lost = {r for r in down - self.broken if self.execution.completion[r] > now}
         self.broken, self.lost = self.broken.union(down), self.lost.union(lost)
         return bool(lost)
 
-    def next_news(self, now: int) -> int:
-        """Return the next tick at which a robot turns out to be later than expected."""
-        overdue = self.expected + self.patience
-        late = overdue[(self.execution.enter > overdue) & (overdue > now)]
-        return int(late.min(initial=NEVER))
-
-    def next_breakdown(self) -> int:
-        """Return the next tick at which a robot breaks down before it completes."""
-        if not self.policy.replan:
-            return NEVER
-        unfinished = np.flatnonzero(self.execution.completion == NEVER).tolist()
-        new = (robot for robot in unfinished if robot not in self.broken)
-        return min(map(self.delay_sample.breakdown, new), default=NEVER)
-
-    def horizon(self) -> int:
-        """Return until when late robots are looked at [ticks]."""
-        return HORIZON * max(_last(self.adg.planned), _last(self.execution.enter))
-
-    def forecast(self, now: int) -> Forecast:
-        """Return what is expected at a tick."""
-        return Forecast(self.adg, self.delay_sample, self.execution, now, self.broken)
-
-    def try_to_reorder(self, forecast: Forecast) -> Forecast:
-        """Switch rights of way where that helps; return what is expected then."""
-        adg = reordered(forecast)
-        if adg is None:
-            return forecast
-        self.switches += 1
-        self.adg, self.expected = adg, forecast.times()
-        self.execution = adg.execute(self.delay_sample)
-        return self.forecast(forecast.now)
-
-    def has_fallen_behind(self, forecast: Forecast) -> bool:
-        """Tell whether to replan."""
-        later = forecast.graph.flowtime() - self.last_tried
-        return self.tries < MOST_PLANS and later * SHARE >= self.planned
-
-    def replan(self, forecast: Forecast, limit: int) -> None:
+    def _replan(self, forecast: Forecast, limit: int) -> None:
         """Replan the rest; take the new plan if its expected flowtime is below a limit."""
         found = replan(forecast, self.stages, self.seed, self.deadline)
         if found is None:
             return
-        robots = range(len(self.stages))
-        drawn = found.adg.delay_sample(self.seed, self.run_number)
-        arrays = stoppage_arrays([self.delay_sample.stoppages_of(robot) for robot in robots])
-        delay_sample = drawn._replace(first_stoppage=arrays[0], tick=arrays[1], ticks=arrays[2])
-        execution = found.adg.execute(delay_sample)
-        new = Forecast(found.adg, delay_sample, execution, forecast.now, self.broken)
+        sample = found.adg.delay_sample(self.seed, self.run).with_stoppages_of(self.delay_sample)
+        execution = found.adg.execute(sample)
+        new = Forecast(found.adg, sample, execution, forecast.now, self.broken)
         flowtime = int(new.graph.flowtime())
         if new.is_possible and flowtime < limit:
             self.replans += 1
-            self.adg, self.delay_sample, self.execution = found.adg, delay_sample, execution
+            self.adg, self.delay_sample, self.execution = found.adg, sample, execution
             self.stages, self.cut_off = found.stages, self.cut_off | found.cut_off
             self.expected, self.last_tried = new.times(), flowtime
 

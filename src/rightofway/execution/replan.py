@@ -24,12 +24,7 @@ from itertools import combinations, islice
 import numpy as np
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.execution.commitment import (
-    Commitment,
-    closures_of,
-    commitment_of,
-    visits_serving,
-)
+from rightofway.execution.commitment import Commitment, closures_of, commitment_of
 from rightofway.execution.forecast import Forecast
 from rightofway.model import (
     Plan,
@@ -221,10 +216,7 @@ def _within_reach(roadmap: Roadmap, commitment: Commitment) -> Stages:
 
 
 def _ending_anywhere(one: Commitment, left: Stages) -> Commitment:
-    """Add an end where the robot would like to be; the last stage begun may have had no turn."""
-    begun = (*one.begun[:-1], *(replace(stage, turn=Tick(0)) for stage in one.begun[-1:]))
-    end = _end(left[-1].vertex if left else one.goes_on_from)
-    return replace(one, begun=begun, left=(*left, end))
+    return replace(one, left=(*left, _end(left[-1].vertex if left else one.goes_on_from)))
 
 
 def _end(vertex: int) -> Stage:
@@ -262,7 +254,7 @@ def _spliced(
         kept = slice(first, first + one.visit + 1)
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
         new = route_of(plan.scenario.roadmap, itinerary, track)
-        begins = visits_serving(new, itinerary.stages)[one.drives_to is not None]
+        begins = new.serves[one.drives_to is not None]
         routes.append(_spliced_route(adg.routes[robot], new, one, begins))
         to_come = track.enter[begins + (one.drives_to is None) :]
         enter = np.minimum(forecast.execution.enter[kept], forecast.now)
@@ -293,8 +285,11 @@ def _spliced_route(old: Route, new: Route, one: Commitment, begins: int) -> Rout
     if one.drives_to is not None:
         vertices, drive = (*vertices, one.drives_to), old.drive[: here + 2]
         dwell = (*old.dwell[: here + 1], new.dwell[begins])
+    shift = len(vertices) - 1 - begins
+    to_come = new.serves[len(new.serves) - len(one.left) :]
     return Route(
         vertices=(*vertices, *new.vertices[begins + 1 :]),
         dwell=(*dwell, *new.dwell[begins + 1 :]),
         drive=(*drive, *new.drive[begins + 1 :]),
+        serves=(*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)),
     )

@@ -12,7 +12,6 @@ from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
-from rightofway.execution.trace import trace_of
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -80,41 +79,38 @@ def simulate(
     _refuse_faults(plan)
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    if time_limit is not None and not time_limit >= 0:
-        raise InputError.at("time_limit", f"{time_limit} is no duration (give 0 or more seconds)")
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
     policy = ExecutionPolicy(switch=switch, replan=replan)
     batches: list[RunBatch] = []
     kept: list[NDArray[np.int64]] = []
-    changes = np.zeros(4, np.int64)
-    first_run: ExecutionMonitor | None = None
+    switches = replans = cut_off = deadlocks = 0
+    traces: dict[int, ExecutionTrace] = {}
     chunk = 1 if policy else max(CHUNK // len(adg.vertex), 1)
     for first in range(0, runs, chunk):
         batch = adg.runs(seed, first, min(chunk, runs - first))
         if policy:
             monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
-            if first and deadline.seconds_left() == 0:
-                break  # replanning may have been cut short
-            first_run = first_run or monitor
+            if deadline.seconds_left() == 0:  # replanning may have been cut short
+                if first:
+                    break
+                traces[first] = monitor.trace()
             kept.append(batch.completion)
-            changes += monitor.changes()
             batch = monitor.batch(batch)
+            switches += monitor.switches
+            replans += monitor.replans
+            cut_off += len(monitor.cut_off - monitor.lost)
+            deadlocks += bool(monitor.adg.deadlocked())
         batches.append(batch)
         report(f"{min(first + chunk, runs)} of {runs} runs")
         if deadline.seconds_left() == 0:
             break
 
     def trace(run: int) -> ExecutionTrace:
-        if not policy:
-            sample = adg.delay_sample(seed, run)
-            return trace_of(adg, sample, adg.execute(sample).completion)
-        monitor = first_run if first_run and not run else ExecutionMonitor(adg, policy, seed, run)
-        return trace_of(monitor.adg, monitor.delay_sample, monitor.completion)
+        return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
     every = joined(batches)
-    switches, replans, cut_off, deadlocks = changes.tolist()
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
     stuck = np.zeros(len(plan.tracks), bool)
     stuck[adg.deadlocked()] = True

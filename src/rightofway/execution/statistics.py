@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import NEVER, ExecutionTrace, Plan, Track, VertexId
+from rightofway.model import NEVER, ExecutionTrace, Plan, VertexId
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 __all__ = [
@@ -290,19 +290,13 @@ class Outcome:
         """Collisions by right of way; there must be none."""
         return self.by_right_of_way.total
 
-    def tracks(self, run: int = 0) -> tuple[Track, ...]:
-        """Return where robots were in one run, by right of way.
+    def trace(self, run: int = 0) -> ExecutionTrace:
+        """Return where robots were in one run by right of way, and how long everything took.
 
         Parameters
         ----------
         run
             Its number, from 0.
-
-        Returns
-        -------
-        tuple of Track
-            One for each robot; visits that never began are left out. Without replanning, the
-            vertices are those of the plan.
 
         Raises
         ------
@@ -312,22 +306,7 @@ class Outcome:
         Notes
         -----
         The judge computes with planned durations: robots that are early are too fast for it, and
-        where robots book ahead it assumes other bookings. Else it finds no fault.
-        """
-        return self.trace(run).tracks
-
-    def trace(self, run: int = 0) -> ExecutionTrace:
-        """Return where robots were in one run, and how long each visit and drive took.
-
-        Parameters
-        ----------
-        run
-            Its number, from 0.
-
-        Raises
-        ------
-        IndexError
-            If there is no such run.
+        where robots book ahead it assumes other bookings. Else it finds no fault in the tracks.
         """
         if not 0 <= run < self.runs:
             raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")

@@ -1,15 +1,17 @@
-"""Files: scenarios and plans, read with every fault named and written whole; MovingAI files.
+"""Files: scenarios and plans, read with every fault reported and written whole; MovingAI files.
 
-Pydantic and PyYAML serve in here, at the border; both are imported when the first file is read.
+``load_…`` reads a file and ``write_…`` writes one; ``…_of`` reads plain data, as JSON has them, and
+``dump_…`` makes them. Pydantic and PyYAML are imported when the first file is read, and nowhere
+else in the package.
 """
 
 from rightofway.io.delays import DELAY_FILES, load_delays
-from rightofway.io.movingai import read_map, read_scen, write_map, write_scen
-from rightofway.io.plan.reader import load_plan, plan_of, read_either
+from rightofway.io.formats import schema
+from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
+from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
-from rightofway.io.scenario.reader import Loaded, load, read, scenario_of
+from rightofway.io.scenario.reader import Loaded, load, load_with_notes, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, write_scenario
-from rightofway.io.schema import schema
 
 __all__ = [
     "DELAY_FILES",
@@ -18,13 +20,13 @@ __all__ = [
     "dump_scenario",
     "load",
     "load_delays",
+    "load_either",
+    "load_map",
     "load_plan",
+    "load_scen",
+    "load_with_notes",
     "plan_of",
     "plan_text",
-    "read",
-    "read_either",
-    "read_map",
-    "read_scen",
     "scenario_of",
     "schema",
     "write_map",

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from rightofway.errors import InputError
 from rightofway.io.faults import blaming
-from rightofway.io.text.documents import read_document
+from rightofway.io.text import read_document
 
 __all__ = ["DELAY_FILES", "load_delays"]
 

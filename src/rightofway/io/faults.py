@@ -1,4 +1,4 @@
-"""Every fault of a document at once: collected, translated from pydantic, put in order."""
+"""Every fault of a document at once: collected, put in order, in words for the user."""
 
 from __future__ import annotations
 
@@ -7,32 +7,38 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from rightofway.errors import InputError, InputFault
-from rightofway.io.formats import PLAN_FORMAT, SCENARIO_FORMAT, SUITE_FORMAT
-from rightofway.io.words import nearest, place_of, shown
+from rightofway.errors import InputError, InputFault, nearest, shown
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
-__all__ = ["MAX_PROBLEMS", "Faults", "blaming", "checked", "checked_format", "under"]
+__all__ = [
+    "MAX_FAULTS",
+    "Faults",
+    "blaming",
+    "checked",
+    "place_of",
+    "under",
+]
 
-MAX_PROBLEMS = 50
-"""So many problems of one document are told; the others are counted."""
+MAX_FAULTS = 50
+"""Faults of one document that are listed; further ones are counted."""
+
 
 T = TypeVar("T")
 M = TypeVar("M", bound="BaseModel")
 
 
 class Faults:
-    """The problems found so far in one document."""
+    """The faults found so far in one document."""
 
     def __init__(self) -> None:
         self._faults: list[InputFault] = []
 
     def attempt(self, place: str, read: Callable[..., T], *arguments: Any) -> T | None:
-        """Return what ``read`` makes of a part of the document, or None after noting its faults."""
+        """Return ``read(*arguments)``, or None after noting its faults under ``place``."""
         try:
             with under(place):
                 return read(*arguments)
@@ -43,28 +49,22 @@ class Faults:
     def part(
         self, document: Mapping[str, Any], key: str, read: Callable[..., T], *arguments: Any
     ) -> T | None:
-        """Do the same with the part under a key; one that is missing is noted by others."""
+        """Attempt to read the part under a key; the document's frame reports a missing key."""
         return self.attempt(key, read, document[key], *arguments) if key in document else None
 
     def note(self, place: str, message: str) -> None:
-        """Note one problem."""
+        """Note one fault."""
         self._faults.append(InputFault(place, message))
 
     def stop(self, order: Iterable[str] = ()) -> None:
-        """Raise all problems, if there are any, in the order of the document's keys.
-
-        Raises
-        ------
-        InputError
-            With every problem, each told once.
-        """
+        """Raise the noted faults, if there are any: each once, in the order of the keys given."""
         if not self._faults:
             return
         ranks = {key: rank for rank, key in enumerate(order)}
         faults = sorted(dict.fromkeys(self._faults), key=lambda fault: _rank(fault, ranks))
-        left = len(faults) - MAX_PROBLEMS
+        left = len(faults) - MAX_FAULTS
         more = [InputFault("", f"and {left} more (mend these first)")] if left > 0 else []
-        raise InputError([*faults[:MAX_PROBLEMS], *more])
+        raise InputError([*faults[:MAX_FAULTS], *more])
 
 
 def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
@@ -74,11 +74,11 @@ def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
 
 @contextmanager
 def under(place: str) -> Iterator[None]:
-    """Show whatever is found wrong here as a fault of the document at ``place``."""
+    """Report every fault raised inside as a fault of the document at ``place``."""
     try:
         yield
     except InputError as error:
-        if error.source:  # it lies in another file that the document names
+        if error.source:  # the fault lies in another file, which the document names
             raise InputError(
                 InputFault(place, f"{error.source}: {each}") for each in error.faults
             ) from None
@@ -87,55 +87,34 @@ def under(place: str) -> Iterator[None]:
 
 @contextmanager
 def blaming(source: str) -> Iterator[None]:
-    """Name the file or argument in which whatever is found wrong here stands."""
+    """Name the file or argument in which the faults raised inside stand."""
     try:
         yield
     except InputError as error:
         raise InputError(error.faults, error.source or source) from None
 
 
-def checked_format(document: Any, known: str) -> dict[str, Any]:
-    """Return a document that claims to be of a known format.
+def checked(model: type[M], data: Any, context: Any = None) -> M:
+    """Return data as a pydantic model, or raise all its faults in words for the user.
 
-    Raises
-    ------
-    InputError
-        If it does not. Nothing else is said of it then, because nothing else is known.
-    """
-    line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
-    if not isinstance(document, dict):
-        found = "nothing is in it" if document is None else f"{shown(document)} is no document"
-        raise InputError.at("", f"{found} (begin with {line})")
-    if "format" not in document:
-        raise InputError.at("format", f"is missing (put {line} at the top)")
-    found = document["format"]
-    if found != known:
-        raise InputError.at("format", f"{shown(found)} is {_not_wanted(found, known)}")
-    return document
-
-
-def _not_wanted(found: object, known: str) -> str:
-    if found == PLAN_FORMAT and known == SCENARIO_FORMAT:
-        return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
-    if found == SCENARIO_FORMAT and known == PLAN_FORMAT:
-        return "a scenario, not a plan (plan it first)"
-    return f"not known here (give {known}, or update)"
-
-
-def checked(model: type[M], data: Any) -> M:
-    """Return data as a model, or raise each of its faults in our words.
-
-    Raises
-    ------
-    InputError
-        With places relative to the data.
+    Names and places in the data are looked up in the context.
     """
     from pydantic import ValidationError
 
     try:
-        return model.model_validate(data)
+        return model.model_validate(data, context=context)
     except ValidationError as error:
-        raise InputError(_problem(details, model) for details in error.errors()) from None
+        faults = error.errors()
+    raise InputError(each for fault in faults for each in _translated(fault, model))
+
+
+def _translated(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
+    place = place_of(part for part in details["loc"] if part != "[key]")
+    error = details.get("ctx", {}).get("error")
+    if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
+        yield from (fault.within(place) if place else fault for fault in error.faults)
+    else:
+        yield InputFault(place, _said(details, model))
 
 
 _KINDS = {
@@ -148,12 +127,7 @@ _KINDS = {
 }
 
 
-def _problem(details: ErrorDetails, model: type[BaseModel]) -> InputFault:
-    location = tuple(part for part in details["loc"] if part != "[key]")
-    return InputFault(place_of(location), _message(details, model))
-
-
-def _message(details: ErrorDetails, model: type[BaseModel]) -> str:
+def _said(details: ErrorDetails, model: type[BaseModel]) -> str:
     kind, value = details["type"], details["input"]
     owner, field = _walk(model, details["loc"])
     remedy = field.description if field else f"keys {', '.join(_fields(owner))}"
@@ -209,3 +183,14 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
         return annotation  # type: ignore[no-any-return]
     inside = (_model_in(argument) for argument in get_args(annotation))
     return next((found for found in inside if found), None)
+
+
+def place_of(parts: Iterable[str | int]) -> str:
+    """Return a path into a document as text: ``robots[3].stops[0].work``."""
+    place = ""
+    for part in parts:
+        if isinstance(part, str) and part.isidentifier():
+            place += f".{part}" if place else part
+        else:
+            place += f"[{shown(part)}]"
+    return place

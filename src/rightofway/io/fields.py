@@ -1,11 +1,12 @@
 """The kinds of values that documents are made of, each with its JSON Schema.
 
-What is accepted and what the schema says stand side by side here, so that they agree.
+The check of a kind and its schema stand side by side, so that they agree.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
@@ -16,18 +17,22 @@ from pydantic import (
     ConfigDict,
     Field,
     PlainValidator,
+    ValidationInfo,
     WithJsonSchema,
 )
+from pydantic_core import CoreSchema, core_schema
 
-from rightofway.io.scenario import places
-from rightofway.io.text.exact import COORDINATE_DIGITS, DIGITS, PATTERN, exact
-from rightofway.io.words import is_printable, shown
+from rightofway.errors import is_printable, shown
+from rightofway.io.scenario.places import find_place
+from rightofway.model import VertexId
+from rightofway.model.places import as_place
+from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
 
 __all__ = [
-    "LEFT_OUT",
     "CellSize",
     "Count",
     "Document",
+    "Kind",
     "Lines",
     "Name",
     "NotNegative",
@@ -35,22 +40,46 @@ __all__ = [
     "Position",
     "Positive",
     "Rectangle",
+    "Schema",
     "Size",
     "TickLength",
     "Ticks",
     "Turning",
     "Words",
     "described",
+    "exactly_one_of",
+    "optional",
+    "positive",
 ]
 
 MAX_TICK = 2**53 - 1
 """Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""
 
-LEFT_OUT: Any = None
-"""What a key holds that may be left out, and was. It is outside the key's type: a null that
-somebody wrote is refused like any other wrong value."""
-
 Schema = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kind:
+    """What pydantic needs to know of a kind of values.
+
+    Attributes
+    ----------
+    read
+        Returns the value of what was written, or raises a ValueError with the message.
+    schema
+        The JSON Schema of what may be written.
+    """
+
+    read: Callable[[Any], Any]
+    schema: Schema
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        """Return the check."""
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, _core: Any, _handler: Any) -> Schema:
+        """Return the JSON Schema."""
+        return dict(self.schema)
 
 
 def described(**extra: Any) -> Callable[[Schema], None]:
@@ -81,11 +110,22 @@ class Document(BaseModel):
         return {name: getattr(self, name) for name in fields if name in self.model_fields_set}
 
 
-def _any_number(value: object) -> Fraction:
-    return exact(value)
+def optional(description: str, **limits: Any) -> Any:
+    """Return a field that may be left out, and holds None then; a written null is refused."""
+    return Field(default=None, description=description, **limits)
 
 
-def _positive(value: object) -> Fraction:
+def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
+    """Return which one of several keys for a map was written; ValueError if not exactly one."""
+    found = [kind for kind in kinds if kind in document.model_fields_set]
+    if len(found) != 1:
+        what = f"{' and '.join(found)} are" if found else "no map is"
+        raise ValueError(f"{what} given (give exactly one of {', '.join(kinds)})")
+    return found[0]
+
+
+def positive(value: object) -> Fraction:
+    """Return a number above 0; ValueError for any other value."""
     number = exact(value)
     if number <= 0:
         raise ValueError(f"{shown(value)} is not positive (give a number above 0)")
@@ -117,17 +157,16 @@ def _number_schema(**bounds: int) -> Schema:
 
 _ANY = _number_schema()
 _NOT_NEGATIVE = _number_schema(minimum=0)
+_POSITIVE = _number_schema(exclusiveMinimum=0)
 
-Positive = Annotated[
-    Fraction, PlainValidator(_positive), WithJsonSchema(_number_schema(exclusiveMinimum=0))
-]
-NotNegative = Annotated[Fraction, PlainValidator(_not_negative), WithJsonSchema(_NOT_NEGATIVE)]
-TickLength = Annotated[Fraction, PlainValidator(_tick_length), WithJsonSchema(_ANY)]
+Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
+NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
+TickLength = Annotated[Fraction, Kind(_tick_length, _ANY)]
 Count = Annotated[int, Field(ge=1)]
 Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]
 
 
-def _or_word(word: str, number: Callable[[object], Fraction]) -> PlainValidator:
+def _or_word(word: str, number: Callable[[object], Fraction], schema: Schema) -> Kind:
     def read(value: object) -> str | Fraction:
         if isinstance(value, str) and value == word:
             return word
@@ -136,43 +175,28 @@ def _or_word(word: str, number: Callable[[object], Fraction]) -> PlainValidator:
         except ValueError as error:
             raise ValueError(f"{error}; {word!r} is possible too") from None
 
-    return PlainValidator(read)
+    return Kind(read, {"anyOf": [{"const": word}, schema]})
 
 
-CellSize = Annotated[
-    Fraction | Literal["clustered"],
-    _or_word("clustered", _positive),
-    WithJsonSchema({"anyOf": [{"const": "clustered"}, _number_schema(exclusiveMinimum=0)]}),
-]
-Turning = Annotated[
-    Fraction | Literal["cell"],
-    _or_word("cell", _not_negative),
-    WithJsonSchema({"anyOf": [{"const": "cell"}, _NOT_NEGATIVE]}),
-]
+CellSize = Annotated[Fraction | Literal["clustered"], _or_word("clustered", positive, _POSITIVE)]
+Turning = Annotated[Fraction | Literal["cell"], _or_word("cell", _not_negative, _NOT_NEGATIVE)]
 
 
-def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> PlainValidator:
+def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kind:
     def read(value: object) -> tuple[Fraction, ...]:
         if not isinstance(value, list | tuple) or len(value) != count:
             raise ValueError(f"{shown(value)} does not fit (give {what})")
         return tuple(number(item) for item in value)
 
-    return PlainValidator(read)
+    return Kind(read, {"type": "array", "items": _ANY, "minItems": count, "maxItems": count})
 
 
-def _list_schema(count: int) -> WithJsonSchema:
-    return WithJsonSchema({"type": "array", "items": _ANY, "minItems": count, "maxItems": count})
+_Pair = tuple[Fraction, Fraction]
+_Four = tuple[Fraction, Fraction, Fraction, Fraction]
 
-
-Position = Annotated[tuple[Fraction, Fraction], _list_of(2, "[x, y]", _coordinate), _list_schema(2)]
-Size = Annotated[
-    tuple[Fraction, Fraction], _list_of(2, "[width, height]", _any_number), _list_schema(2)
-]
-Rectangle = Annotated[
-    tuple[Fraction, Fraction, Fraction, Fraction],
-    _list_of(4, "[x, y, width, height]", _any_number),
-    _list_schema(4),
-]
+Position = Annotated[_Pair, _list_of(2, "[x, y]", _coordinate)]
+Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
+Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 
 
 def _name(value: str) -> str:
@@ -187,11 +211,12 @@ def _words(value: str) -> str:
     return value
 
 
-def _place(value: object) -> places.Place:
-    place = places.as_place(value)
+def _place(value: object, info: ValidationInfo) -> VertexId:
+    """Return the vertex at a place of the map in the context; without one, any vertex."""
+    place = as_place(value)
     if place is None:
         raise ValueError(f"{shown(value)} is no place (give N<k>, [row, column] or a vertex name)")
-    return place
+    return find_place(place, info.context) if info.context else VertexId(0)
 
 
 def _lines(value: object) -> object:
@@ -199,23 +224,12 @@ def _lines(value: object) -> object:
 
 
 _TEXT: Schema = {"type": "string", "minLength": 1}
+_CELL: Schema = {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2}
+_TEXTS: Schema = {"type": "array", "items": {"type": "string"}}
 
 Name = Annotated[str, AfterValidator(_name), WithJsonSchema(_TEXT)]
 Words = Annotated[str, AfterValidator(_words)]
-Place = Annotated[
-    places.Place,
-    PlainValidator(_place),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                _TEXT,
-                {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2},
-            ]
-        }
-    ),
-]
+Place = Annotated[VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL]})]
 Lines = Annotated[
-    list[str],
-    BeforeValidator(_lines),
-    WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]}),
+    list[str], BeforeValidator(_lines), WithJsonSchema({"anyOf": [{"type": "string"}, _TEXTS]})
 ]

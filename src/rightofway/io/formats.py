@@ -1,7 +1,78 @@
-"""The names and versions of our document formats."""
+"""The formats of our documents: names with versions, and their shapes as JSON Schema."""
 
-__all__ = ["PLAN_FORMAT", "SCENARIO_FORMAT", "SUITE_FORMAT"]
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from rightofway.errors import InputError, shown
+
+__all__ = ["PLAN_FORMAT", "SCENARIO_FORMAT", "SUITE_FORMAT", "checked_format", "schema"]
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
 SUITE_FORMAT = "rightofway-suite/1"
+
+
+def checked_format(document: Any, known: str) -> dict[str, Any]:
+    """Return a document of a known format; InputError, and no other fault, for one that is not."""
+    line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
+    if not isinstance(document, dict):
+        found = "nothing is in it" if document is None else f"{shown(document)} is no document"
+        raise InputError.at("", f"{found} (begin with {line})")
+    if "format" not in document:
+        raise InputError.at("format", f"is missing (put {line} at the top)")
+    found = document["format"]
+    if found != known:
+        raise InputError.at("format", f"{shown(found)} is {_not_wanted(found, known)}")
+    return document
+
+
+def _not_wanted(found: object, known: str) -> str:
+    if found == PLAN_FORMAT and known == SCENARIO_FORMAT:
+        return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
+    if found == SCENARIO_FORMAT and known == PLAN_FORMAT:
+        return "a scenario, not a plan (plan it first)"
+    return f"not known here (give {known}, or update)"
+
+
+def schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of a kind of document.
+
+    Parameters
+    ----------
+    kind
+        Which documents.
+
+    Raises
+    ------
+    InputError
+        For any other kind.
+
+    Notes
+    -----
+    Every document that is accepted fits its schema. A schema cannot say everything: the readers
+    check, for example, that homes are free cells and that names are unique.
+    """
+    from pydantic import BaseModel
+
+    from rightofway.io.plan.shape import PlanDocument
+    from rightofway.io.scenario.shape import ScenarioDocument
+    from rightofway.io.suite import SuiteDocument
+
+    models: dict[str, type[BaseModel]] = {
+        "scenario": ScenarioDocument,
+        "plan": PlanDocument,
+        "suite": SuiteDocument,
+    }
+    if kind not in models:
+        message = f"{kind!r} is no kind of document (give one of: {', '.join(models)})"
+        raise InputError.at("", message)
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return {**dialect, **_without_titles(models[kind].model_json_schema())}
+
+
+def _without_titles(node: Any) -> Any:
+    """Leave out the titles, which only repeat the names of keys and classes."""
+    if isinstance(node, dict):
+        return {key: _without_titles(item) for key, item in node.items() if key != "title"}
+    return [_without_titles(item) for item in node] if isinstance(node, list) else node

@@ -14,14 +14,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.errors import InputError, InputFault
+from rightofway.errors import InputError, InputFault, shown
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
-from rightofway.io.text.files import read_text
-from rightofway.io.words import shown
+from rightofway.io.text import read_text
 from rightofway.model import Grid, Roadmap, Scenario
 
-__all__ = ["ScenRow", "read_map", "read_scen", "write_map", "write_scen"]
+__all__ = ["ScenRow", "load_map", "load_scen", "write_map", "write_scen"]
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -51,7 +50,7 @@ class ScenRow:
     goal: tuple[int, int]
 
 
-def read_map(path: Path) -> tuple[str, ...]:
+def load_map(path: Path | str) -> tuple[str, ...]:
     """Return the rows of a `.map` file.
 
     Raises
@@ -61,57 +60,46 @@ def read_map(path: Path) -> tuple[str, ...]:
         agree with the header; the place is the line.
     """
     with blaming(str(path)):
-        return _rows(read_text(path).rstrip().split("\n"))
+        lines = read_text(Path(path)).rstrip().split("\n")
+        header: dict[str, str] = {}
+        for number, line in enumerate(lines, start=1):
+            key, _, value = line.strip().partition(" ")
+            if key == "map":
+                return _checked_rows(lines[number:], header, number)
+            _check_header(key, value.strip(), f"line {number}")
+            header[key] = value.strip()
+        message = "the header has no line 'map' (put it before the rows)"
+        raise InputError.at(f"line {len(lines)}", message)
 
 
-def _rows(lines: list[str]) -> tuple[str, ...]:
-    header: dict[str, str] = {}
-    for number, line in enumerate(lines, start=1):
-        key, _, value = line.strip().partition(" ")
-        if key == "map":
-            height, width = _size(header, "height"), _size(header, "width")
-            rows = tuple(row.rstrip() for row in lines[number:])
-            _check_rows(rows, height, width, number)
-            return rows
-        _check_header(key, value.strip(), number)
-        header[key] = value.strip()
-    raise InputError.at(
-        f"line {len(lines)}", "the header has no line 'map' (put it before the rows)"
-    )
-
-
-def _check_header(key: str, value: str, line: int) -> None:
+def _check_header(key: str, value: str, line: str) -> None:
     if key not in {"type", "height", "width"}:
-        message = (
-            f"{shown(key)} is no line of a header (give type, height, width, map, in this order)"
-        )
-        raise InputError.at(f"line {line}", message)
+        remedy = "give type, height, width, map, in this order"
+        raise InputError.at(line, f"{shown(key)} is no line of a header ({remedy})")
     if key == "type" and value not in {"octile", "tile"}:
-        raise InputError.at(f"line {line}", f"type {shown(value)} is not known (give octile)")
+        raise InputError.at(line, f"type {shown(value)} is not known (give octile)")
     if key != "type" and not (_SIZE.fullmatch(value) and int(value)):
-        raise InputError.at(
-            f"line {line}", f"{key} {shown(value)} is no size (give a count of cells)"
-        )
+        raise InputError.at(line, f"{key} {shown(value)} is no size (give a count of cells)")
 
 
-def _size(header: dict[str, str], key: str) -> int:
-    if key not in header:
-        raise InputError.at("", f"the header has no {key} (give a line like '{key} 32')")
-    return int(header[key])
-
-
-def _check_rows(rows: tuple[str, ...], height: int, width: int, header: int) -> None:
-    faults = Faults()
-    for line, row in enumerate(rows[:height], start=header + 1):
+def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[str, ...]:
+    """Return the rows below the header's lines, if they have the size that it says."""
+    for key in ("height", "width"):
+        if key not in header:
+            raise InputError.at("", f"the header has no {key} (give a line like '{key} 32')")
+    faults, height, width = Faults(), int(header["height"]), int(header["width"])
+    rows = tuple(row.rstrip() for row in lines)
+    for line, row in enumerate(rows[:height], start=above + 1):
         if len(row) != width:
             faults.note(f"line {line}", f"{len(row)} cells, but width is {width} (mend the row)")
     if len(rows) != height:
         message = f"{len(rows)} rows, but height is {height} (mend the rows, or the header)"
-        faults.note(f"line {header + 1 + min(len(rows), height)}", message)
+        faults.note(f"line {above + 1 + min(len(rows), height)}", message)
     faults.stop()
+    return rows
 
 
-def read_scen(path: Path) -> tuple[ScenRow, ...]:
+def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
     """Return the rows of a `.scen` file.
 
     Raises
@@ -119,22 +107,15 @@ def read_scen(path: Path) -> tuple[ScenRow, ...]:
     InputError
         For rows that are not made of nine columns; the place is the line.
     """
+    faults, rows = Faults(), list[ScenRow | None]()
     with blaming(str(path)):
-        rows = _scen_rows(read_text(path).rstrip().split("\n"))
+        lines = read_text(Path(path)).rstrip().split("\n")
+        for number, line in enumerate(lines, start=1):
+            if number > 1 or not line.startswith("version"):
+                rows.append(faults.attempt(f"line {number}", _scen_row, number, line))
+        faults.stop()
         if not rows:
             raise InputError.at("", "there is no row (give one for each robot)")
-    return rows
-
-
-def _scen_rows(lines: list[str]) -> tuple[ScenRow, ...]:
-    faults = Faults()
-    has_header = lines[0].startswith("version")
-    rows = [
-        faults.attempt(f"line {number}", _scen_row, number, line)
-        for number, line in enumerate(lines, start=1)
-        if not (number == 1 and has_header)
-    ]
-    faults.stop()
     return tuple(row for row in rows if row is not None)
 
 
@@ -198,7 +179,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     with diagonal moves.
     """
     grid = _grid_of(scenario.roadmap)
-    problems = [
+    faults = [
         InputFault(
             f"robots[{index}].stops",
             f"{len(robot.stops)} stops, a .scen row has one goal (leave one, or write .yaml)",
@@ -206,13 +187,14 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
         for index, robot in enumerate(scenario.robots)
         if len(robot.stops) > 1
     ]
-    if problems:
-        raise InputError(problems)
-    rows = (
-        "\t".join(map(str, (0, map_name, grid.columns, grid.rows, *cells, 0)))
-        for cells in _starts_and_goals(scenario, grid)
-    )
-    write_whole(path, "\n".join(("version 1", *rows)) + "\n")
+    if faults:
+        raise InputError(faults)
+    lines = ["version 1"]
+    for robot in scenario.robots:
+        (start_y, start_x), (goal_y, goal_x) = map(grid.cell, (robot.home, robot.stops[0].at))
+        columns = (0, map_name, grid.columns, grid.rows, start_x, start_y, goal_x, goal_y, 0)
+        lines.append("\t".join(map(str, columns)))
+    write_whole(path, "\n".join(lines) + "\n")
     return tuple(_left_out(scenario, grid))
 
 
@@ -221,13 +203,6 @@ def _grid_of(roadmap: Roadmap) -> Grid:
         message = "the roadmap is no grid, MovingAI files hold nothing else (choose another format)"
         raise InputError.at("map", message)
     return roadmap.grid
-
-
-def _starts_and_goals(scenario: Scenario, grid: Grid) -> Iterator[tuple[int, int, int, int]]:
-    for robot in scenario.robots:
-        start_row, start_column = grid.cell(robot.home)
-        goal_row, goal_column = grid.cell(robot.stops[0].at)
-        yield start_column, start_row, goal_column, goal_row
 
 
 def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:

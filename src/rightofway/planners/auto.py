@@ -56,6 +56,4 @@ def auto(task: Task) -> Draft:
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
-    return (
-        better if after < before else replace(explained, status=better.status, alone=better.alone)
-    )
+    return better if after < before else replace(explained, status=better.status)

@@ -131,7 +131,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     found, flowtime = search.tracks(), partial(flowtime_of, task.scenario)
     if spaced is not first.tracks and flowtime(found) > flowtime(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
-    return Draft(tracks=found, status=status, alone=search.alone())
+    return Draft(tracks=found, status=status)
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

@@ -65,14 +65,13 @@ def prioritized(task: Task) -> Draft:
     GaveUp
         If time ran out.
     """
-    search = fleet_search(task)
-    found = plan_in_turn(task, search, task.options["order"])
+    found = plan_in_turn(task, fleet_search(task), task.options["order"])
     if found is not None:
-        return replace(found, alone=search.alone())
+        return found
     task.deadline.check("planning robots one after another")
     tracks, _ = plan_fleet(task)
     status = "all together, because robots one after another found no way"
-    return Draft(tracks=tuple(tracks), status=status, alone=search.alone())
+    return Draft(tracks=tuple(tracks), status=status)
 
 
 def fleet_search(task: Task) -> FleetSearch:

@@ -7,9 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Scenario, Tick, Track
 
@@ -31,6 +28,11 @@ class Deadline:
         """Return the deadline of a part of the time that is left."""
         left = self.seconds_left()
         return self if left is None else Deadline.after(share * left)
+
+    def earlier(self, seconds: float) -> Deadline:
+        """Return the deadline that many seconds earlier; at most half of the time left is lost."""
+        left = self.seconds_left()
+        return self if left is None else Deadline.after(max(left - seconds, left / 2))
 
     def seconds_left(self) -> float | None:
         """Return how long it is until then [s], never negative; None for no limit."""
@@ -97,9 +99,6 @@ class Draft:
         As in `PlannerRun`.
     keeps_swaps
         Whether swaps were left in because the options asked for it.
-    alone
-        The least completion of each robot without the others [ticks], from planners that compute
-        it anyway; shape (R,).
     """
 
     tracks: tuple[Track, ...]
@@ -107,7 +106,6 @@ class Draft:
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
     keeps_swaps: bool = False
-    alone: NDArray[np.int64] | None = None
 
 
 class Planner(Protocol):

@@ -8,7 +8,6 @@ from rightofway.precedence.adg import (
     RunBatch,
     Stoppage,
     order_of,
-    stoppage_arrays,
 )
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
 from rightofway.precedence.schedule import CyclicSchedule, unrolled
@@ -49,7 +48,6 @@ __all__ = [
     "order_of",
     "sensitivity",
     "shared_segment",
-    "stoppage_arrays",
     "tight_arcs",
     "timed_event_graph",
     "unrolled",

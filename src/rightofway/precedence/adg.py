@@ -30,7 +30,6 @@ __all__ = [
     "RunBatch",
     "Stoppage",
     "order_of",
-    "stoppage_arrays",
 ]
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
@@ -95,6 +94,10 @@ class DelaySample(NamedTuple):
         own = slice(*self.first_stoppage[robot : robot + 2].tolist())
         pairs = zip(self.tick[own].tolist(), self.ticks[own].tolist(), strict=True)
         return [Stoppage(Tick(tick), Tick(ticks)) for tick, ticks in pairs]
+
+    def with_stoppages_of(self, other: DelaySample) -> DelaySample:
+        """Return these durations with the stoppages of another sample of the same fleet."""
+        return DelaySample(self.dwell, self.drive, *other[2:])
 
     def breakdown(self, robot: int) -> Tick:
         """Return when a robot breaks down, `NEVER` if it does not [ticks]."""
@@ -219,7 +222,9 @@ class ActionDependencyGraph:
             np.array([KINDS.index(kind) for kind, _, _ in delay_model.random], np.int32),
             np.array([a for _, a, _ in delay_model.random], np.float64),
             np.array([b for _, _, b in delay_model.random], np.float64),
-            *stoppage_arrays(delay_model.stoppages),
+            np.array([0, *accumulate(map(len, delay_model.stoppages))], np.int32),
+            np.array([one.tick for one in chain(*delay_model.stoppages)], np.int64),
+            np.array([one.ticks for one in chain(*delay_model.stoppages)], np.int64),
         )
 
     def reordered(
@@ -268,15 +273,6 @@ class ActionDependencyGraph:
             vertices = self.vertex[first : first + done].copy()
             tracks.append(Track(vertices=vertices, enter=times[:done].copy()))
         return tuple(tracks)
-
-
-def stoppage_arrays(
-    stoppages: Sequence[Sequence[Stoppage]],
-) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the stoppages of each robot as the arrays of a `DelaySample`."""
-    every = np.array(list(chain.from_iterable(stoppages)), np.int64).reshape(-1, 2)
-    first = np.array([0, *accumulate(map(len, stoppages))], np.int32)
-    return first, every[:, 0].copy(), every[:, 1].copy()
 
 
 def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> NDArray[np.int32]:

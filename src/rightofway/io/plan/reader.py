@@ -2,61 +2,78 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from rightofway.errors import InputError
-from rightofway.io.faults import Faults, blaming, checked, checked_format, under
-from rightofway.io.formats import PLAN_FORMAT
-from rightofway.io.plan.names import Names
-from rightofway.io.plan.repeats import steady_of
-from rightofway.io.scenario.reader import Loaded, read, read_scenario
-from rightofway.io.text.documents import read_document
-from rightofway.io.words import shown
+from rightofway.errors import InputError, nearest, shown
+from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.io.formats import PLAN_FORMAT, checked_format
+from rightofway.io.scenario.maps import LoadedMap
+from rightofway.io.scenario.places import find_place
+from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario
+from rightofway.io.text import read_document
 from rightofway.model import (
     Decision,
     Plan,
     PlannerRun,
     Reroute,
     Scenario,
+    SteadyState,
     Tick,
     Track,
     VertexId,
 )
 
 if TYPE_CHECKING:
-    from rightofway.io.plan.shape import DecisionDocument, RerouteDocument, TrackDocument
+    from pydantic import BaseModel
 
-__all__ = ["load_plan", "plan_of", "read_either"]
+    from rightofway.io.plan.shape import (
+        DecisionDocument,
+        RerouteDocument,
+        SteadyDocument,
+        TrackDocument,
+    )
+
+__all__ = ["load_either", "load_plan", "plan_of"]
+
+D = TypeVar("D", bound="BaseModel")
+T = TypeVar("T")
 
 
 def load_plan(path: Path | str) -> Plan:
     """Return the plan of a file.
 
+    Parameters
+    ----------
+    path
+        A plan as JSON or YAML; ``-`` is standard input.
+
     Raises
     ------
     InputError
-        With every independent fault, its place, value and remedy. A plan that breaks rules is
-        none: `rightofway.check` judges that.
+        With every independent fault, its place, value and remedy. A plan that breaks rules is not
+        at fault here: `rightofway.check` judges it.
     """
     path = Path(path)
     with blaming(str(path)):
         return plan_of(read_document(path))
 
 
-def read_either(path: Path | str) -> Plan | Loaded:
-    """Return the plan of a file, or the scenario if it is one; its ``format`` tells.
+def load_either(path: Path | str) -> Plan | Loaded:
+    """Return the plan of a file, or the scenario if its ``format`` says that it is one.
 
     Raises
     ------
     InputError
-        As `load_plan` and `read` do.
+        As `load_plan` and `load` do.
     """
     path = Path(path)
     if path.suffix.lower() == ".scen":
-        return read(path)
+        return load_with_notes(path)
     with blaming(str(path)):
         document = read_document(path)
         kind = document.get("format") if isinstance(document, dict) else None
@@ -72,34 +89,64 @@ def plan_of(document: Any, source: str = "") -> Plan:
     document
         Plain data, as a plan file would hold.
     source
-        What faults are said to be in.
+        The name of the document in messages.
 
     Raises
     ------
     InputError
         As `load_plan` does.
     """
-    with blaming(source):
-        return _read(checked_format(document, PLAN_FORMAT))
-
-
-def _read(document: dict[str, Any]) -> Plan:
     from rightofway.io.plan.shape import PlanFrame
 
-    faults = Faults()
-    frame = faults.attempt("", checked, PlanFrame, document)
-    loaded = faults.part(document, "scenario", read_scenario, None)
-    names = Names.of(loaded.scenario) if loaded else None
-    run = faults.part(document, "planner", _run, names)
-    tracks = faults.part(document, "robots", _tracks, names)
-    steady = faults.part(document, "steady", steady_of, names) or ()
-    if frame and loaded:
-        faults.attempt("tick", _check_tick, frame.tick, loaded.scenario)
-    faults.stop(document)
+    with blaming(source):
+        document = checked_format(document, PLAN_FORMAT)
+        faults = Faults()
+        frame = faults.attempt("", checked, PlanFrame, document)
+        loaded = faults.part(document, "scenario", read_scenario, None)
+        names = _Names.of(loaded.scenario) if loaded else None
+        run = faults.part(document, "planner", _run, names)
+        tracks = faults.part(document, "robots", _tracks, names)
+        steady = faults.part(document, "steady", _steady, names) or ()
+        if frame and loaded:
+            faults.attempt("tick", _check_tick, frame.tick, loaded.scenario)
+        faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert run is not None, "or there was a fault"
     assert tracks is not None, "or there was a fault"
     return Plan(scenario=loaded.scenario, tracks=tracks, run=run, steady=steady)
+
+
+@dataclass(slots=True, kw_only=True)
+class _Names:
+    """Robots by name, and vertices by the names that were looked up so far."""
+
+    robots: Mapping[str, int]
+    on: LoadedMap
+    vertices: dict[str, VertexId] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> _Names:
+        """Return the names of a scenario."""
+        grid = scenario.roadmap.grid
+        return cls(
+            robots={robot.name: index for index, robot in enumerate(scenario.robots)},
+            on=LoadedMap(roadmap=scenario.roadmap, lines=grid.lines() if grid else ()),
+        )
+
+    def robot(self, place: str, name: str) -> int:
+        """Return the index of a robot; InputError if there is none."""
+        if name not in self.robots:
+            near = nearest(name, self.robots)
+            hint = f"did you mean {near!r}?" if near else "name one of the scenario's robots"
+            raise InputError.at(place, f"no robot is named {shown(name)} ({hint})")
+        return self.robots[name]
+
+    def vertex(self, place: str, name: str) -> VertexId:
+        """Return the vertex of a name; InputError if there is none."""
+        if name not in self.vertices:
+            with under(place):
+                self.vertices[name] = find_place(name, self.on)
+        return self.vertices[name]
 
 
 def _check_tick(tick: Fraction, scenario: Scenario) -> None:
@@ -109,61 +156,64 @@ def _check_tick(tick: Fraction, scenario: Scenario) -> None:
         raise InputError.at("", f"{shown(tick)}, but the scenario's is {own} ({remedy})")
 
 
-def _tracks(data: Any, names: Names | None) -> tuple[Track, ...]:
-    """Return the tracks in the scenario's order; without names, only look for faults of shape."""
+def _each(
+    data: Any, shape: type[D], read: Callable[[D, _Names], T], names: _Names | None, item: str
+) -> list[T]:
+    """Return the items of a list; without names, only look for faults of shape."""
+    if not isinstance(data, list):
+        raise InputError.at("", f"{shown(data)} is not a list (give one {item})")
+    faults, found = Faults(), list[T | None]()
+    for index, each in enumerate(data):
+        document = faults.attempt(f"[{index}]", checked, shape, each)
+        if document is not None and names:
+            found.append(faults.attempt(f"[{index}]", read, document, names))
+    faults.stop()
+    return [each for each in found if each is not None]
+
+
+def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
+    """Return the tracks in the scenario's order."""
     from rightofway.io.plan.shape import TrackDocument
 
-    if not isinstance(data, list):
-        raise InputError.at("", f"{shown(data)} is not a list (give one track for each robot)")
-    faults, tracks = Faults(), dict[int, Track]()
-    for index, written in enumerate(data):
-        document = faults.attempt(f"[{index}]", checked, TrackDocument, written)
-        if document and names:
-            faults.attempt(f"[{index}]", _place_track, document, names, tracks)
-    faults.stop()
+    tracks = dict[int, Track]()
+
+    def read(document: TrackDocument, names: _Names) -> None:
+        robot = names.robot("name", document.name)
+        if robot in tracks:
+            message = f"{shown(document.name)} has a track already (take one out)"
+            raise InputError.at("name", message)
+        vertices = [
+            names.vertices[name]
+            if name in names.vertices  # most are, and this loop is a large plan's reading time
+            else names.vertex(f"vertices[{index}]", name)
+            for index, name in enumerate(document.vertices)
+        ]
+        tracks[robot] = Track.of(vertices, document.enter)
+
+    _each(data, TrackDocument, read, names, "track for each robot")
     missing = [name for name, robot in names.robots.items() if robot not in tracks] if names else []
     if missing:
         raise InputError.at("", f"{shown(missing[0])} has no track (give one for each robot)")
     return tuple(tracks[robot] for robot in sorted(tracks))
 
 
-def _place_track(document: TrackDocument, names: Names, tracks: dict[int, Track]) -> None:
-    with under("name"):
-        robot = names.robot(document.name)
-        if robot in tracks:
-            message = f"{shown(document.name)} has a track already (take one out)"
-            raise InputError.at("", message)
-    tracks[robot] = Track.of(_vertices(document.vertices, names), document.enter)
-
-
-def _vertices(written: list[str], names: Names) -> list[VertexId]:
-    for index, name in enumerate(written):
-        if name not in names.vertices:
-            with under(f"vertices[{index}]"):
-                names.vertex(name)
-    return [names.vertices[name] for name in written]
-
-
-def _run(data: Any, names: Names | None) -> PlannerRun | None:
+def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     """Return how the plan came about; without names, only look for faults of shape."""
     from rightofway.io.plan.shape import PlannerDocument
 
     document = checked(PlannerDocument, data)
     if names is None:
         return None
-    faults = Faults()
-    decisions = [
-        faults.attempt(f"decisions[{index}]", _decision, written, names)
-        for index, written in enumerate(document.decisions)
-    ]
-    reroutes = [
-        faults.attempt(f"reroutes[{index}]", _reroute, written, names)
-        for index, written in enumerate(document.reroutes)
-    ]
+    faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute | None]()
+    for index, decision in enumerate(document.decisions):
+        place = f"decisions[{index}]"
+        decisions.append(faults.attempt(place, _decision, decision, names))
+    for index, reroute in enumerate(document.reroutes):
+        reroutes.append(faults.attempt(f"reroutes[{index}]", _reroute, reroute, names))
     faults.stop()
     return PlannerRun(
         name=document.name,
-        options={key: _plain(value) for key, value in document.options.items()},
+        options={key: _with_floats(value) for key, value in document.options.items()},
         seed=document.seed,
         status=document.status,
         seconds=None if document.seconds is None else float(document.seconds),
@@ -172,18 +222,14 @@ def _run(data: Any, names: Names | None) -> PlannerRun | None:
     )
 
 
-def _decision(document: DecisionDocument, names: Names) -> Decision:
-    with under("vertices"):
-        vertices = tuple(map(names.vertex, document.vertices))
-    with under("waits_at"):
-        waits_at = names.vertex(document.waits_at)
-    with under("robots"):
-        one, other = map(names.robot, document.robots)
-    with under("waits"):
-        waits = names.robot(document.waits)
-        if waits not in {one, other}:
-            message = f"{shown(document.waits)} is none of the two robots (name one of them)"
-            raise InputError.at("", message)
+def _decision(document: DecisionDocument, names: _Names) -> Decision:
+    vertices = tuple(names.vertex("vertices", name) for name in document.vertices)
+    waits_at = names.vertex("waits_at", document.waits_at)
+    one, other = (names.robot("robots", name) for name in document.robots)
+    waits = names.robot("waits", document.waits)
+    if waits not in {one, other}:
+        message = f"{shown(document.waits)} is none of the two robots (name one of them)"
+        raise InputError.at("waits", message)
     sums = document.completion_sums
     return Decision(
         tick=Tick(document.tick),
@@ -199,20 +245,46 @@ def _decision(document: DecisionDocument, names: Names) -> Decision:
     )
 
 
-def _pair(numbers: list[int | None]) -> tuple[int | None, int | None]:
+def _pair(numbers: Sequence[int | None]) -> tuple[int | None, int | None]:
     first, second = numbers
     return first, second
 
 
-def _reroute(document: RerouteDocument, names: Names) -> Reroute:
-    with under("robot"):
-        return Reroute(robot=names.robot(document.robot), because=document.because)
+def _reroute(document: RerouteDocument, names: _Names) -> Reroute:
+    return Reroute(robot=names.robot("robot", document.robot), because=document.because)
 
 
-def _plain(value: Any) -> Any:
-    """Return an option's value with floats, as planners have them, in the place of decimals."""
+def _steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:
+    """Return the steady states of groups of robots."""
+    from rightofway.io.plan.shape import SteadyDocument
+
+    return tuple(_each(data, SteadyDocument, _steady_state, names, "entry for each group"))
+
+
+def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
+    robots = tuple(
+        names.robot(f"robots[{index}]", name) for index, name in enumerate(document.robots)
+    )
+    critical = []
+    for index, visit in enumerate(document.critical):
+        place = f"critical[{index}].robot"
+        robot = names.robot(place, visit.robot)
+        if robot not in robots:
+            message = f"{shown(visit.robot)} is not of this group (name one of its robots)"
+            raise InputError.at(place, message)
+        critical.append((robot, visit.visit))
+    return SteadyState(
+        robots=robots,
+        start=Tick(document.start),
+        period=Tick(document.period),
+        critical=tuple(critical),
+    )
+
+
+def _with_floats(value: Any) -> Any:
+    """Return the value of an option with floats, as planners have them, for decimals."""
     if isinstance(value, Decimal):
         return float(value)
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    return [_plain(item) for item in value] if isinstance(value, list) else value
+        return {key: _with_floats(item) for key, item in value.items()}
+    return [_with_floats(item) for item in value] if isinstance(value, list) else value

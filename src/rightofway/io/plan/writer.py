@@ -12,9 +12,9 @@ from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
-from rightofway.io.text.exact import written
-from rightofway.io.text.json_layout import Rendered, json_line, json_text
+from rightofway.io.text import Rendered, json_line, json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
+from rightofway.model.values import written
 
 __all__ = ["dump_plan", "plan_text", "write_plan"]
 
@@ -80,7 +80,7 @@ def plan_text(plan: Plan, *, seconds: bool = False) -> str:
 
 
 def _vertex_names(plan: Plan) -> list[str]:
-    """Return the names of all vertices, after a look at whether the tracks visit no others."""
+    """Return the names of all vertices; InputError if a track visits any other."""
     n_vertices = plan.scenario.roadmap.n_vertices
     for index, track in enumerate(plan.tracks):
         if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:

@@ -1,91 +1,98 @@
-"""The map of a scenario document: a grid, a file, a floor or a roadmap; made into a roadmap."""
+"""Maps of scenario documents made into roadmaps: grids, files, floors and drawn roadmaps."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError
-from rightofway.io.faults import under
-from rightofway.io.movingai import read_map
-from rightofway.io.scenario.ground import Ground
-from rightofway.io.scenario.roadmaps import drawn_roadmap
-from rightofway.io.words import shown
-from rightofway.model import Floor, Obstacle, cluster, node_length, roadmap_of_grid
+from rightofway.errors import InputError, nearest, shown
+from rightofway.io.faults import Faults, under
+from rightofway.io.movingai import load_map
+from rightofway.model import (
+    Edge,
+    Floor,
+    Obstacle,
+    Roadmap,
+    cluster,
+    node_length,
+    roadmap_of_edges,
+    roadmap_of_grid,
+    straight_length,
+)
 from rightofway.model.clustering import MAX_CELLS
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario.shape import FloorDocument, MapDocument
+    from rightofway.io.scenario.shape import (
+        EdgeDocument,
+        FloorDocument,
+        MapDocument,
+        RoadmapDocument,
+    )
 
-__all__ = ["beside", "ground_of"]
+__all__ = ["LoadedMap", "file_beside", "map_of"]
+
+Point = tuple[Fraction, Fraction]
 
 
-def ground_of(
-    document: MapDocument, speeds: Sequence[Fraction] | None, base: Path | None
-) -> Ground | None:
-    """Make the roadmap of a map document.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedMap:
+    """A roadmap, and what its document says beyond it; places are looked up here.
 
-    Parameters
+    Attributes
     ----------
-    document
-        The map.
-    speeds
-        Of the whole fleet, for node clustering; None where they are not all known.
-    base
-        The directory that files are relative to; None where no file may be read.
+    roadmap
+        The graph that robots drive on.
+    lines
+        The rows of a grid as they were written; empty on other roadmaps.
+    floor
+        The floor that the grid was cut from, if any.
+    file
+        The file it was read from, if any.
+    """
 
-    Returns
-    -------
-    Ground or None
-        None where the cells of a floor depend on speeds that are not known.
+    roadmap: Roadmap
+    lines: tuple[str, ...] = ()
+    floor: Floor | None = None
+    file: Path | None = None
 
-    Raises
-    ------
-    InputError
-        With places relative to the map.
+
+def map_of(
+    document: MapDocument, speeds: Sequence[Fraction] | None, base: Path | None
+) -> LoadedMap | None:
+    """Make the roadmap of a map document; None where a floor's cells depend on unknown speeds.
+
+    The speeds of the whole fleet [length units per time unit] are for node clustering. Files are
+    relative to the directory ``base``; without one, none may be read.
     """
     if document.roadmap is not None:
         with under("roadmap"):
-            return Ground(roadmap=drawn_roadmap(document.roadmap))
+            return LoadedMap(roadmap=_drawn(document.roadmap))
     if document.floor is not None:
         return _clustered(document, speeds)
+    cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     if document.file is not None:
-        return _from_file(document, base)
+        with under("file"):
+            file = file_beside(base, document.file)
+            lines = load_map(file)
+            roadmap = roadmap_of_grid(lines, cell_size=cell_size)
+            return LoadedMap(roadmap=roadmap, lines=lines, file=file)
     with under("grid"):
-        roadmap = roadmap_of_grid(document.grid, cell_size=_cell_size(document))
-        return Ground(roadmap=roadmap, lines=tuple(document.grid))
+        roadmap = roadmap_of_grid(document.grid, cell_size=cell_size)
+        return LoadedMap(roadmap=roadmap, lines=tuple(document.grid))
 
 
-def _cell_size(document: MapDocument) -> Fraction:
-    size = document.cell_size
-    return size if isinstance(size, Fraction) else Fraction(1)
-
-
-def _from_file(document: MapDocument, base: Path | None) -> Ground:
-    with under("file"):
-        file = beside(base, document.file)
-        lines = read_map(file)
-        roadmap = roadmap_of_grid(lines, cell_size=_cell_size(document))
-        return Ground(roadmap=roadmap, lines=lines, file=file)
-
-
-def beside(base: Path | None, name: str) -> Path:
-    """Return the path of a file that a document names.
-
-    Raises
-    ------
-    InputError
-        If the document is in no directory, and so may read no file.
-    """
+def file_beside(base: Path | None, name: str) -> Path:
+    """Return the path of a file that a document names; InputError for a document in no file."""
     if base is None:
         message = f"{shown(name)} is relative to no file (write the contents into the document)"
         raise InputError.at("", message)
     return base / name
 
 
-def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> Ground | None:
+def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> LoadedMap | None:
     with under("floor"):
         floor = _floor(document.floor)
     cell_size = document.cell_size
@@ -95,7 +102,8 @@ def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> Grou
         cell_size = node_length(speeds)
     lines = cluster(floor, cell_size, max_cells=document.floor.max_cells or MAX_CELLS)
     with under("floor"):
-        return Ground(roadmap=roadmap_of_grid(lines, cell_size=cell_size), lines=lines, floor=floor)
+        roadmap = roadmap_of_grid(lines, cell_size=cell_size)
+        return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
 def _floor(document: FloorDocument) -> Floor:
@@ -109,3 +117,37 @@ def _floor(document: FloorDocument) -> Floor:
             for x, y, width, height in [obstacle.rect]
         ),
     )
+
+
+def _drawn(document: RoadmapDocument) -> Roadmap:
+    """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
+    faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
+    for index, edge in enumerate(document.edges):
+        length = faults.attempt(f"edges[{index}]", _length, edge, document.vertices)
+        if length is None:
+            continue
+        there, back = (edge.tail, edge.head), (edge.head, edge.tail)
+        for tail, head in (there, back) if edge.both_ways else (there,):
+            earlier = first.setdefault((tail, head), index)
+            if earlier != index:
+                message = f"leads from {tail!r} to {head!r} as edges[{earlier}] does (take one out)"
+                faults.note(f"edges[{index}]", message)
+                break
+            edges.append(Edge(tail=tail, head=head, length=length))
+    faults.stop()
+    positions = {name: (float(x), float(y)) for name, (x, y) in document.vertices.items()}
+    return roadmap_of_edges(positions, edges)
+
+
+def _length(edge: EdgeDocument, positions: Mapping[str, Point]) -> Fraction:
+    """Return the length of an edge after checking its ends."""
+    faults = Faults()
+    for place, name in (("from", edge.tail), ("to", edge.head)):
+        if name not in positions:
+            near = nearest(name, positions)
+            hint = f"did you mean {near!r}?" if near else "add it to vertices"
+            faults.note(place, f"no vertex is named {name!r} ({hint})")
+    if edge.tail == edge.head:
+        faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
+    faults.stop()
+    return edge.length or straight_length(positions[edge.tail], positions[edge.head])

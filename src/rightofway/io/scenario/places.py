@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from rightofway.io.scenario.ground import Ground
+from rightofway.io.scenario.maps import LoadedMap
 from rightofway.model import Floor, Grid, VertexId
-from rightofway.model.places import Place, as_place, vertex_at
+from rightofway.model.places import Place, vertex_at
 
-__all__ = ["Place", "as_place", "find_place"]
+__all__ = ["find_place"]
 
 
-def find_place(place: Place, ground: Ground) -> VertexId:
-    """Return the vertex at a place of a map that a document describes; see `vertex_at`.
-
-    Raises
-    ------
-    InputError
-        If the place is outside the map, blocked, or not known; with what blocks it.
-    """
+def find_place(place: Place, on: LoadedMap) -> VertexId:
+    """Return the vertex at a place of a map, or raise an InputError that says what is there."""
 
     def what_blocks(row: int, column: int) -> str:
-        grid, floor = ground.roadmap.grid, ground.floor
+        grid, floor = on.roadmap.grid, on.floor
         obstacle = _obstacle(row, column, floor, grid) if floor and grid else ""
-        return obstacle or repr(ground.lines[row][column])
+        return obstacle or repr(on.lines[row][column])
 
-    return vertex_at(ground.roadmap, place, what_blocks=what_blocks)
+    return vertex_at(on.roadmap, place, what_blocks=what_blocks)
 
 
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:

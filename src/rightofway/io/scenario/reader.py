@@ -1,46 +1,53 @@
-"""Scenario documents, read: every fault at once, or a scenario that is valid by construction."""
+"""Scenario documents, read: every fault at once, or a scenario that is valid by construction.
+
+A file becomes plain data (`read_document`), the data become checked parts (`shape`), the parts a
+`Scenario`. Each step notes its faults and goes on with the parts that have none.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import cycle
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault
-from rightofway.io.faults import Faults, blaming, checked, checked_format
-from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.scenario.classic import classic_document, classic_fault
-from rightofway.io.scenario.draft import Draft
-from rightofway.io.scenario.ground import Ground
-from rightofway.io.scenario.maps import ground_of
-from rightofway.io.scenario.robots import fleet_of
-from rightofway.io.text.documents import read_document
-from rightofway.io.words import shown
-from rightofway.model import Robot, Rules, Scenario
+from rightofway.errors import InputError, InputFault, shown
+from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.io.formats import SCENARIO_FORMAT, checked_format
+from rightofway.io.movingai import ScenRow, load_scen
+from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.scenario.places import find_place
+from rightofway.io.text import read_document
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
-__all__ = ["MAX_STAGES", "Loaded", "load", "read", "read_scenario", "scenario_of"]
+if TYPE_CHECKING:
+    from rightofway.io.scenario.shape import FleetDocument, TripDocument
+
+__all__ = ["MAX_STAGES", "Loaded", "load", "load_with_notes", "read_scenario", "scenario_of"]
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
 
 MAX_TICKS = 2**40
-"""The longest duration of a scenario; routes of any length then stay within 64 bits."""
+"""Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
+
+DEFAULT_SPEED = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loaded:
-    """A scenario, and what its reader has to say about it.
+    """A scenario, and notes of its reader.
 
     Attributes
     ----------
     scenario
         The scenario.
     notes
-        Sentences for the user: what a floor was cut into, whether durations are rounded.
+        Sentences for the user: how a floor was cut into cells, whether durations are rounded.
     """
 
     scenario: Scenario
@@ -48,12 +55,7 @@ class Loaded:
 
 
 def load(path: Path | str) -> Scenario:
-    """Return the scenario of a file; see `read`."""
-    return read(path).scenario
-
-
-def read(path: Path | str) -> Loaded:
-    """Read a scenario file.
+    """Return the scenario of a file.
 
     Parameters
     ----------
@@ -66,20 +68,16 @@ def read(path: Path | str) -> Loaded:
     InputError
         With every independent fault, its place, value and remedy.
     """
+    return load_with_notes(path).scenario
+
+
+def load_with_notes(path: Path | str) -> Loaded:
+    """Return the scenario of a file with the notes of its reader; otherwise as `load`."""
     path = Path(path)
-    if path.suffix.lower() == ".scen":
-        return _read_classic(path)
     with blaming(str(path)):
+        if path.suffix.lower() == ".scen":
+            return _classic(path)
         return read_scenario(read_document(path), path.parent)
-
-
-def _read_classic(path: Path) -> Loaded:
-    document = classic_document(path)
-    try:
-        return read_scenario(document, path.parent)
-    except InputError as error:
-        faults = (classic_fault(fault, path) for fault in error.faults)
-        raise InputError(faults, str(path)) from None
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -93,7 +91,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
     base
         The directory that files in it are relative to; None if it may name none.
     source
-        What faults are said to be in.
+        The name of the document in messages.
 
     Raises
     ------
@@ -105,60 +103,194 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
 
 
 def read_scenario(document: Any, base: Path | None) -> Loaded:
-    """Return a scenario and notes on it: the work behind `read` and `scenario_of`."""
-    from rightofway.io.scenario.shape import ScenarioFrame
+    """Return the scenario of a document with notes; the work behind `load` and `scenario_of`."""
+    from rightofway.io.scenario.shape import MapDocument, RulesDocument, ScenarioFrame
+
+    def rules_of(data: Any) -> Rules:
+        given = checked(RulesDocument, data).given
+        return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+
+    def loaded_map_of(data: Any) -> LoadedMap | None:
+        return map_of(checked(MapDocument, data), speeds, base)
 
     document = checked_format(document, SCENARIO_FORMAT)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
-    rules = faults.part(document, "rules", _rules) or Rules()
-    fleet = fleet_of(document["robots"], base, faults) if "robots" in document else None
-    speeds = fleet.speeds() if fleet else None
-    ground = faults.part(document, "map", _ground, speeds, base)
-    drafts = fleet.drafts(ground, faults) if fleet and ground else []
-    scenario = _assembled(ground, drafts, rules, faults) if drafts and ground else None
+    rules = faults.part(document, "rules", rules_of) or Rules()
+    robots = faults.part(document, "robots", _written_robots, base) or []
+    speeds = _speeds(robots)
+    loaded = faults.part(document, "map", loaded_map_of)
+    if not isinstance(robots, _Rows):
+        placed = list(_listed(robots, loaded, faults))
+    else:
+        placed = _dealt(robots, loaded, faults) if loaded else []
+    scenario = _assembled(loaded.roadmap, placed, rules, faults) if loaded and placed else None
     faults.stop(document)
+    assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    assert ground is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*ground.notes(), *_clock_notes(scenario)))
+    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
 
 
-def _rules(data: Any) -> Rules:
-    from rightofway.io.scenario.shape import RulesDocument
+def _classic(path: Path) -> Loaded:
+    """Return the scenario of all rows of a `.scen` file."""
+    map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
+    beside = [Path(map_name), Path("..", "maps", map_name)]
+    found = next((each for each in beside if (path.parent / each).is_file()), None)
+    if found is None:
+        message = f"its map {map_name!r} is neither beside it nor in ../maps (put it there)"
+        raise InputError.at("", message)
+    document = {
+        "format": SCENARIO_FORMAT,
+        "map": {"file": str(found)},
+        "robots": {"scen": path.name},
+        "rules": {"turn": 0, "return": "none"},
+    }
+    try:
+        return read_scenario(document, path.parent)
+    except InputError as error:  # places in the document mean nothing to the user of the file
+        raise InputError(
+            InputFault("", fault.message.removeprefix(f"{path}: "))
+            if fault.place == "robots.scen"
+            else fault
+            for fault in error.faults
+        ) from None
 
-    document = checked(RulesDocument, data)
-    return Rules(**document.given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Rows:
+    """Robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt out in turn."""
+
+    document: FleetDocument
+    file: Path
+    rows: Sequence[ScenRow]
 
 
-def _ground(data: Any, speeds: Sequence[Fraction] | None, base: Path | None) -> Ground | None:
-    from rightofway.io.scenario.shape import MapDocument
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Placed:
+    """A robot, its place in the document, and keys of it that stand elsewhere."""
 
-    return ground_of(checked(MapDocument, data), speeds, base)
+    robot: Robot
+    place: str
+    aliases: Mapping[str, str]
+
+
+def _written_robots(data: Any, base: Path | None) -> Sequence[Any] | _Rows:
+    """Return robots as they are listed, or the rows of a file that they stand on."""
+    from rightofway.io.scenario.shape import FleetDocument
+
+    if isinstance(data, list) and data:
+        return data
+    if not isinstance(data, dict):
+        message = f"{shown(data)} is no fleet (give a list of robots, or {{scen: a file}})"
+        raise InputError.at("", message)
+    document = checked(FleetDocument, data)
+    with under("scen"):
+        file = file_beside(base, document.scen)
+        rows = load_scen(file)
+    if document.count is not None and document.count > len(rows):
+        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
+        raise InputError.at("count", message)
+    return _Rows(document=document, file=file, rows=rows[: document.count])
+
+
+def _speeds(robots: Sequence[Any] | _Rows) -> list[Fraction] | None:
+    """Return the speeds of all robots, or None if some cannot be read."""
+    from rightofway.io.fields import positive
+
+    if isinstance(robots, _Rows):
+        return (robots.document.speeds or [DEFAULT_SPEED])[: len(robots.rows)]
+    try:
+        return [positive(robot.get("speed", DEFAULT_SPEED)) for robot in robots]
+    except (AttributeError, ValueError):
+        return None
+
+
+def _place_of_laps(document: TripDocument, place: str) -> str:
+    """Return where the document asks a robot without a way back for several laps."""
+    if document.laps is not None:
+        return f"{place}.laps"
+    return "rules.laps" if document.ends is None else f"{place}.return"
+
+
+def _listed(robots: Sequence[Any], on: LoadedMap | None, faults: Faults) -> Iterator[_Placed]:
+    """Yield robots that are listed; note the faults of others. Without a map, only note faults."""
+    from rightofway.io.scenario.shape import RobotDocument
+
+    for index, data in enumerate(robots):
+        place = f"robots[{index}]"
+        document = faults.attempt(place, checked, RobotDocument, data, on)
+        if document is None or on is None:
+            continue
+        own = document.given("speed", "turn", "ends", "laps")
+        stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
+        robot = Robot(name=document.name, home=document.home, stops=stops, **own)
+        aliases = {"laps": _place_of_laps(document, place)}
+        yield _Placed(robot=robot, place=place, aliases=aliases)
+
+
+def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
+    """Return the robots on the rows of a file, or none after noting why."""
+    document, placed = robots.document, list[_Placed]()
+    ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
+    speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
+    own = document.given("turn", "ends", "laps")
+    aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
+    dealt = zip(ends, speeds, works, strict=False)
+    for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
+        stops = (Stop(at=goal, work=work),)
+        robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
+        placed.append(_Placed(robot=robot, place="robots.scen", aliases=aliases))
+    return placed
+
+
+def _starts_and_goals(robots: _Rows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
+    faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
+    with blaming(str(robots.file)):
+        for row in robots.rows:
+            _check_map(row, on)  # stops at the first: the others are for the same map
+        for row in robots.rows:
+            start = faults.attempt(f"line {row.line}, start", find_place, row.start, on)
+            goal = faults.attempt(f"line {row.line}, goal", find_place, row.goal, on)
+            if start is None or goal is None:
+                continue
+            if taken.setdefault(start, row.line) != row.line:
+                message = f"line {taken[start]} starts there already (a cell holds one robot)"
+                faults.note(f"line {row.line}, start", message)
+            ends.append((start, goal))
+        faults.stop()
+    return ends
+
+
+def _check_map(row: ScenRow, on: LoadedMap) -> None:
+    grid, place = on.roadmap.grid, f"line {row.line}"
+    if grid is None:
+        raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
+    if (row.width, row.height) != (grid.columns, grid.rows):
+        size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
+        raise InputError.at(place, f"{size} (give the map it was made for)")
+    name = re.split(r"[\\/]", row.map_name)[-1]
+    if on.file is not None and name != on.file.name:
+        message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
+        raise InputError.at(place, message)
 
 
 def _assembled(
-    ground: Ground, drafts: Sequence[Draft], rules: Rules, faults: Faults
+    roadmap: Roadmap, placed: Sequence[_Placed], rules: Rules, faults: Faults
 ) -> Scenario | None:
-    """Return the scenario, or None after noting what the model finds wrong."""
+    """Return the scenario, or None after noting the faults that the model finds."""
+    robots = tuple(each.robot for each in placed)
+    stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
     try:
-        _check_stages([draft.robot for draft in drafts], rules)
-        robots = tuple(draft.robot for draft in drafts)
-        scenario = Scenario(roadmap=ground.roadmap, robots=robots, rules=rules)
+        if stages > MAX_STAGES:
+            message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
+            raise InputError.at("robots", f"{message} (give fewer laps)")
+        scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules)
         _check_ticks(scenario)
     except InputError as error:
         for fault in error.faults:
-            faults.note(*_in_document(fault, drafts))
+            faults.note(*_in_document(fault, placed))
         return None
     return scenario
-
-
-def _check_stages(robots: Sequence[Robot], rules: Rules) -> None:
-    stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
-    if stages > MAX_STAGES:
-        message = (
-            f"{stages} stops and ways home in all laps, more than {MAX_STAGES} (give fewer laps)"
-        )
-        raise InputError.at("robots", message)
 
 
 def _check_ticks(scenario: Scenario) -> None:
@@ -174,24 +306,26 @@ def _check_ticks(scenario: Scenario) -> None:
         raise InputError.at("robots", message)
 
 
-def _in_document(fault: InputFault, drafts: Sequence[Draft]) -> tuple[str, str]:
-    """Return place and message of a model's problem as the document has them.
+def _in_document(fault: InputFault, placed: Sequence[_Placed]) -> tuple[str, str]:
+    """Return place and message of a fault of the model as the document has them.
 
-    The model numbers the robots it was given, which lack those with faults of their own.
+    The model numbers the robots that it was given, among which those with faults are missing.
     """
     found = re.fullmatch(r"robots\[(\d+)\]\.(.*)", fault.place)
     if not found:
         return fault.place, fault.message
-    draft, key = drafts[int(found[1])], found[2]
-    other = re.match(r"(.*) of robots\[(\d+)\] already", fault.message)
-    message = fault.message
+    it, key, message = placed[int(found[1])], found[2], fault.message
+    other = re.match(r"(.*) of robots\[(\d+)\] already", message)
     if other:
-        twin = drafts[int(other[2])].place
-        message = f"{other[1]} of {twin} already{message[other.end() :]}"
-    return draft.aliases.get(key, f"{draft.place}.{key}"), message
+        message = f"{other[1]} of {placed[int(other[2])].place} already{message[other.end() :]}"
+    return it.aliases.get(key, f"{it.place}.{key}"), message
 
 
-def _clock_notes(scenario: Scenario) -> Iterator[str]:
+def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
+    grid = loaded.roadmap.grid
+    if loaded.floor and grid:
+        cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
+        yield f"floor cut into {cells} cells of {grid.cell_size}"
     if not scenario.problem.clock.exact:
         yield (
             f"durations are rounded up to 1/{MAX_TICKS_OF_SHORTEST} of the shortest;"

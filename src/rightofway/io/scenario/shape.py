@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any, Literal, Self
 
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import CoreSchema
 
+from rightofway.errors import shown
 from rightofway.io.fields import (
-    LEFT_OUT,
     CellSize,
     Count,
     Document,
@@ -23,9 +24,10 @@ from rightofway.io.fields import (
     Turning,
     Words,
     described,
+    exactly_one_of,
+    optional,
 )
-from rightofway.io.words import shown
-from rightofway.model import Occupancy, TripEnd
+from rightofway.model import Occupancy, TripEnd, VertexId
 
 __all__ = [
     "EdgeDocument",
@@ -62,10 +64,8 @@ class FloorDocument(Document):
 
     size: Size = Field(description="[width, height] [length unit]")
     obstacles: list[ObstacleDocument] = Field(default=[], description="a list of rectangles")
-    max_cells: Count = Field(
-        default=LEFT_OUT,
-        le=MAX_CELLS_ALLOWED,
-        description=f"the most cells to make, from 1 to {MAX_CELLS_ALLOWED}",
+    max_cells: Count = optional(
+        f"the most cells to make, from 1 to {MAX_CELLS_ALLOWED}", le=MAX_CELLS_ALLOWED
     )
 
 
@@ -74,9 +74,8 @@ class EdgeDocument(Document):
 
     tail: Name = Field(alias="from", description="the name of the vertex it begins at")
     head: Name = Field(alias="to", description="the name of the vertex it leads to")
-    length: Positive = Field(
-        default=LEFT_OUT,
-        description="its length [length unit]; the straight distance where that is a fraction",
+    length: Positive = optional(
+        "its length [length unit]; the straight distance where that is a fraction"
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
 
@@ -128,28 +127,21 @@ class MapDocument(Document):
         )
     )
 
-    grid: Lines = Field(
-        default=LEFT_OUT,
-        description="rows of . (free) and @ (blocked), as a list or one text",
-    )
-    file: Name = Field(default=LEFT_OUT, description="a .map file, relative to the scenario's own")
-    floor: FloorDocument = Field(default=LEFT_OUT, description="{size, obstacles}")
-    roadmap: RoadmapDocument = Field(default=LEFT_OUT, description="{vertices, edges}")
-    cell_size: CellSize = Field(
-        default=LEFT_OUT,
-        description="side of a cell [length unit]: 1 by default; on a floor clustered by default",
+    grid: Lines = optional("rows of . (free) and @ (blocked), as a list or one text")
+    file: Name = optional("a .map file, relative to the scenario's own")
+    floor: FloorDocument = optional("{size, obstacles}")
+    roadmap: RoadmapDocument = optional("{vertices, edges}")
+    cell_size: CellSize = optional(
+        "side of a cell [length unit]: 1 by default; on a floor clustered by default"
     )
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
-        found = [kind for kind in MAPS if kind in self.model_fields_set]
-        if len(found) != 1:
-            what = f"{' and '.join(found)} are" if found else "no map is"
-            raise ValueError(f"{what} given (give exactly one of {', '.join(MAPS)})")
-        if found == ["roadmap"] and self.cell_size is not None:
+        kind = exactly_one_of(self, MAPS)
+        if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
-        if found != ["floor"] and self.cell_size == "clustered":
-            raise ValueError(f"a {found[0]} has cells already (give cell_size as a length)")
+        if kind != "floor" and self.cell_size == "clustered":
+            raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
         return self
 
 
@@ -157,15 +149,15 @@ class StopDocument(Document):
     """A place to work at."""
 
     at: Place = Field(description=f"a place: {PLACES}")
-    work: NotNegative = Field(default=LEFT_OUT, description=WORK)
+    work: NotNegative = optional(WORK)
 
 
 class TripDocument(Document):
     """What a robot may decide for itself; the rules stand where it does not."""
 
-    turn: Turning = Field(default=LEFT_OUT, description=TURNING)
-    ends: TripEnd = Field(default=LEFT_OUT, alias="return", description=RETURN)
-    laps: Count = Field(default=LEFT_OUT, description=LAPS)
+    turn: Turning = optional(TURNING)
+    ends: TripEnd = optional(RETURN, alias="return")
+    laps: Count = optional(LAPS)
 
 
 class RobotDocument(TripDocument):
@@ -182,14 +174,10 @@ class RobotDocument(TripDocument):
 
     name: Name = Field(description="a name of its own")
     home: Place = Field(description=f"the place it starts from: {PLACES}")
-    target: Place = Field(default=LEFT_OUT, description=f"the place to work at: {PLACES}")
-    work: NotNegative = Field(default=LEFT_OUT, description=WORK)
-    stops: list[StopDocument] = Field(
-        default=LEFT_OUT, min_length=1, description="one or more {at, work}, in order"
-    )
-    speed: Positive = Field(
-        default=LEFT_OUT, description="length units per time unit, above 0; 1 by default"
-    )
+    target: Place = optional(f"the place to work at: {PLACES}")
+    work: NotNegative = optional(WORK)
+    stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
+    speed: Positive = optional("length units per time unit, above 0; 1 by default")
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -201,30 +189,28 @@ class RobotDocument(TripDocument):
             raise ValueError("has work beside stops (write it at each stop)")
         return self
 
+    def trip(self) -> list[tuple[VertexId, Fraction | None]]:
+        """Return where the robot works, and how long [time unit] if that is written."""
+        return [(stop.at, stop.work) for stop in self.stops or ()] or [(self.target, self.work)]
+
 
 class FleetDocument(TripDocument):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
     scen: Name = Field(description="a .scen file, relative to the scenario's own")
-    count: Count = Field(
-        default=LEFT_OUT, description="how many of its rows to take, 1 or more; all by default"
+    count: Count = optional("how many of its rows to take, 1 or more; all by default")
+    speeds: list[Positive] = optional(
+        "speeds to deal out in turn: first, second, ...", min_length=1
     )
-    speeds: list[Positive] = Field(
-        default=LEFT_OUT, min_length=1, description="speeds to deal out in turn: first, second, ..."
-    )
-    work: list[NotNegative] = Field(
-        default=LEFT_OUT, min_length=1, description="work times to deal out in turn"
-    )
+    work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
 
 
 class RulesDocument(TripDocument):
     """What holds for the whole fleet."""
 
-    occupancy: Occupancy = Field(default=LEFT_OUT, description="one, or both")
-    headway: NotNegative = Field(
-        default=LEFT_OUT, description="least time between two robots at a vertex [time unit]"
-    )
-    rotations: bool = Field(default=LEFT_OUT, description="true or false")
+    occupancy: Occupancy = optional("one, or both")
+    headway: NotNegative = optional("least time between two robots at a vertex [time unit]")
+    rotations: bool = optional("true or false")
 
 
 class ScenarioFrame(Document):
@@ -233,7 +219,7 @@ class ScenarioFrame(Document):
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     robots: Any = Field(description="a list of robots, or {scen: file}")
-    rules: Any = Field(default=LEFT_OUT, description="rules for the whole fleet")
+    rules: Any = optional("rules for the whole fleet")
 
 
 class ScenarioDocument(ScenarioFrame):
@@ -241,4 +227,4 @@ class ScenarioDocument(ScenarioFrame):
 
     map: MapDocument = Field(description="where the fleet drives")
     robots: list[RobotDocument] | FleetDocument = Field(description="the fleet")
-    rules: RulesDocument = Field(default=LEFT_OUT, description="rules for the whole fleet")
+    rules: RulesDocument = optional("rules for the whole fleet")

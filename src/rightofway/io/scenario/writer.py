@@ -8,9 +8,9 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.text.exact import written
-from rightofway.io.text.json_layout import json_text
+from rightofway.io.text import json_text
 from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
+from rightofway.model.values import written
 
 __all__ = ["dump_scenario", "write_scenario"]
 
@@ -57,23 +57,24 @@ def _yaml_text(document: dict[str, Any]) -> str:
     class Dumper(yaml.SafeDumper):
         """Writes text of several lines as a block."""
 
-        def represent_str(self, data: str) -> yaml.ScalarNode:
-            tag = "tag:yaml.org,2002:str"
-            return self.represent_scalar(tag, data, style="|" if "\n" in data else None)
+    def block(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+        style = "|" if "\n" in text else None
+        return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 
-    Dumper.add_representer(str, Dumper.represent_str)
+    Dumper.add_representer(str, block)
     shape = document["map"]
     if "grid" in shape:
         shape = {**shape, "grid": "\n".join(shape["grid"]) + "\n"}
-    text: str = yaml.dump(
-        {**document, "map": shape},
-        Dumper=Dumper,
-        default_flow_style=None,  # what holds no mapping or list itself stays on one line
-        sort_keys=False,
-        allow_unicode=True,
-        width=float("inf"),
+    return str(
+        yaml.dump(
+            {**document, "map": shape},
+            Dumper=Dumper,
+            default_flow_style=None,  # a list or mapping of plain values stays on one line
+            sort_keys=False,
+            allow_unicode=True,
+            width=float("inf"),
+        )
     )
-    return text
 
 
 def _grid(grid: Grid) -> dict[str, Any]:

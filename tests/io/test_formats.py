@@ -9,7 +9,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, plan_of, schema
-from rightofway.io.text.documents import read_document
+from rightofway.io.text import read_document
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]

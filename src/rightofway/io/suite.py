@@ -1,23 +1,25 @@
-"""The shape of a suite document: which keys there are, and what each may hold."""
+"""The shape of suite documents: their keys, and the values of each."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable
 from typing import Annotated, Any, Literal, Self, TypeVar
 
-from pydantic import (
-    AfterValidator,
-    ConfigDict,
-    Field,
-    PlainValidator,
-    WithJsonSchema,
-    model_validator,
-)
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from rightofway.io.fields import LEFT_OUT, Count, Document, Name, Positive, described
+from rightofway.errors import shown
+from rightofway.io.fields import (
+    Count,
+    Document,
+    Kind,
+    Name,
+    Positive,
+    described,
+    exactly_one_of,
+    optional,
+)
 from rightofway.io.scenario.shape import RulesDocument
-from rightofway.io.text.exact import exact
-from rightofway.io.words import shown
+from rightofway.model.values import exact
 
 __all__ = ["MAX_SEED", "MapCasesDocument", "PlannerDocument", "SuiteDocument", "SuiteFleetDocument"]
 
@@ -35,28 +37,20 @@ def _each_once(values: list[T]) -> list[T]:
     return values
 
 
-def _pair_of(least: int, most: int, what: str) -> PlainValidator:
-    """Accept two whole numbers within bounds."""
+def _pair(least: int, most: int, what: str, *, in_order: bool = False) -> Kind:
+    """Return the kind of two whole numbers within bounds."""
 
     def read(value: object) -> tuple[int, int]:
         items = value if isinstance(value, list | tuple) else ()
         fits = [type(item) is int and least <= item <= most for item in items]
         if len(fits) != 2 or not all(fits):  # noqa: PLR2004 (a pair)
             raise ValueError(f"{shown(value)} does not fit (give {what}, from {least} to {most})")
+        if in_order and items[0] > items[1]:
+            raise ValueError(f"{shown(value)} is empty (give the least first, then the most)")
         return (items[0], items[1])
 
-    return PlainValidator(read)
-
-
-def _pair_schema(least: int, most: int) -> WithJsonSchema:
     number = {"type": "integer", "minimum": least, "maximum": most}
-    return WithJsonSchema({"type": "array", "items": number, "minItems": 2, "maxItems": 2})
-
-
-def _in_order(pair: tuple[int, int]) -> tuple[int, int]:
-    if pair[0] > pair[1]:
-        raise ValueError(f"{shown(pair)} is empty (give the least first, then the most)")
-    return pair
+    return Kind(read, {"type": "array", "items": number, "minItems": 2, "maxItems": 2})
 
 
 def _share(value: object) -> float:
@@ -67,31 +61,13 @@ def _share(value: object) -> float:
 
 
 Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
-GridSize = Annotated[
-    tuple[int, int], _pair_of(1, MAX_SIDE, "[width, height]"), _pair_schema(1, MAX_SIDE)
-]
-WorkRange = Annotated[
-    tuple[int, int],
-    _pair_of(0, MAX_WORK, "[least, most]"),
-    AfterValidator(_in_order),
-    _pair_schema(0, MAX_WORK),
-]
-Counts = Annotated[
-    list[Count], Field(min_length=1, json_schema_extra={"uniqueItems": True}),
+GridSize = Annotated[tuple[int, int], _pair(1, MAX_SIDE, "[width, height]")]
+WorkRange = Annotated[tuple[int, int], _pair(0, MAX_WORK, "[least, most]", in_order=True)]
+Share = Annotated[float, Kind(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})]
+Distinct = Annotated[
+    list[T],
+    Field(min_length=1, json_schema_extra={"uniqueItems": True}),
     AfterValidator(_each_once),
-]  # fmt: skip
-Seeds = Annotated[
-    list[Seed], Field(min_length=1, json_schema_extra={"uniqueItems": True}),
-    AfterValidator(_each_once),
-]  # fmt: skip
-Limits = Annotated[
-    list[Positive], Field(min_length=1, json_schema_extra={"uniqueItems": True}),
-    AfterValidator(_each_once),
-]  # fmt: skip
-Share = Annotated[
-    float,
-    PlainValidator(_share),
-    WithJsonSchema({"type": "number", "minimum": 0, "exclusiveMaximum": 1}),
 ]
 
 
@@ -117,36 +93,25 @@ class MapCasesDocument(Document):
         )
     )
 
-    name: Name = Field(
-        default=LEFT_OUT, description="a name of its own in results; the file's by default"
+    name: Name = optional("a name of its own in results; the file's by default")
+    file: Name = optional("a .map file, relative to the suite's own")
+    scens: list[Name] = optional(
+        "a list of .scen files; the first k rows of one are its fleet of k robots", min_length=1
     )
-    file: Name = Field(default=LEFT_OUT, description="a .map file, relative to the suite's own")
-    scens: list[Name] = Field(
-        default=LEFT_OUT,
-        min_length=1,
-        description="a list of .scen files; the first k rows of one are its fleet of k robots",
-    )
-    random: RandomGridDocument = Field(default=LEFT_OUT, description="{size, walls, seed}")
-    scenario: Name = Field(
-        default=LEFT_OUT,
-        description="a scenario file, whose fleet is taken as it is",
-    )
-    counts: Counts = Field(
-        default=LEFT_OUT,
-        description="a list of how many robots, 1 or more; that of the suite by default",
+    random: RandomGridDocument = optional("{size, walls, seed}")
+    scenario: Name = optional("a scenario file, whose fleet is taken as it is")
+    counts: Distinct[Count] = optional(
+        "a list of how many robots, 1 or more; that of the suite by default"
     )
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
-        found = [kind for kind in MAPS if kind in self.model_fields_set]
-        if len(found) != 1:
-            what = f"{' and '.join(found)} are" if found else "no map is"
-            raise ValueError(f"{what} given (give exactly one of {', '.join(MAPS)})")
-        if found == ["file"] and self.scens is None:
+        kind = exactly_one_of(self, MAPS)
+        if kind == "file" and self.scens is None:
             raise ValueError("file is given without scens (give a list of .scen files too)")
-        if found != ["file"] and self.scens is not None:
-            raise ValueError(f"scens is given with {found[0]} (take it out, or give a file)")
-        if found == ["scenario"] and self.counts is not None:
+        if kind != "file" and self.scens is not None:
+            raise ValueError(f"scens is given with {kind} (take it out, or give a file)")
+        if kind == "scenario" and self.counts is not None:
             raise ValueError("counts is given with a scenario, which has its robots (take it out)")
         return self
 
@@ -155,9 +120,7 @@ class SuiteFleetDocument(RulesDocument):
     """What the robots of a fleet are like, and their rules."""
 
     name: Name = Field(description="a name of its own in results")
-    speeds: list[Positive] = Field(
-        default=LEFT_OUT, min_length=1, description="speeds of the robots; 1 by default"
-    )
+    speeds: list[Positive] = optional("speeds of the robots; 1 by default", min_length=1)
     deal: Literal["in turn", "by seed"] = Field(
         default="in turn",
         description="in turn: the first speed for R1, and so on round; by seed: drawn at random",
@@ -181,17 +144,13 @@ class SuiteDocument(Document):
     format: Literal["rightofway-suite/1"] = Field(description="rightofway-suite/1")
     maps: list[MapCasesDocument] = Field(min_length=1, description="one or more maps")
     planners: list[PlannerDocument] = Field(min_length=1, description="one or more planners")
-    fleets: list[SuiteFleetDocument] = Field(
-        default=LEFT_OUT,
-        min_length=1,
-        description="one or more fleets; one of speed 1 by default",
+    fleets: list[SuiteFleetDocument] = optional(
+        "one or more fleets; one of speed 1 by default", min_length=1
     )
-    counts: Counts = Field(default=LEFT_OUT, description="a list of how many robots, 1 or more")
-    seeds: Seeds = Field(
+    counts: Distinct[Count] = optional("a list of how many robots, 1 or more")
+    seeds: Distinct[Seed] = Field(
         default=[0],
         description="a list; each draws its own homes and targets on random grids, speeds, work,"
         " and is the planner's",
     )
-    limits: Limits = Field(
-        default=LEFT_OUT, description="a list of time limits [s], above 0; 10 by default"
-    )
+    limits: Distinct[Positive] = optional("a list of time limits [s], above 0; 10 by default")

@@ -1,8 +1,8 @@
 """YAML text to plain data: mappings, lists, text, whole numbers, decimals, true, false, nothing.
 
-Built from the parser's events rather than by its constructors, because those take more than a
-document needs: tags that make objects, keys that are no text, the later of two equal keys, decimals
-as floats, aliases that expand without end.
+Built from the parser's events, not by its constructors: those accept tags that make objects, keys
+that are no text, the later of two equal keys, decimals as floats, and aliases that expand without
+end ("billion laughs").
 """
 
 from __future__ import annotations
@@ -11,15 +11,16 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
-from rightofway.errors import InputError
-from rightofway.io.text.exact import decimal, whole
-from rightofway.io.text.json_text import MAX_DEPTH
-from rightofway.io.words import shown
+from rightofway.errors import InputError, shown
+from rightofway.io.numbers import decimal, whole
 
-__all__ = ["MAX_ALIASED", "parse_yaml"]
+__all__ = ["MAX_ALIASED", "MAX_DEPTH", "parse_yaml"]
 
 MAX_ALIASED = 100_000
 """The most values that may be reached through aliases."""
+
+MAX_DEPTH = 64
+"""Mappings and lists inside each other, at most; ours need a dozen."""
 
 # What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]*)")
@@ -32,14 +33,7 @@ _WORDS = {
 
 
 def parse_yaml(text: str) -> Any:
-    """Return the data of a YAML text, decimals exactly as they are written.
-
-    Raises
-    ------
-    InputError
-        For a fault in the syntax, several documents, tags, keys that are no text or given twice,
-        and nesting or aliases without measure.
-    """
+    """Return the data of a YAML text, decimals exactly as they are written."""
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -84,15 +78,19 @@ class _Builder:
 
     def take(self, event: Any) -> None:
         """Take the next event of the parser."""
-        line = event.start_mark.line + 1
-        _refuse_tag(event, line)
+        line, tag = event.start_mark.line + 1, getattr(event, "tag", None)
+        if tag is not None:
+            raise _fault(line, f"the tag {shown(tag)} is not allowed (take it out)")
         match type(event).__name__:
             case "DocumentStartEvent":
-                self._begin_document(line)
+                self.documents += 1
+                if self.documents > 1:
+                    raise _fault(line, "a second document begins (keep one in a file)")
             case "ScalarEvent":
                 self._add(_scalar(event), 1, event.anchor, line)
             case "AliasEvent":
-                self._add_alias(event.anchor, line)
+                value, size = self._named(event.anchor, line)
+                self._add(value, size, None, line)
             case "SequenceStartEvent":
                 self._begin(_Open([], event.anchor), line)
             case "MappingStartEvent":
@@ -101,32 +99,25 @@ class _Builder:
                 closed = self.open.pop()
                 self._add(closed.value, closed.size, closed.anchor, line)
 
-    def _begin_document(self, line: int) -> None:
-        self.documents += 1
-        if self.documents > 1:
-            raise _fault(line, "a second document begins (keep one in a file)")
-
     def _begin(self, opened: _Open, line: int) -> None:
         if len(self.open) == MAX_DEPTH:
-            message = (
-                f"values are nested more than {MAX_DEPTH} deep (a document needs no such depth)"
-            )
-            raise _fault(line, message)
+            message = f"values are nested more than {MAX_DEPTH} deep"
+            raise _fault(line, f"{message} (a document needs no such depth)")
         if opened.anchor is not None:
             self.anchored.pop(opened.anchor, None)
         self.open.append(opened)
 
-    def _add_alias(self, anchor: str, line: int) -> None:
+    def _named(self, anchor: str, line: int) -> tuple[Any, int]:
+        """Return the value that an alias stands for, and its size."""
         if anchor not in self.anchored:
             inside = any(opened.anchor == anchor for opened in self.open)
             what = "stands inside what it names" if inside else "names nothing before it"
             raise _fault(line, f"the alias *{anchor} {what} (write the value out)")
-        value, size = self.anchored[anchor]
-        self.aliased += size
+        self.aliased += self.anchored[anchor][1]
         if self.aliased > MAX_ALIASED:
             message = f"aliases stand for more than {MAX_ALIASED} values (write out what is meant)"
             raise _fault(line, message)
-        self._add(value, size, None, line)
+        return self.anchored[anchor]
 
     def _add(self, value: Any, size: int, anchor: str | None, line: int) -> None:
         if anchor is not None:
@@ -138,26 +129,16 @@ class _Builder:
         parent.size += size
         if isinstance(parent.value, list):
             parent.value.append(value)
-        elif parent.key is None:
-            parent.key = _new_key(value, parent.value, line)
-        else:
+        elif parent.key is not None:
             parent.value[parent.key] = value
             parent.key = None
-
-
-def _refuse_tag(event: Any, line: int) -> None:
-    tag = getattr(event, "tag", None)
-    if tag is not None:
-        raise _fault(line, f"the tag {shown(tag)} is not allowed (take it out)")
-
-
-def _new_key(value: Any, mapping: dict[str, Any], line: int) -> str:
-    if not isinstance(value, str):
-        message = f"the key {shown(value)} is not text (put it in quotes, or add what is missing)"
-        raise _fault(line, message)
-    if value in mapping:
-        raise _fault(line, f"the key {shown(value)} is given twice (take one out)")
-    return value
+        elif not isinstance(value, str):
+            message = f"the key {shown(value)} is not text"
+            raise _fault(line, f"{message} (put it in quotes, or add what is missing)")
+        elif value in parent.value:
+            raise _fault(line, f"the key {shown(value)} is given twice (take one out)")
+        else:
+            parent.key = value
 
 
 def _scalar(event: Any) -> Any:

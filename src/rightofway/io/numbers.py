@@ -5,20 +5,17 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 
-from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact, written
-
-__all__ = ["COORDINATE_DIGITS", "DIGITS", "PATTERN", "decimal", "exact", "whole", "written"]
-
+__all__ = ["decimal", "whole"]
 
 LONGEST_TOKEN = 40
-"""A number of more characters stays text when a file is read; whoever needs a number refuses it."""
+"""A number of more characters stays text when a file is read, and is refused as a number."""
 
 LARGEST_EXPONENT = 400
-"""The same for a decimal with a larger exponent."""
+"""A decimal with a larger exponent stays text, too."""
 
 
 def whole(token: str) -> int | str:
-    """Return a whole number of a file, or its text where that is too long to be one."""
+    """Return a whole number of a file, or its text where it is too long."""
     return int(token) if len(token) <= LONGEST_TOKEN else token
 
 

@@ -7,7 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rightofway.io.text.exact import COORDINATE_DIGITS, decimal, exact, whole, written
+from rightofway.io.numbers import decimal, whole
+from rightofway.model.values import COORDINATE_DIGITS, exact, written
 
 
 @pytest.mark.parametrize(

@@ -1,1 +1,0 @@
-"""Suite documents: what the benchmark is to run."""

@@ -1,1 +1,0 @@
-"""Text to plain data and back: files, YAML, JSON, exact numbers."""
