@@ -33,7 +33,7 @@ class RunChoiceParams:
     laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
     laps_before_rule: float = 1  # Robots disperse first come first served before [longest laps].
     good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
-    continuing_share: float = 0.75  # The best simulation continues in this share, then is closed.
+    continuing_share: float = 0.9  # The best simulation continues in this share, then is closed.
     slices: int = 4  # The best is chosen again after each of this many parts of that.
     seam: float = 0.55  # Each robot loses this much of a lap where a stretch is closed.
     least_laps: float = (
@@ -134,9 +134,11 @@ def choose_runs(
     tried, enough = [baseline], params.good * baseline.value
     loss = params.seam * float(problem.worth([1] * len(problem)))
 
+    reserve = (1 - params.continuing_share) * seconds_left(problem)
+
     def best() -> SimulatedRun:
         """Return the run of the largest value once it has continued at its pace and is closed."""
-        seconds = params.continuing_share * seconds_left(problem)
+        seconds = max(seconds_left(problem) - reserve, 0)
         return max(
             tried,
             key=lambda run: float(run.value) - loss / max(run.known + run.pace * seconds, 1),
@@ -148,17 +150,21 @@ def choose_runs(
             tried.append(SimulatedRun(problem, another[0], params))
             tried[-1].try_rule(another[1])
             run = best()
-        run.advance(params.continuing_share ** (1 / left) * seconds_left(problem) / left)
+        run.advance(max(seconds_left(problem) - reserve, 0) / left)
     run = best()
     missing = params.least_laps - run.known / context.longest
-    run.advance_laps(missing, 0, params.extension_share * seconds_left(problem))
+    if missing > 0:
+        run.advance_laps(missing, 0, params.extension_share * seconds_left(problem))
     return [run.result for run in tried if all(run.result.laps_made())]
 
 
 def extract_cycle(
     problem: CyclicProblem, runs: Sequence[GroupResult], params: RunChoiceParams = DEFAULT
 ) -> Candidate | None:
-    """Return the timetable of a long stretch of a run; None if none can be closed and is fair."""
+    """Return the timetable of a long stretch of a run; None if none can be closed and is fair.
+
+    At least one closing is completed, in a bounded number of steps, even if time runs out.
+    """
     found: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
         some = stretches(problem, run)[: params.stretches_each]
@@ -168,4 +174,6 @@ def extract_cycle(
         closed = close_stretch(problem, runs[number], stretch)
         if closed is not None and problem.accepts(closed):
             return closed
+        if problem.is_out_of_time:
+            break
     return None

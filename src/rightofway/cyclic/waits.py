@@ -76,7 +76,8 @@ def waits_in_period(context: GroupContext, pattern: Pattern) -> tuple[LapWait, .
     firsts = (pattern.visits(robot) for robot in range(len(context)))
     # In the second period, no robot leaves home for the first time, without a turn.
     visits = [range(first.stop, first.stop + len(first)) for first in firsts]
-    return _waits(context, pattern.enters, visits, visits, pattern.begins, pattern.period)
+    when = {"begins": pattern.begins, "period": pattern.period}
+    return _waits(context, pattern.enters, visits, visits, **when)
 
 
 def _waits(
@@ -84,6 +85,7 @@ def _waits(
     enters: Enters,
     seen: Sequence[range],
     asked: Sequence[range],
+    *,
     begins: int = 0,
     period: int = NEVER,
 ) -> tuple[LapWait, ...]:
