@@ -34,6 +34,12 @@ def improve(*, plan: str, **given: Any) -> int:
     first = read_plan(plan)
     with progress() as report:
         found = improved(
-            first, asked.planner, asked.time_limit, asked.seed, options=asked.options, report=report
+            first,
+            asked.planner,
+            asked.time_limit,
+            asked.seed,
+            options=asked.options,
+            report=report,
+            keep_best=True,
         )
     return hand_over(found, asked)
