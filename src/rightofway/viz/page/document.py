@@ -1,4 +1,4 @@
-"""Puts the page together: one file that needs no other, and lets nothing else in.
+"""The page as one HTML document that needs no other file, and as a frame for notebooks.
 
 The scripts under ``assets/`` are plain classic scripts, one concept each, that share one scope;
 they are put into the page as they are, each in an element of its own.
@@ -15,14 +15,16 @@ import re
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any
 
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
-__all__ = ["page_of", "write_page"]
+__all__ = ["frame_of", "page_of", "write_page"]
+
+FRAME_HEIGHT = 680
+"""Room for map and diagram [pixels]."""
 
 SCRIPTS = (
     "observable", "phases", "plan", "floor", "steady", "fleet_memo",
@@ -49,10 +51,10 @@ def page_of(
     plan
         The plan.
     steady
-        Where it repeats itself, if the plan does not say it: the page marks the periods and plays
-        one for ever.
+        Where the plan repeats itself, unless it says so itself: the page marks the periods and
+        repeats one endlessly.
     actual
-        What became of it on the floor: the page shows it against the plan.
+        An execution of the plan: the page shows it beside the plan.
 
     Returns
     -------
@@ -64,15 +66,26 @@ def page_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan.
     """
-    style, scripts = _style(), [_asset(f"{name}.js") for name in SCRIPTS]
-    return _filled(
-        _asset("template.html"),
-        title=_title(plan),
-        policy=_policy(style, scripts),
-        style=style,
-        payload=_json(payload_of(plan, steady=steady, actual=actual)),
-        scripts="\n".join(f"<script>{script}</script>" for script in scripts),
+    themes = (
+        f":root{{{LIGHT.css()}}}",
+        f"@media (prefers-color-scheme:dark){{:root{{{DARK.css()}}}}}",
     )
+    style = "\n".join([*themes, _asset("style.css")])
+    scripts = [_asset(f"{name}.js") for name in SCRIPTS]
+    count = len(plan.scenario.robots)
+    title = html.escape(f"{count} robot{'s' * (count != 1)}, planned by {plan.run.name}")
+    allowed = " ".join(map(_hash, scripts))
+    payload = payload_of(plan, steady=steady, actual=actual)
+    parts = {
+        "title": title.encode("ascii", "xmlcharrefreplace").decode(),
+        "policy": "default-src 'none'; img-src data:; "
+        f"style-src {_hash(style)}; script-src {allowed}",
+        "style": style,
+        "payload": json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP),
+        "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
+    }
+    # Each {{name}} is filled once; what is filled in is not looked at again.
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("template.html"))
 
 
 def write_page(
@@ -91,10 +104,10 @@ def write_page(
     path
         Where, usually ``….html``.
     steady
-        Where it repeats itself, if the plan does not say it: the page marks the periods and plays
-        one for ever.
+        Where the plan repeats itself, unless it says so itself: the page marks the periods and
+        repeats one endlessly.
     actual
-        What became of it on the floor: the page shows it against the plan.
+        An execution of the plan: the page shows it beside the plan.
 
     Raises
     ------
@@ -104,40 +117,38 @@ def write_page(
     write_whole(path, page_of(plan, steady=steady, actual=actual))
 
 
-def _title(plan: Plan) -> str:
-    count = len(plan.scenario.robots)
-    title = html.escape(f"{count} robot{'s' * (count != 1)}, planned by {plan.run.name}")
-    return title.encode("ascii", "xmlcharrefreplace").decode()
+def frame_of(
+    plan: Plan,
+    *,
+    height: int = FRAME_HEIGHT,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
+) -> str:
+    """Return HTML that shows a plan in a notebook; for ``_repr_html_``.
 
+    Parameters
+    ----------
+    plan
+        The plan.
+    height
+        Height of the frame [pixels].
+    steady
+        Where the plan repeats itself, unless it says so itself.
+    actual
+        An execution of the plan.
 
-def _style() -> str:
-    return "\n".join(
-        [
-            f":root{{{LIGHT.css()}}}",
-            f"@media (prefers-color-scheme:dark){{:root{{{DARK.css()}}}}}",
-            _asset("style.css"),
-        ]
-    )
-
-
-def _json(payload: dict[str, Any]) -> str:
-    """Return JSON that may stand in an HTML element whatever the names in it are."""
-    return json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP)
-
-
-def _policy(style: str, scripts: list[str]) -> str:
-    allowed = " ".join(_hash(script) for script in scripts)
-    return f"default-src 'none'; img-src data:; style-src {_hash(style)}; script-src {allowed}"
+    Notes
+    -----
+    The frame is sandboxed: no name in a plan can reach the notebook.
+    """
+    document = html.escape(page_of(plan, steady=steady, actual=actual))
+    style = f"width:100%;height:{height}px;border:0;border-radius:8px"
+    return f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{style}"></iframe>'
 
 
 def _hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"
-
-
-def _filled(template: str, **parts: str) -> str:
-    """Fill each ``{{name}}`` once; what is filled in is not looked at again."""
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
 
 
 @cache
