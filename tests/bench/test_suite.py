@@ -94,8 +94,8 @@ def test_what_is_left_out_has_a_default(tmp_path: Path) -> None:
     )
     suite = read_suite(tmp_path / "small.toml")
     assert (suite.name, suite.seeds, suite.limits) == ("small", (0,), (Fraction(10),))
-    assert [(ground.name, ground.counts) for ground in suite.grounds] == [("random-8-9-0", (2,))]
-    assert [(fleet.name, fleet.speeds) for fleet in suite.fleets] == [("default", (Fraction(1),))]
+    assert [(each.name, each.counts) for each in suite.maps] == [("random-8-9-0", (2,))]
+    assert [(fleet.name, fleet.data["speeds"]) for fleet in suite.fleets] == [("default", [1])]
     [contender] = suite.contenders
     spec = find("auto")
     assert (contender.planner, contender.options) == (spec.name, spec.settle({}))

@@ -1,11 +1,11 @@
-"""Results: one row for each case, and the file that they are kept in."""
+"""Results: one row for each case, and the file that holds them."""
 
 from __future__ import annotations
 
 import csv
 import io
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -38,7 +38,7 @@ class Column:
 
 
 COLUMNS = (
-    Column("key", "text", "what the case is known by: a hash of all that defines it"),
+    Column("key", "text", "a hash of all that defines the case"),
     Column("map", "text", "name of the map"),
     Column("scen", "text", "the `.scen` file, if any"),
     Column("fleet", "text", "name of the fleet; empty where a scenario has its own"),
@@ -66,9 +66,13 @@ COLUMNS = (
     Column("cores", "int", "how many may be used"),
     Column("compiler", "text", "of the native core"),
     Column("python", "text", "its version"),
+    Column("figures", "text", "further figures, as JSON; see below"),
 )
 
 HEADER = [column.name for column in COLUMNS]
+
+
+NOT_RESULTS = "this is no file of results as they are now (give another file)"
 
 
 class Results:
@@ -88,32 +92,28 @@ class Results:
     -----
     A row is one line and is written by one call, then flushed to the disk. What a kill leaves of a
     line that was being written is cut off by the next run, which does the case again. Parquet
-    files cannot grow: rows are kept in a CSV file beside it until the run ends.
+    files cannot grow: rows are in a CSV file beside it until the run ends.
     """
 
     def __init__(self, path: Path | str) -> None:
         self.path = Path(path)
+        self.rows: dict[str, Row] = {}
         self._is_parquet = self.path.suffix.lower() == ".parquet"
+        journal = self.path
         if self._is_parquet:
             need("pyarrow", "a Parquet file")
-        self.rows: dict[str, Row] = {}
-        if self._is_parquet and self.path.exists():
-            self._keep(_read_parquet(self.path))
-        self._journal = _Journal(self._journal_path())
-        self._keep(self._journal.rows())
-
-    def _journal_path(self) -> Path:
-        return self.path.with_name(f"{self.path.name}.csv") if self._is_parquet else self.path
-
-    def _keep(self, rows: Iterable[Row]) -> None:
-        for row in rows:
+            journal = self.path.with_name(f"{self.path.name}.csv")
+            if self.path.exists():
+                self.rows = {row["key"]: row for row in _read_parquet(self.path)}
+        self._journal = _Journal(journal)
+        for row in self._journal.rows:
             self.rows.setdefault(row["key"], row)
 
     def add(self, row: Mapping[str, Any]) -> None:
         """Write a row; one whose key is there already is left out."""
         if row["key"] not in self.rows:
             self.rows[row["key"]] = dict(row)
-            self._journal.append(row)
+            self._journal.write(_line([_text(row[name]) for name in HEADER]))
 
     def close(self) -> None:
         """Finish the file."""
@@ -137,7 +137,7 @@ class Results:
 
 
 class _Journal:
-    """A CSV file that only grows, by whole lines."""
+    """A locked CSV file that only grows, by whole lines; `rows` are those it began with."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -148,8 +148,7 @@ class _Journal:
             raise InputError.at("", message, str(path)) from None
         try:
             self._lock()
-            self._content = path.read_bytes()
-            self._mend()
+            self.rows = self._mended_rows()
         except BaseException:
             self.close()
             raise
@@ -162,22 +161,17 @@ class _Journal:
             message = "another run is writing to it (wait for its end, or give another file)"
             raise InputError.at("", message, str(self.path)) from None
 
-    def _mend(self) -> None:
-        """Cut off a line that was being written when its run was killed; begin a new file."""
-        header = _line(HEADER)
-        if not self._content.startswith(header) and not header.startswith(self._content):
-            message = "this is no file of results as they are now (give another file)"
-            raise InputError.at("line 1", message, str(self.path))
-        whole = self._content.rfind(b"\n") + 1
-        if whole < len(self._content):
+    def _mended_rows(self) -> list[Row]:
+        """Begin a new file, or cut off a line that was being written; return the whole rows."""
+        content, header = self.path.read_bytes(), _line(HEADER)
+        if not content.startswith(header) and not header.startswith(content):
+            raise InputError.at("line 1", NOT_RESULTS, str(self.path))
+        whole = content.rfind(b"\n") + 1
+        if whole < len(content):
             os.truncate(self._file, whole)
-            self._content = self._content[:whole]
         if not whole:
-            self._write(header)
-
-    def rows(self) -> list[Row]:
-        """Return what was there when it was opened."""
-        lines = self._content.decode("utf-8", "replace").split("\n")[1:-1]
+            self.write(header)
+        lines = content[:whole].decode("utf-8", "replace").split("\n")[1:-1]
         return [self._row(number, line) for number, line in enumerate(lines, start=2)]
 
     def _row(self, number: int, line: str) -> Row:
@@ -191,10 +185,7 @@ class _Journal:
             message = f"this is no row of results: {error} (take the line out)"
             raise InputError.at(f"line {number}", message, str(self.path)) from None
 
-    def append(self, row: Mapping[str, Any]) -> None:
-        self._write(_line([_text(row[name]) for name in HEADER]))
-
-    def _write(self, line: bytes) -> None:
+    def write(self, line: bytes) -> None:
         try:
             while line:
                 line = line[os.write(self._file, line) :]
@@ -215,11 +206,9 @@ def _line(cells: list[str]) -> bytes:
 
 def _text(value: Any) -> str:
     """Return a value as a cell; without line ends, so that a row is a line."""
-    if value is None:
-        return ""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return " ".join(str(value).split())
+    return "" if value is None else " ".join(str(value).split())
 
 
 def _value(cell: str, kind: Kind) -> Any:
@@ -228,12 +217,10 @@ def _value(cell: str, kind: Kind) -> Any:
     if cell == "":
         return None
     if kind == "bool":
-        return {"yes": True, "no": False}[cell] if cell in {"yes", "no"} else _refuse(cell)
+        if cell not in {"yes", "no"}:
+            raise ValueError(f"{cell!r} is not yes or no")
+        return cell == "yes"
     return int(cell) if kind == "int" else float(cell)
-
-
-def _refuse(cell: str) -> None:
-    raise ValueError(f"{cell!r} is not yes or no")
 
 
 def _read_parquet(path: Path) -> list[Row]:
@@ -245,8 +232,7 @@ def _read_parquet(path: Path) -> list[Row]:
         message = f"cannot be read: {' '.join(str(error).split())} (give another file)"
         raise InputError.at("", message, str(path)) from None
     if table.column_names != HEADER:
-        message = "this is no file of results as they are now (give another file)"
-        raise InputError.at("", message, str(path))
+        raise InputError.at("", NOT_RESULTS, str(path))
     rows: list[Row] = table.to_pylist()
     return rows
 

@@ -1,4 +1,4 @@
-"""Rows of results, grouped and summed up."""
+"""Rows of results, grouped and summarised."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.bench.rows import Row
+from rightofway.bench.results import Row
 
 __all__ = ["Group", "Quantiles", "by_planner", "by_robots", "grouped", "planner_names"]
 
 
 @dataclass(frozen=True, slots=True)
 class Quantiles:
-    """The middle of some numbers, and how far half of them spread."""
+    """Median and quartiles of some numbers."""
 
     first_quartile: float
     median: float
@@ -24,14 +24,14 @@ class Quantiles:
 
     @classmethod
     def of(cls, values: Iterable[float | None]) -> Quantiles | None:
-        """Return the spread of those that are there, or None if there is none."""
+        """Return those of the known values, or None if there is none."""
         known = [value for value in values if value is not None]
         return cls(*map(float, np.percentile(known, [25, 50, 75]))) if known else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Group:
-    """Some rows, summed up.
+    """A summary of some rows.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Group:
     memory
         The most memory that one of them held [MB].
     statuses
-        How many ended in which way.
+        How many cases ended with each status.
     """
 
     cases: int
@@ -56,7 +56,7 @@ class Group:
 
     @classmethod
     def of(cls, rows: Sequence[Row]) -> Group:
-        """Sum up rows."""
+        """Summarise rows."""
         memory = (row["peak_memory"] for row in rows if row["peak_memory"] is not None)
         return cls(
             cases=len(rows),
@@ -77,13 +77,15 @@ def grouped(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]
 
 
 def planner_names(rows: Iterable[Row]) -> dict[str, str]:
-    """Return, by the key of each row, its planner's name with what else tells it apart.
+    """Return a name for the planner of each row, by the row's key.
 
     Options are part of the name where they differ between runs of the planner, and so is the time
     limit where it differs.
     """
     variants = grouped(rows, "planner", "options", "limit")
-    common = _common_options(variants)
+    common: dict[str, set[str]] = {}
+    for planner, options, _ in variants:
+        common[planner] = common.get(planner, set(options.split())) & set(options.split())
     has_limits = len({limit for _, _, limit in variants}) > 1
     names = {}
     for (planner, options, limit), each in variants.items():
@@ -100,15 +102,6 @@ def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> d
     for row in rows:
         groups.setdefault(names[row["key"]], []).append(row)
     return groups
-
-
-def _common_options(variants: Iterable[tuple[Any, ...]]) -> dict[str, set[str]]:
-    """Return the options that each planner is told in all its runs."""
-    common: dict[str, set[str]] = {}
-    for planner, options, _ in variants:
-        own = set(options.split())
-        common[planner] = common.get(planner, own) & own
-    return common
 
 
 def by_robots(rows: Iterable[Row]) -> dict[int, Group]:
