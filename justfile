@@ -83,6 +83,6 @@ laps: (suite "cyclic")
 timetables: (suite "timetables")
     python -m benchmarks.pages timetables build/timetables.csv
 
-# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/floor.md
+# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/execution.md
 late-floors *args:
     python -m benchmarks.late_floors {{ args }}
