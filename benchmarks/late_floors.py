@@ -103,7 +103,7 @@ def policies_table() -> str:
                 assert not outcome.collisions + outcome.deadlocks
                 late, saved = outcome.lateness.flowtime.mean, gain.flowtime.mean
                 assert late is not None
-                assert gain is not None
+                assert saved is not None
                 order = late + saved
                 changes = (outcome.switches + outcome.replans) / POLICY_RUNS
                 lines.append(

@@ -33,7 +33,7 @@ from benchmarks.common import (
     write_tables,
 )
 from rightofway.bench import Results, Row
-from rightofway.cyclic import Conflict, CyclicResult, run_laps
+from rightofway.cyclic import CyclicResult, LapWait, run_laps
 from tests.builders.fleets import PAPER, paper_scenario
 
 OURS = "two-level"
@@ -412,19 +412,19 @@ def paper_table() -> str:
         lines.append(
             (
                 case["name"],
-                ", ".join(str(route.lap.duration) for route in group.group),
+                ", ".join(str(lap.duration) for lap in group.context.laps),
                 str(pattern.transient),
                 str(pattern.period),
                 ", ".join(map(str, pattern.counts)),
-                _waits(run, run.first_conflicts(group)),
-                _waits(run, run.conflicts(group)),
+                _waits(run, group.first_waits()),
+                _waits(run, group.waits()),
                 *map(", ".join, means),
             )
         )
     return table(heads, lines)
 
 
-def _waits(run: CyclicResult, waits: Sequence[Conflict]) -> str:
+def _waits(run: CyclicResult, waits: Sequence[LapWait]) -> str:
     name, robots = run.scenario.roadmap.name, run.scenario.robots
     counts = Counter(f"{robots[one.waits].name} for {name(one.vertex)}" for one in waits)
     times = (f"{wait}, {n} times" if n > 1 else wait for wait, n in counts.items())
@@ -465,10 +465,12 @@ def _first_laps(name: str) -> Figure:
     figure = Figure(figsize=(8, 2.6), layout="constrained")
     axes = figure.subplots()
     until = pattern.begins + 2 * pattern.period
-    for robot, (route, colour) in enumerate(zip(group.group, ("#0072b2", "#d55e00"), strict=True)):
+    for robot, (route, colour) in enumerate(
+        zip(group.context.routes, ("#0072b2", "#d55e00"), strict=True)
+    ):
         times = (pattern.enter(robot, visit) for visit in count())
         enter = list(takewhile(lambda tick: tick <= until, times))
-        places = [route.place(visit) for visit in range(len(enter))]
+        places = [visit % len(route) for visit in range(len(enter))]
         label = run.scenario.robots[route.robot].name
         axes.step(enter, places, where="post", label=label, color=colour)
         for visit, (begins, leaves) in enumerate(pairwise(enter)):

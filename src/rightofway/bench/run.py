@@ -26,7 +26,7 @@ from rightofway.planners import find
 from rightofway.solve import solve
 
 if TYPE_CHECKING:
-    from rightofway.cyclic import CyclicResult, GroupRun
+    from rightofway.cyclic import GroupResult
 
 __all__ = ["main", "run"]
 
@@ -94,14 +94,14 @@ def _judged(plan: Plan) -> dict[str, Any]:
 
 def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
     """Let a fleet repeat its work; it is solved if the pattern of each group is known."""
-    from rightofway.cyclic import best_timetable, run_laps, run_of
+    from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
 
     limit = float(case.limit)
-    if case.options["rule"] == "timetable":
-        result = run_of(scenario, best_timetable(scenario, time_limit=limit, seed=case.seed))
+    if case.options["rule"] == TIMETABLE:
+        result = best_timetable(scenario, time_limit=limit, seed=case.seed)
     else:
         result = run_laps(scenario, **case.options, time_limit=limit)
-    groups = [_group(result, group) for group in result.groups]
+    groups = [_group(group) for group in result.groups]
     ends = Counter(group.ends for group in result.groups)
     status = "solved" if set(ends) == {"repeats"} else ", ".join(sorted(set(ends) - {"repeats"}))
     count = ", ".join(f"{number} {end}" for end, number in sorted(ends.items()))
@@ -113,14 +113,14 @@ def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def _group(result: CyclicResult, group: GroupRun) -> dict[str, Any]:
+def _group(group: GroupResult) -> dict[str, Any]:
     """Return the figures of a group of robots; times in ticks."""
-    alone = [route.lap.duration for route in group.group]
+    alone = [lap.duration for lap in group.context.laps]
     means = group.mean_laps()
     figures = {
         "robots": len(group.robots),
         "ends": group.ends,
-        "longest_lap": max(alone),
+        "longest_lap": group.context.longest,
         "starves": sum(mean is None for mean in means),
         "fairness": min(
             float(lap / mean) if mean else 0.0 for lap, mean in zip(alone, means, strict=True)
@@ -130,7 +130,7 @@ def _group(result: CyclicResult, group: GroupRun) -> dict[str, Any]:
         return figures
     first, steady = (
         {(wait.vertex, wait.pair) for wait in waits}
-        for waits in (result.first_conflicts(group), result.conflicts(group))
+        for waits in (group.first_waits(), group.waits())
     )
     shares = [float(share) for share in group.waiting_shares() if share is not None]
     return figures | {

@@ -391,10 +391,10 @@ def _contender(document: PlannerDocument) -> Contender:
 
 
 def _laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
-    from rightofway.cyclic import ROUTES, RULES
+    from rightofway.cyclic import ROUTES, RULES, TIMETABLE
 
-    choices = {"rule": tuple(dict.fromkeys((*RULES, "timetable"))), "routes": tuple(ROUTES)}
-    if given.get("rule") == "timetable":
+    choices = {"rule": (*RULES, TIMETABLE), "routes": ROUTES}
+    if given.get("rule") == TIMETABLE:
         del choices["routes"]  # a timetable is chosen together with its routes
     for name, value in given.items():
         if name not in choices:
