@@ -13,8 +13,7 @@ import numpy as np
 from rightofway.cyclic.closing import closed_windows
 from rightofway.cyclic.from_plan import one_lap, repeated_plan
 from rightofway.cyclic.from_run import choose_runs, extract_cycle, first_come_run
-from rightofway.cyclic.insertion import fill, insert_all
-from rightofway.cyclic.lns import improve
+from rightofway.cyclic.lns import fill, improve, insert_all
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import BaselineEnds, Comparison, CyclicResult, GroupResult
 from rightofway.cyclic.route import (
