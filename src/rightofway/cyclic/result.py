@@ -244,8 +244,9 @@ def _waits(
     for robot, visits in enumerate(asked):
         if not visits:
             continue
-        route, enter = context.routes[robot], enters(robot, range(visits.start, visits.stop + 1))
-        could = enter[:-1] + route.leasts(visits)
+        route, with_next = context.routes[robot], range(visits.start, visits.stop + 1)
+        enter = enters(robot, with_next)
+        could = enter[:-1] + np.diff(route.undelayed(with_next))
         for index in np.flatnonzero(could < enter[1:]).tolist():
             visit, at = visits[index] + 1, int(enter[index + 1])
             booked = (at - (route.drive(visit) if context.books_ahead else 0)) % period
