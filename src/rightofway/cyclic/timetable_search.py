@@ -12,9 +12,8 @@ import numpy as np
 
 from rightofway.cyclic.closing import closed_windows
 from rightofway.cyclic.from_plan import one_lap, repeated_plan
-from rightofway.cyclic.from_run import choose_runs, extract_cycle, first_come_run
-from rightofway.cyclic.insertion import fill, insert_all
-from rightofway.cyclic.lns import improve
+from rightofway.cyclic.from_run import SimulatedRun, choose_runs, extract_cycle
+from rightofway.cyclic.lns import fill, improve, insert_all
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import BaselineEnds, Comparison, CyclicResult, GroupResult
 from rightofway.cyclic.route import (
@@ -243,7 +242,7 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     """Return a long stretch of a simulation, or the baseline's pattern if that is better."""
     if problem.deadline.at is None:
         return None
-    baseline = first_come_run(problem)
+    baseline = SimulatedRun(problem, problem.context, "first-come")
     found = extract_cycle(problem, choose_runs(problem, baseline))
     fair = [one for one in (found, _fair_pattern(problem, baseline.result)) if one is not None]
     if not fair:
