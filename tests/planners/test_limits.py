@@ -12,7 +12,7 @@ import pytest
 import rightofway
 from rightofway.errors import InputError
 from rightofway.metrics import alone_completions
-from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
+from rightofway.model import Robot, Rules, Scenario, Stop, Tick, VertexId, roadmap_of_grid
 from rightofway.planners import Deadline
 from tests.builders.fleets import random_fleet
 
@@ -61,7 +61,7 @@ def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenar
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:
     plan = rightofway.solve(scenario, "lacam")
     assert plan.run.alone == alone_completions(scenario)
-    claimed = replace(plan, run=replace(plan.run, alone=tuple(range(10))))
+    claimed = replace(plan, run=replace(plan.run, alone=tuple(map(Tick, range(10)))))
     assert rightofway.measure(claimed).lower_bound == sum(range(10))
 
 
