@@ -38,6 +38,9 @@ PATIENCE = 1000
 BETWEEN_REPORTS = 0.5
 """Seconds from one sentence on progress to the next."""
 
+RETIMING = 0.6e-6
+"""The time that the last step takes for each visit of the plan, `FleetSearch.retime` [s]."""
+
 UNLIMITED = 2**62
 
 
@@ -95,7 +98,8 @@ def _together(task: Task) -> Draft | None:
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
-    improvement = _Improvement(task, search)
+    retiming = RETIMING * sum(map(len, spaced))
+    improvement = _Improvement(replace(task, deadline=task.deadline.earlier(retiming)), search)
     improvement.run()
     if search.flowtime < improvement.first:
         search.retime()  # who waited for robots that come earlier now need not wait so long

@@ -94,9 +94,9 @@ def fleet_search(task: Task) -> FleetSearch:
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace; say which.
 
-    None if that did not work out.
+    None if neither settles, or no time is left.
     """
-    if len(task.scenario.robots) > MOST_ROBOTS:
+    if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     searches, deadline = SEARCHES * len(turns), task.deadline
@@ -124,6 +124,8 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
+    if task.deadline.seconds_left() == 0:
+        return None
     paced = _paced(task.scenario)
     # Haste is not needed here, and beside it this would take longer on a busy machine.
     search = FleetSearch(paced, headway=paced.problem.headway, seed=task.seed, threads=1)
