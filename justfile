@@ -57,37 +57,32 @@ develop:
     pip install scikit-build-core nanobind
     pip install --no-build-isolation -e '.[dev,docs]'
 
-# Run the suite of random grids, or go on with it; the report is build/suite.html
-suite *args:
+# Run a suite of benchmarks/suites, or go on with it: rows in build/NAME.csv, report in build/NAME.html
+suite name *args:
     mkdir -p build
-    rightofway bench benchmarks/suite.toml -o build/suite.csv --report build/suite.html {{ args }}
+    rightofway bench benchmarks/suites/{{ name }}.toml -o build/{{ name }}.csv --report build/{{ name }}.html {{ args }}
 
 # Measure: planners, kernels, start-up (see benchmarks/README.md)
 bench:
     pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
 
-# How long right of way takes and how good it is: the tables of benchmarks/README.md (minutes)
-right-of-way:
-    python -m benchmarks.right_of_way
-
 # How far planners are from the best right of way on their routes: tables and plot of docs/improvement.md
 gaps:
-    MPLBACKEND=agg python -m benchmarks.compare_fixed_routes
+    python -m benchmarks.gaps
 
-# How long transients and periods are on random fleets: figures, tables and plots of docs/laps.md (minutes)
-laps *args:
-    python -m benchmarks.laps_study {{ args }}
+# Two-level beside priorities: tables and plots of docs/priorities.md (an hour)
+priorities: (suite "priorities") (suite "priorities_aisles")
+    python -m benchmarks.pages priorities build/priorities.csv build/priorities_aisles.csv
 
-# How much a chosen timetable wins over rules: the table of benchmarks/README.md (minutes)
-timetables:
-    python -m benchmarks.timetables
+# How soon random fleets repeat themselves: tables and plots of docs/laps.md (minutes)
+laps: (suite "cyclic")
+    python -m benchmarks.pages laps build/cyclic.csv
 
-# Compare two-level with priorities anew: figures, tables and plots of docs/priorities.md (minutes)
-priorities *args:
-    python -m benchmarks.compare_priorities {{ args }}
+# How much a chosen timetable gains over rules: the table of benchmarks/README.md (minutes)
+timetables: (suite "timetables")
+    python -m benchmarks.pages timetables build/timetables.csv
 
-# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/floor.md
+# Plans of every planner on late floors: the tables of benchmarks/README.md, the plot of docs/execution.md
 late-floors *args:
     python -m benchmarks.late_floors {{ args }}
-    MPLBACKEND=agg python -m benchmarks.late_floors_plot

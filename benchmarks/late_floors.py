@@ -1,56 +1,47 @@
 """Plans of every planner on late floors: what collides, how late robots are, and how fast it runs.
 
-``python -m benchmarks.late_floors`` measures what is not measured yet, a line at a time, and then
-writes the tables of ``benchmarks/README.md``. What it has is in ``build/late-floors.jsonl``: it
-goes on where it was interrupted, and begins anew without that file. Arguments name the planners, or
-``care``, to measure only these; a table is written when no row of it is missing.
+``python -m benchmarks.late_floors`` measures and writes the tables of README.md beside this file
+and the plot of docs/execution.md: how soon a plan collides by the clock, and how late its fleet is
+with its order kept, switched, or replanned. Arguments (``runs``, ``policies``, ``plot``) choose
+parts.
 """
 
 from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
-from pathlib import Path
-from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
 
 import rightofway
-from benchmarks.kept import Kept
-from benchmarks.marked import tables_in, write_tables
+from benchmarks.common import IMAGES, README, plain_axes, save_figure, table, write_tables
 from rightofway.model import Plan, Rules
 from rightofway.planners import registered
 from tests.builders.fleets import random_fleet
 
-RUNS = 10_000
-"""Runs of each plan with each kind of delay."""
+RUNS, POLICY_RUNS = 10_000, 20
+"""Runs of each plan with each kind of delay, and with an execution policy."""
 
-CARED = 20
-"""Runs of each plan that are cared for."""
-
-LIMIT = 2
-"""Time for each plan [s]."""
-
-NEIGHBOURHOODS = 3000
-"""What plans that are cared for are made with; so they are the same everywhere."""
+LIMIT, NEIGHBOURHOODS = 2, 3000
+"""Time for each plan [s]; what plans under a policy are made with, the same on any machine."""
 
 DELAYS = {
     "noise": "exponential:0.2",
     "stops": "chance:0.02x20",
     "breakdowns": "breaks:0.05,uniform:0..0.5",
 }
-CARED_FOR = {
+POLICY_DELAYS = {
     "noise": DELAYS["noise"],
     "stops": DELAYS["stops"],
     "slow robot": "slow:R3x2,exponential:0.1",
 }
-CARES = {
-    "switched": (True, False),
-    "planned anew": (False, True),
-    "both": (True, True),
-}
+POLICIES = {"switched": (True, False), "replanned": (False, True), "both": (True, True)}
 FLEETS = {
     "10 robots, 12 x 12": random_fleet(1, size=12, robots=10),
     "10 robots, 12 x 12, `both`": random_fleet(
@@ -61,10 +52,10 @@ FLEETS = {
     ),
     "30 robots, 20 x 20, two laps": random_fleet(3, size=20, robots=30, rules=Rules(laps=2)),
 }
-PAGE = Path(__file__).with_name("README.md")
-KEPT = PAGE.parents[1] / "build" / "late-floors.jsonl"
 
-Row = dict[str, Any]
+MEANS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
+COLOURS = ("#56b4e9", "#0b4f8a", "#d55e00", "#8a8a8a")
+PLOT_RUNS, PLOT_POLICY_RUNS = 1000, 50
 
 
 @cache
@@ -73,104 +64,116 @@ def plan_of(fleet: str, planner: str) -> Plan:
     return rightofway.solve(FLEETS[fleet], planner, time_limit=LIMIT)
 
 
-@cache
-def plan_to_care_for(fleet: str) -> Plan:
-    """Return a plan that depends on no clock."""
-    return rightofway.solve(FLEETS[fleet], "auto", None, options={"iterations": NEIGHBOURHOODS})
-
-
-def run_row(planner: str, fleet: str, delays: str) -> Row:
-    """Run one plan with one kind of delay."""
-    plan, began = plan_of(fleet, planner), time.perf_counter()
-    outcome = rightofway.simulate(plan, DELAYS[delays], RUNS)
-    return {
-        "runs": outcome.runs,
-        "collisions": outcome.collisions,
-        "deadlocks": outcome.deadlocks,
-        "by_clock": outcome.by_clock.runs,
-        "late": outcome.lateness.all.mean or 0,
-        "seconds": time.perf_counter() - began,
-    }
-
-
-def care_row(fleet: str, delays: str, care: str) -> Row:
-    """Run one plan with one kind of delay, and care for it."""
-    plan, began = plan_to_care_for(fleet), time.perf_counter()
-    switch, replan = CARES[care]
-    outcome = rightofway.simulate(plan, CARED_FOR[delays], CARED, switch=switch, replan=replan)
-    seconds = time.perf_counter() - began
-    gain = outcome.gain
-    assert gain is not None
-    assert gain.runs == CARED
-    assert not outcome.collisions + outcome.deadlocks
-    return {
-        "late": outcome.lateness.flowtime.mean,
-        "won": gain.flowtime.mean,
-        "earlier": gain.earlier,
-        "later": gain.later,
-        "changes": (outcome.switches + outcome.replans) / CARED,
-        "seconds": seconds,
-    }
-
-
-def measure(kept: Kept, what: list[str]) -> None:
-    """Measure what is missing, and keep each row as soon as it is there."""
-    for planner in (name for name in what if name != "care"):
+def runs_table() -> str:
+    """Return a line for each planner: the sum of all its runs."""
+    lines = []
+    for planner in sorted(registered()):
+        found, seconds = [], 0.0
         for fleet in FLEETS:
-            for delays in DELAYS:
-                kept.take(("runs", planner, fleet, delays), run_row, planner, fleet, delays)
-    for fleet in FLEETS if "care" in what else ():
-        for delays in CARED_FOR:
-            for care in CARES:
-                kept.take(("care", fleet, delays, care), care_row, fleet, delays, care)
-
-
-def runs_table(kept: Kept, planners: list[str]) -> Iterator[str]:
-    """Yield a line for each planner: everything it was put through."""
-    yield heading("planner", "runs", "collisions", "deadlocks", "by clock", "late", "runs/s")
-    for planner in planners:
-        found = [kept["runs", planner, fleet, delays] for fleet in FLEETS for delays in DELAYS]
-        runs, collisions, deadlocks, by_clock, late, seconds = (
-            sum(row[name] for row in found)
-            for name in ("runs", "collisions", "deadlocks", "by_clock", "late", "seconds")
+            plan = plan_of(fleet, planner)
+            began = time.perf_counter()
+            found += [rightofway.simulate(plan, delays, RUNS) for delays in DELAYS.values()]
+            seconds += time.perf_counter() - began
+        runs = sum(outcome.runs for outcome in found)
+        late = sum(outcome.lateness.all.mean or 0 for outcome in found) / len(found)
+        by_clock = sum(outcome.by_clock.runs for outcome in found) / runs
+        counts = (
+            sum(outcome.collisions for outcome in found),
+            sum(outcome.deadlocks for outcome in found),
         )
-        yield (
-            f"| {planner} | {runs} | {collisions} | {deadlocks} | {by_clock / runs:.1%}"
-            f" | {late / len(found):.1f} | {runs / seconds:.0f} |\n"
-        )
+        figures = (f"{by_clock:.1%}", f"{late:.1f}", f"{runs / seconds:.0f}")
+        lines.append((planner, str(runs), *map(str, counts), *figures))
+    heads = ("planner", "runs", "collisions", "deadlocks", "by clock", "late", "runs/s")
+    return table(heads, lines)
 
 
-def care_table(kept: Kept) -> Iterator[str]:
-    """Yield how much care wins over keeping the order."""
-    ways = ("late", "won", "runs earlier, later", "changes a run", "runs/s")
-    yield heading("fleet", "delays", "care", *ways)
-    for fleet in FLEETS:
-        for delays in CARED_FOR:
-            for care in CARES:
-                row = kept["care", fleet, delays, care]
-                order = row["late"] + row["won"]
-                yield (
-                    f"| {fleet} | {delays} | {care} | {order:.0f} → {row['late']:.0f}"
-                    f" | {row['won'] / order:.1%} | {row['earlier']}, {row['later']}"
-                    f" | {row['changes']:.1f} | {CARED / row['seconds']:.1f} |\n"
+def policies_table() -> str:
+    """Return how much switching and replanning win over keeping the order."""
+    lines = []
+    for fleet, scenario in FLEETS.items():
+        plan = rightofway.solve(scenario, "auto", None, options={"iterations": NEIGHBOURHOODS})
+        for name, delays in POLICY_DELAYS.items():
+            for policy, (switch, replan) in POLICIES.items():
+                began = time.perf_counter()
+                outcome = rightofway.simulate(
+                    plan, delays, POLICY_RUNS, switch=switch, replan=replan
                 )
+                seconds, gain = time.perf_counter() - began, outcome.gain
+                assert gain is not None
+                assert not outcome.collisions + outcome.deadlocks
+                late, saved = outcome.lateness.flowtime.mean, gain.flowtime.mean
+                assert late is not None
+                assert saved is not None
+                order = late + saved
+                changes = (outcome.switches + outcome.replans) / POLICY_RUNS
+                lines.append(
+                    (
+                        fleet, name, policy, f"{order:.0f} → {late:.0f}",
+                        f"{saved / order:.1%}", f"{gain.earlier}, {gain.later}",
+                        f"{changes:.1f}", f"{POLICY_RUNS / seconds:.1f}",
+                    )
+                )  # fmt: skip
+    heads = (
+        "fleet", "delays", "policy", "late", "won", "runs earlier, later", "changes a run",
+        "runs/s",
+    )  # fmt: skip
+    return table(heads, lines)
 
 
-def heading(*columns: str) -> str:
-    """Return the head of a table."""
-    return f"| {' | '.join(columns)} |\n|{' --- |' * len(columns)}\n"
+def plot() -> Figure:
+    """Return the plot of docs/execution.md."""
+    plans = [plan_of(fleet, "local-search") for fleet in FLEETS]
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    _draw_collisions(left, plans)
+    _draw_lateness(right, plans[2])
+    for axes in (left, right):
+        axes.xaxis.set_major_formatter(PercentFormatter(1, decimals=1 if axes is left else None))
+        axes.yaxis.set_major_formatter(PercentFormatter(1))
+        plain_axes(axes)
+    left.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1, 0.04))
+    right.legend(frameon=False, fontsize=8)
+    return figure
 
 
-def main() -> None:
-    """Measure, and write the tables when nothing is missing."""
-    kept, planners = Kept(KEPT), sorted(registered())
-    measure(kept, sys.argv[1:] or [*planners, "care"])
-    made = tables_in(PAGE, "late floors")
-    for name, table in (("runs", runs_table(kept, planners)), ("care", care_table(kept))):
-        with suppress(KeyError):  # of a row that is not measured yet
-            made[name] = "".join(table)
-    write_tables(PAGE, "late floors", made)
+def _draw_collisions(axes: Axes, plans: Sequence[Plan]) -> None:
+    """Draw which part of all runs collides, by how late robots are."""
+    for fleet, plan, colour in zip(FLEETS, plans, COLOURS, strict=True):
+        found = [rightofway.simulate(plan, f"exponential:{mean}", PLOT_RUNS) for mean in MEANS]
+        assert not any(outcome.collisions for outcome in found)
+        share = [outcome.by_clock.runs / PLOT_RUNS for outcome in found]
+        axes.plot(MEANS, share, "o-", color=colour, markersize=4, label=fleet.replace("`", ""))
+    axes.plot(MEANS, [0] * len(MEANS), "k-", linewidth=2, label="by right of way, all fleets")
+    axes.set(xscale="log", xlabel="mean delay, as a part of what things take", ylim=(-0.03, 1.03))
+    axes.set_title("runs that collide by the clock", loc="left", fontsize=10)
+
+
+def _draw_lateness(axes: Axes, plan: Plan) -> None:
+    """Draw how the lateness of a fleet is spread: order kept, switched, replanned."""
+    planned = sum(int(track.enter[-1]) for track in plan.tracks)
+    policies = {
+        "order kept": (False, False),
+        **{name: POLICIES[name] for name in ("switched", "replanned")},
+    }
+    colours = ("#d55e00", "#0b4f8a", "#56b4e9")
+    for (label, (switch, replan)), colour in zip(policies.items(), colours, strict=True):
+        outcome = rightofway.simulate(
+            plan, DELAYS["stops"], PLOT_POLICY_RUNS, switch=switch, replan=replan
+        )
+        late = np.sort(outcome.completion.sum(axis=1) - planned) / planned
+        axes.step(late, np.linspace(0, 1, len(late)), color=colour, label=label)
+    axes.set(xlabel="flowtime above the plan, at most", ylim=(0, 1.02))
+    axes.set_title(f"runs of 30 robots, {DELAYS['stops']}", loc="left", fontsize=10)
+
+
+def main(*parts: str) -> None:
+    """Measure, and write what was measured."""
+    for name, made in (("runs", runs_table), ("policies", policies_table)):
+        if not parts or name in parts:
+            write_tables(README, "late floors", {name: made()})
+    if not parts or "plot" in parts:
+        save_figure(plot(), IMAGES / "late-floors.png")
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

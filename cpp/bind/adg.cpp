@@ -14,35 +14,35 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc = R"(A plan on a floor where robots are late.
+constexpr auto class_doc = R"(A plan that is executed with delays.
 
 Parameters
 ----------
 first_visit : int32[R + 1]
     Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
 vertex, planned : int32[N], int64[N]
-    Where each visit is, and when it begins by the plan. [ticks]
+    The vertex of each visit, and when it begins by the plan. [ticks]
 dwell, drive : int64[N]
-    How long each visit lasts at least without the drive after it, and the drive into it. [ticks]
+    The least duration of each visit without the drive after it, and the drive into it. [ticks]
 before : int32[N]
     The visit that goes directly before at the same vertex, -1 for none.
 since : int64[N]
-    When each visit was given its right of way, if that was on the way: it begins no sooner. [ticks]
+    When the right of way of each visit was given; it begins no sooner. [ticks]
 headway : int
     Ticks from one robot's leave to the next one's enter, or start to drive there.
 books_ahead : bool
     Whether a robot books a vertex from when it starts to drive there.
 pace : float64[R]
-    How much longer than planned everything takes each robot, 1 for as planned.
+    The factor of all durations of each robot, 1 as planned.
 delay_kind : int32[D]
     0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
 delay_a, delay_b : float64[D]
     Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
     ticks; chance and nothing.
-first_standstill : int32[R + 1]
-    Which standstills of every run are whose.
-standstill_tick, standstill_ticks : int64[S]
-    From when each robot stands still, rising, and how long, ``NEVER`` for ever. [ticks]
+first_stoppage : int32[R + 1]
+    Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
+stoppage_tick, stoppage_ticks : int64[S]
+    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
 
 Raises
 ------
@@ -56,17 +56,17 @@ Parameters
 seed, first, count : int
     Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
 time_limit : float or None
-    After so many seconds no run is begun.
+    No run begins after this many seconds.
 
 Returns
 -------
 completion : int64[K, R]
-    When each robot completes by right of way, ``NEVER`` for never. [ticks]
+    When each robot completes by right of way, ``NEVER`` if it does not. [ticks]
 is_broken : uint8[K, R]
     Not 0 where a robot stands still for ever.
 by_right_of_way, by_clock : int64[K, 4]
-    Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
-    these begins, ``NEVER`` for never.
+    Pairs of visits that overlap, pairs that overlap only by the headway, swaps, and the tick of the
+    earliest of these, ``NEVER`` without any.
 own, of_others : int64[N]
     Ticks of lateness that began at each visit: of its own robot, of others.
 between : int64[P, 3]
@@ -76,52 +76,52 @@ Notes
 -----
 The GIL is released; Ctrl-C is obeyed.)";
 
-constexpr auto setbacks_doc = R"(Return what befalls one run.
+constexpr auto sample_doc = R"(Return the delays of one run.
 
 Returns
 -------
 tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
-    What dwells and drives really take, and the standstills, as the class takes them.)";
+    Actual dwells and drives, and the stoppages as the class takes them.)";
 
-constexpr auto execute_doc = R"(Run the plan once, with these setbacks.
+constexpr auto execute_doc = R"(Run the plan once, with these delays.
 
 Parameters
 ----------
-dwell, drive, first_standstill, standstill_tick, standstill_ticks
-    As `setbacks` returns them.
+dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks
+    As `delay_sample` returns them.
 clock : bool
     Whether by the clock; else by right of way.
 
 Returns
 -------
 tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
-    When each visit begins, from when it books its vertex, when robots complete, which stand still
-    for ever, and the collisions as `runs` counts them.
+    When each visit begins, when its booking begins, when robots complete, which stand still for
+    ever, and the conflicts as `runs` counts them.
 
 Raises
 ------
 ValueError
     If the arrays do not fit together.)";
 
-DelaySample setbacks_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dwell,
-                        const ArrayIn<Tick>& drive, const ArrayIn<std::int32_t>& first,
-                        const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
+DelaySample sample_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dwell,
+                      const ArrayIn<Tick>& drive, const ArrayIn<std::int32_t>& first,
+                      const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     require_length("dwell", dwell.size(), n_visits);
     require_length("drive", drive.size(), n_visits);
-    require_length("first_standstill", first.size(), static_cast<std::size_t>(plan.n_robots()) + 1);
-    require_length("standstill_ticks", ticks.size(), tick.size());
+    require_length("first_stoppage", first.size(), static_cast<std::size_t>(plan.n_robots()) + 1);
+    require_length("stoppage_ticks", ticks.size(), tick.size());
     const auto firsts = view(first);
     if (firsts.front() != 0 || static_cast<std::size_t>(firsts.back()) != tick.size() ||
         !std::is_sorted(firsts.begin(), firsts.end())) {
-        throw std::invalid_argument("first_standstill: does not rise from 0 to their number");
+        throw std::invalid_argument("first_stoppage: does not rise from 0 to their number");
     }
     DelaySample out;
     out.dwell.assign(view(dwell).begin(), view(dwell).end());
     out.drive.assign(view(drive).begin(), view(drive).end());
-    out.first_standstill.assign(firsts.begin(), firsts.end());
+    out.first_stoppage.assign(firsts.begin(), firsts.end());
     for (std::size_t k = 0; k < tick.size(); ++k) {
-        out.standstills.push_back({view(tick)[k], view(ticks)[k]});
+        out.stoppages.push_back({view(tick)[k], view(ticks)[k]});
     }
     return out;
 }
@@ -152,10 +152,9 @@ TableOut<Tick> as_table(const std::unordered_map<std::int64_t, Tick>& between, R
 class BoundAdg {
   public:
     BoundAdg(const AdgArrays& arrays, std::span<const double> pace, std::vector<Delay> delays,
-             std::vector<std::int32_t> first_standstill, std::vector<Stoppage> standstills)
+             std::vector<std::int32_t> first_stoppage, std::vector<Stoppage> stoppages)
         : plan_(arrays),
-          delays_(plan_, pace, std::move(delays), std::move(first_standstill),
-                  std::move(standstills)),
+          delays_(plan_, pace, std::move(delays), std::move(first_stoppage), std::move(stoppages)),
           runs_(plan_, delays_),
           timetable_(plan_),
           conflicts_(plan_) {}
@@ -182,29 +181,29 @@ class BoundAdg {
             as_table(sources.between(), plan_.n_robots()));
     }
 
-    auto setbacks(std::uint64_t seed, std::uint64_t run) const {
+    auto sample(std::uint64_t seed, std::uint64_t run) const {
         DelaySample out;
         delays_.draw(seed, run, out);
         std::vector<Tick> tick;
         std::vector<Tick> ticks;
-        for (const Stoppage& standstill : out.standstills) {
-            tick.push_back(standstill.tick);
-            ticks.push_back(standstill.ticks);
+        for (const Stoppage& stoppage : out.stoppages) {
+            tick.push_back(stoppage.tick);
+            ticks.push_back(stoppage.ticks);
         }
         return std::tuple(to_numpy(std::move(out.dwell)), to_numpy(std::move(out.drive)),
-                          to_numpy(std::move(out.first_standstill)), to_numpy(std::move(tick)),
+                          to_numpy(std::move(out.first_stoppage)), to_numpy(std::move(tick)),
                           to_numpy(std::move(ticks)));
     }
 
     auto execute(const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
                  const ArrayIn<std::int32_t>& first, const ArrayIn<Tick>& tick,
                  const ArrayIn<Tick>& ticks, bool clock) {
-        const DelaySample setbacks = setbacks_of(plan_, dwell, drive, first, tick, ticks);
+        const DelaySample sample = sample_of(plan_, dwell, drive, first, tick, ticks);
         ActualTimes times;
         if (clock) {
-            by_clock(plan_, setbacks, times);
+            by_clock(plan_, sample, times);
         } else {
-            timetable_.by_right_of_way(setbacks, times);
+            timetable_.by_right_of_way(sample, times);
         }
         const ConflictCount count = conflicts_.count(times);
         return std::tuple(to_numpy(std::move(times.enter)), to_numpy(std::move(times.start)),
@@ -227,26 +226,26 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           const ArrayIn<VisitId>& before, const ArrayIn<Tick>& since, Tick headway,
           bool books_ahead, const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
           const ArrayIn<double>& delay_a, const ArrayIn<double>& delay_b,
-          const ArrayIn<std::int32_t>& first_standstill, const ArrayIn<Tick>& standstill_tick,
-          const ArrayIn<Tick>& standstill_ticks) {
+          const ArrayIn<std::int32_t>& first_stoppage, const ArrayIn<Tick>& stoppage_tick,
+          const ArrayIn<Tick>& stoppage_ticks) {
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
-    require_length("standstill_ticks", standstill_ticks.size(), standstill_tick.size());
+    require_length("stoppage_ticks", stoppage_ticks.size(), stoppage_tick.size());
     std::vector<Delay> delays;
     for (std::size_t k = 0; k < delay_kind.size(); ++k) {
         require_id("delay_kind", view(delay_kind)[k], 5);
         delays.push_back(
             {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
     }
-    std::vector<Stoppage> standstills;
-    for (std::size_t k = 0; k < standstill_tick.size(); ++k) {
-        standstills.push_back({view(standstill_tick)[k], view(standstill_ticks)[k]});
+    std::vector<Stoppage> stoppages;
+    for (std::size_t k = 0; k < stoppage_tick.size(); ++k) {
+        stoppages.push_back({view(stoppage_tick)[k], view(stoppage_ticks)[k]});
     }
-    const auto first = view(first_standstill);
-    new (self) BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
-                         view(before), headway, books_ahead, view(since)},
-                        view(pace), std::move(delays), {first.begin(), first.end()},
-                        std::move(standstills));
+    const auto first = view(first_stoppage);
+    new (self)
+        BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
+                  view(before), headway, books_ahead, view(since)},
+                 view(pace), std::move(delays), {first.begin(), first.end()}, std::move(stoppages));
 }
 
 }  // namespace
@@ -259,17 +258,17 @@ void bind_adg(nb::module_& module) {
              nb::arg("since").noconvert(), nb::arg("headway"), nb::arg("books_ahead"),
              nb::arg("pace").noconvert(), nb::arg("delay_kind").noconvert(),
              nb::arg("delay_a").noconvert(), nb::arg("delay_b").noconvert(),
-             nb::arg("first_standstill").noconvert(), nb::arg("standstill_tick").noconvert(),
-             nb::arg("standstill_ticks").noconvert())
+             nb::arg("first_stoppage").noconvert(), nb::arg("stoppage_tick").noconvert(),
+             nb::arg("stoppage_ticks").noconvert())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
-        .def("delay_sample", &BoundAdg::setbacks, nb::arg("seed"), nb::arg("run"), setbacks_doc)
+        .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)
         .def("execute", &BoundAdg::execute, nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("first_standstill").noconvert(),
-             nb::arg("standstill_tick").noconvert(), nb::arg("standstill_ticks").noconvert(),
+             nb::arg("drive").noconvert(), nb::arg("first_stoppage").noconvert(),
+             nb::arg("stoppage_tick").noconvert(), nb::arg("stoppage_ticks").noconvert(),
              nb::arg("clock"), execute_doc)
         .def("deadlocked", &BoundAdg::deadlocked,
-             "Return the robots that can never complete, since they wait for each other.");
+             "Return the robots that can never complete because they wait for each other.");
 }
 
 }  // namespace rightofway::bind

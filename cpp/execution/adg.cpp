@@ -73,10 +73,10 @@ void ActionDependencyGraph::check() const {
     }
     for (VisitId x = 0; x < n_visits(); ++x) {
         const VisitId other = before_[x];
-        if (other < no_visit || other >= n_visits()) {
+        if (other < none || other >= n_visits()) {
             reject_entry("before", static_cast<std::size_t>(x), other, "is not a visit");
         }
-        if (other != no_visit && (vertex_[other] != vertex_[x] || is_first(x))) {
+        if (other != none && (vertex_[other] != vertex_[x] || is_first(x))) {
             reject_entry("before", static_cast<std::size_t>(x), other,
                          "is at another vertex, or before a first visit");
         }

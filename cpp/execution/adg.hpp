@@ -1,4 +1,8 @@
-// A plan as the floor knows it: visits with their least durations, and who goes before whom.
+// The action dependency graph of a plan: visits with their least durations, and the visit that goes
+// before each at its vertex.
+//
+// W. Hoenig et al., Persistent and robust execution of MAPF schedules in warehouses, IEEE Robotics
+// and Automation Letters 4, 2019.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +13,6 @@
 
 namespace rightofway {
 
-inline constexpr VisitId no_visit = -1;
-
 struct AdgArrays {
     std::span<const VisitId> first_visit;  // robots + 1: robot r owns first_visit[r] .. [r + 1] - 1
     std::span<const VertexId> vertex;      // n visits
@@ -20,7 +22,7 @@ struct AdgArrays {
     std::span<const VisitId> before;       // n: the visit that goes directly before at its vertex
     Tick headway = 0;
     bool books_ahead = false;
-    std::span<const Tick> since = {};  // n: no visit begins before; or nothing, for never
+    std::span<const Tick> since = {};  // n: no visit begins before; or empty
 };
 
 class ActionDependencyGraph {
@@ -43,11 +45,11 @@ class ActionDependencyGraph {
     Tick headway() const { return headway_; }
     bool books_ahead() const { return books_ahead_; }
 
-    // The visit whose leave this one waits for, no_visit if it waits for nobody. Where it is a last
+    // The visit whose leave this one waits for, none if it waits for nobody. Where it is a last
     // visit, which never ends, this one cannot take place.
     VisitId before(VisitId visit) const { return before_[visit]; }
 
-    // When its right of way was given, if that was on the way: it cannot begin before.
+    // When the visit's right of way was given, if during execution: it cannot begin before.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
 
     Tick planned_completion(RobotId robot) const {

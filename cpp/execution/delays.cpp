@@ -9,10 +9,10 @@
 namespace rightofway {
 namespace {
 
-constexpr std::uint64_t stream = 0xF1008;  // of all uses of a seed, this one
-constexpr double least_factor = 0.01;      // nobody is faster than a hundred times
+constexpr std::uint64_t stream = 0xF1008;  // of the uses of a seed
+constexpr double least_factor = 0.01;      // no robot is more than a hundred times faster
 
-// Above 0, up to 1: logarithms like that.
+// Above 0, up to 1: has a logarithm.
 double unit(Random& random) { return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53; }
 
 double exponential(Random& random, double mean) { return -mean * std::log(unit(random)); }
@@ -23,23 +23,23 @@ double normal(Random& random, double mean, double deviation) {
     return mean + deviation * radius * std::cos(2 * std::numbers::pi * unit(random));
 }
 
-// Who stands still already cannot stand still a second time.
-void merge(std::vector<Stoppage>& standstills, std::size_t first) {
+// Merges stoppages that overlap.
+void merge(std::vector<Stoppage>& stoppages, std::size_t first) {
     std::size_t end = first;
-    for (std::size_t k = first; k < standstills.size(); ++k) {
-        const Stoppage next = standstills[k];
-        if (end == first || standstills[end - 1].tick + standstills[end - 1].ticks < next.tick) {
-            standstills[end++] = next;
+    for (std::size_t k = first; k < stoppages.size(); ++k) {
+        const Stoppage next = stoppages[k];
+        if (end == first || stoppages[end - 1].tick + stoppages[end - 1].ticks < next.tick) {
+            stoppages[end++] = next;
             continue;
         }
-        Stoppage& last = standstills[end - 1];
+        Stoppage& last = stoppages[end - 1];
         const Tick until = std::max(last.tick + last.ticks, next.tick + next.ticks);
         last.ticks = std::min(until - last.tick, never);
     }
-    standstills.resize(end, {});
+    stoppages.resize(end, {});
 }
 
-// Makes whole ticks of durations, and carries what is left.
+// Rounds durations to whole ticks, and carries the rest.
 class Rounding {
   public:
     explicit Rounding(double carry) : carry_(carry) {}
@@ -58,13 +58,13 @@ class Rounding {
 }  // namespace
 
 Delays::Delays(const ActionDependencyGraph& plan, std::span<const double> pace,
-               std::vector<Delay> delays, std::vector<std::int32_t> first_standstill,
-               std::vector<Stoppage> standstills)
+               std::vector<Delay> delays, std::vector<std::int32_t> first_stoppage,
+               std::vector<Stoppage> stoppages)
     : plan_(plan),
       pace_(pace.begin(), pace.end()),
       delays_(std::move(delays)),
-      first_standstill_(std::move(first_standstill)),
-      standstills_(std::move(standstills)) {
+      first_stoppage_(std::move(first_stoppage)),
+      stoppages_(std::move(stoppages)) {
     check(static_cast<std::size_t>(plan.n_robots()));
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         makespan_ = std::max(makespan_, plan.planned_completion(r));
@@ -73,11 +73,11 @@ Delays::Delays(const ActionDependencyGraph& plan, std::span<const double> pace,
 
 void Delays::check(std::size_t n_robots) const {
     require_length("pace", pace_.size(), n_robots);
-    require_length("first_standstill", first_standstill_.size(), n_robots + 1);
-    if (first_standstill_.front() != 0 ||
-        static_cast<std::size_t>(first_standstill_.back()) != standstills_.size() ||
-        !std::is_sorted(first_standstill_.begin(), first_standstill_.end())) {
-        throw std::invalid_argument("first_standstill: does not rise from 0 to their number");
+    require_length("first_stoppage", first_stoppage_.size(), n_robots + 1);
+    if (first_stoppage_.front() != 0 ||
+        static_cast<std::size_t>(first_stoppage_.back()) != stoppages_.size() ||
+        !std::is_sorted(first_stoppage_.begin(), first_stoppage_.end())) {
+        throw std::invalid_argument("first_stoppage: does not rise from 0 to their number");
     }
 }
 
@@ -85,31 +85,31 @@ void Delays::draw(std::uint64_t seed, std::uint64_t run, DelaySample& out) const
     const auto n_visits = static_cast<std::size_t>(plan_.n_visits());
     out.dwell.resize(n_visits);
     out.drive.resize(n_visits);
-    out.first_standstill.assign(1, 0);
-    out.standstills.clear();
+    out.first_stoppage.assign(1, 0);
+    out.stoppages.clear();
     for (RobotId r = 0; r < plan_.n_robots(); ++r) {
         Random random(seed, stream + (static_cast<std::uint64_t>(r) << 32), run);
-        draw_standstills(r, random, out);
+        draw_stoppages(r, random, out);
         draw_durations(r, random, out);
     }
 }
 
-void Delays::draw_standstills(RobotId robot, Random& random, DelaySample& out) const {
-    const auto first = static_cast<std::ptrdiff_t>(out.standstills.size());
-    out.standstills.insert(out.standstills.end(), standstills_.begin() + first_standstill_[robot],
-                           standstills_.begin() + first_standstill_[robot + 1]);
+void Delays::draw_stoppages(RobotId robot, Random& random, DelaySample& out) const {
+    const auto first = static_cast<std::ptrdiff_t>(out.stoppages.size());
+    out.stoppages.insert(out.stoppages.end(), stoppages_.begin() + first_stoppage_[robot],
+                         stoppages_.begin() + first_stoppage_[robot + 1]);
     for (const Delay& delay : delays_) {
         if (delay.kind == DelayKind::breaks && unit(random) <= delay.a) {
             const double share = unit(random);
-            out.standstills.push_back(
+            out.stoppages.push_back(
                 {static_cast<Tick>(share * static_cast<double>(makespan_)), never});
         }
     }
     std::stable_sort(
-        out.standstills.begin() + first, out.standstills.end(),
+        out.stoppages.begin() + first, out.stoppages.end(),
         [](const Stoppage& left, const Stoppage& right) { return left.tick < right.tick; });
-    merge(out.standstills, static_cast<std::size_t>(first));
-    out.first_standstill.push_back(static_cast<std::int32_t>(out.standstills.size()));
+    merge(out.stoppages, static_cast<std::size_t>(first));
+    out.first_stoppage.push_back(static_cast<std::int32_t>(out.stoppages.size()));
 }
 
 void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) const {
@@ -128,7 +128,7 @@ void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) con
     }
 }
 
-// By which part of its time a visit takes longer, and how many ticks the robot stops besides.
+// The part of its time by which a visit is lengthened, and the ticks that the robot stops besides.
 std::pair<double, Tick> Delays::draw_visit(Random& random) const {
     double more = 0;
     Tick stop = 0;

@@ -1,8 +1,9 @@
-// Counting what collides on the floor, whoever let it happen.
+// Counts the conflicts of executed visits, from their times alone.
 //
-// A visit books its vertex from its start until it is left, and the headway after that. Bookings
-// of one vertex by different robots that overlap collide, and so do two robots that exchange their
-// vertices at one instant. Nothing is taken from how the times came about.
+// A visit books its vertex from its start until it is left, and the headway after that. Bookings of
+// one vertex by different robots that overlap are a conflict, and so are two robots that exchange
+// their vertices at one instant. (ConflictIndex keeps weights up to date for one plan; here all
+// pairs of many runs are counted, by kind.)
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct ConflictCount {
     std::int64_t vertex = 0;   // pairs of visits that overlap
     std::int64_t headway = 0;  // pairs that overlap only by the headway
     std::int64_t swap = 0;     // pairs of moves
-    Tick first = never;        // when the earliest begins
+    Tick first = never;        // the tick of the earliest
 };
 
 class ExecutedConflicts {
@@ -33,8 +34,8 @@ class ExecutedConflicts {
         return plan_.is_last(visit) ? never : times.enter[visit + 1];
     }
 
-    // Visits to one vertex, or into both ends of one edge, by more than one robot. Each group stays
-    // in the order of the last count, which is nearly that of the next.
+    // Visits to one vertex, or over one edge, by more than one robot. Each group stays in the order
+    // of the last run, which is nearly that of the next.
     struct Groups {
         std::vector<std::size_t> first{0};
         std::vector<VisitId> visit;

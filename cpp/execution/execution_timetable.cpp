@@ -5,20 +5,19 @@
 namespace rightofway {
 namespace {
 
-// None is negative, and each at most `never` and a little more.
+// The sum of two durations of at least 0, at most `never`.
 Tick sum(Tick left, Tick right) { return right >= never - left ? never : left + right; }
 
-// One robot's standstills, of which those up to now are behind it.
-class Standstills {
+// The stoppages of one robot from the present on.
+class Stoppages {
   public:
-    Standstills(const DelaySample& setbacks, RobotId robot, std::int32_t& next,
-                std::uint8_t& is_broken)
-        : all_(setbacks.standstills.data()),
-          end_(setbacks.first_standstill[robot + 1]),
+    Stoppages(const DelaySample& sample, RobotId robot, std::int32_t& next, std::uint8_t& is_broken)
+        : all_(sample.stoppages.data()),
+          end_(sample.first_stoppage[robot + 1]),
           next_(next),
           is_broken_(is_broken) {}
 
-    // When something is done that would be done by then: each standstill before it comes on top.
+    // When an action ends that would end then without stoppages: each one before it is added.
     Tick busy_until(Tick end) {
         for (; next_ < end_ && all_[next_].tick < end; ++next_) {
             end = sum(end, take());
@@ -26,7 +25,7 @@ class Standstills {
         return end;
     }
 
-    // Until when a robot waits that waits at least until then: it may stand still meanwhile.
+    // The end of a wait that lasts at least until then: stoppages pass meanwhile.
     Tick waits_until(Tick end) {
         for (; next_ < end_ && all_[next_].tick < end; ++next_) {
             end = std::max(end, sum(all_[next_].tick, take()));
@@ -46,28 +45,27 @@ class Standstills {
     std::uint8_t& is_broken_;
 };
 
-void reset(const ActionDependencyGraph& plan, const DelaySample& setbacks, ActualTimes& times,
-           std::vector<std::int32_t>& next_standstill) {
+void reset(const ActionDependencyGraph& plan, const DelaySample& sample, ActualTimes& times,
+           std::vector<std::int32_t>& next_stoppage) {
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     const auto n_robots = static_cast<std::size_t>(plan.n_robots());
     times.enter.assign(n_visits, never);
     times.start.assign(n_visits, never);
     times.completion.assign(n_robots, never);
     times.is_broken.assign(n_robots, 0);
-    next_standstill.assign(setbacks.first_standstill.begin(), setbacks.first_standstill.end() - 1);
+    next_stoppage.assign(sample.first_stoppage.begin(), sample.first_stoppage.end() - 1);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         times.enter[plan.first_of(r)] = times.start[plan.first_of(r)] = 0;
     }
 }
 
-void complete(const ActionDependencyGraph& plan, const DelaySample& setbacks, ActualTimes& times,
-              std::vector<std::int32_t>& next_standstill) {
+void complete(const ActionDependencyGraph& plan, const DelaySample& sample, ActualTimes& times,
+              std::vector<std::int32_t>& next_stoppage) {
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         const VisitId last = plan.last_of(r);
-        Standstills standstills(setbacks, r, next_standstill[r], times.is_broken[r]);
+        Stoppages stoppages(sample, r, next_stoppage[r], times.is_broken[r]);
         if (times.enter[last] < never) {
-            times.completion[r] =
-                standstills.busy_until(sum(times.enter[last], setbacks.dwell[last]));
+            times.completion[r] = stoppages.busy_until(sum(times.enter[last], sample.dwell[last]));
         }
     }
 }
@@ -84,12 +82,12 @@ ExecutionTimetable::ExecutionTimetable(const ActionDependencyGraph& plan)
     }
 }
 
-// Strongly connected components come out after all that they wait for.
-// Tarjan, "Depth-first search and linear graph algorithms", SIAM Journal on Computing 1, 1972.
+// Strongly connected components come out after those that they wait for.
+// R. Tarjan, "Depth-first search and linear graph algorithms", SIAM Journal on Computing 1, 1972.
 void ExecutionTimetable::order_events() {
     struct Open {
         VisitId visit;
-        int next;  // of what it waits for: 0 its own robot's visit before, 1 another's leave
+        int next;  // of the visits that it waits for: 0 of its robot, 1 of another
     };
     const auto n_visits = static_cast<std::size_t>(plan_.n_visits());
     std::vector<std::int32_t> number(n_visits, -1);
@@ -100,10 +98,10 @@ void ExecutionTimetable::order_events() {
     std::int32_t count = 0;
     const auto waits_for = [this](VisitId x, int which) {
         if (which == 0) {
-            return plan_.is_first(x) ? no_visit : x - 1;
+            return plan_.is_first(x) ? none : x - 1;
         }
         const VisitId other = plan_.before(x);
-        return other == no_visit || plan_.is_last(other) ? no_visit : other + 1;
+        return other == none || plan_.is_last(other) ? none : other + 1;
     };
     const auto begin = [&](VisitId x) {
         number[x] = low[x] = count++;
@@ -119,9 +117,9 @@ void ExecutionTimetable::order_events() {
             const VisitId x = path.back().visit;
             if (path.back().next < 2) {
                 const VisitId other = waits_for(x, path.back().next++);
-                if (other != no_visit && number[other] < 0) {
+                if (other != none && number[other] < 0) {
                     begin(other);
-                } else if (other != no_visit && is_open[other] != 0) {
+                } else if (other != none && is_open[other] != 0) {
                     low[x] = std::min(low[x], number[other]);
                 }
                 continue;
@@ -149,8 +147,8 @@ void ExecutionTimetable::emit(std::span<const VisitId> group) {
     }
 }
 
-// Can visits take place that wait for each other, after all that they wait for besides? Several
-// only where each may begin at the very instant at which the one before it ends.
+// Whether visits that wait for each other can take place once all others that they wait for have.
+// Several can only where each may begin at the instant at which the one before it ends.
 bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
     const bool is_joint = group.size() > 1;
     const auto is_inside = [&](VisitId x) {
@@ -161,55 +159,54 @@ bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
             return true;
         }
         const VisitId other = plan_.before(x);
-        const bool waits_for_a_last = other != no_visit && plan_.is_last(other);
-        const bool waits_for_itself = other != no_visit && other + 1 == x;
-        const bool waits_in_vain =
-            !can_take_place(x - 1) ||
-            (other != no_visit && !waits_for_a_last && !can_take_place(other + 1));
+        const bool waits_for_a_last = other != none && plan_.is_last(other);
+        const bool waits_for_itself = other != none && other + 1 == x;
+        const bool waits_in_vain = !can_take_place(x - 1) || (other != none && !waits_for_a_last &&
+                                                              !can_take_place(other + 1));
         const bool has_length =
             is_joint && (plan_.headway() > 0 || plan_.books_ahead() || is_inside(x - 1));
         return !waits_for_a_last && !waits_for_itself && !waits_in_vain && !has_length;
     });
 }
 
-void ExecutionTimetable::by_right_of_way(const DelaySample& setbacks, ActualTimes& times) {
-    reset(plan_, setbacks, times, next_standstill_);
-    times.cause.assign(times.enter.size(), no_visit);
-    times.to_blame.assign(times.enter.size(), no_visit);
+void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes& times) {
+    reset(plan_, sample, times, next_stoppage_);
+    times.cause.assign(times.enter.size(), none);
+    times.source.assign(times.enter.size(), none);
     for (std::size_t group = 0; group + 1 < first_of_group_.size(); ++group) {
         const std::int32_t first = first_of_group_[group];
         const std::int32_t end = first_of_group_[group + 1];
         if (end - first == 1) {
-            take_place(events_[first], setbacks, times);
+            take_place(events_[first], sample, times);
         } else {
-            take_place_jointly({events_.begin() + first, events_.begin() + end}, setbacks, times);
+            take_place_jointly({events_.begin() + first, events_.begin() + end}, sample, times);
         }
     }
-    complete(plan_, setbacks, times, next_standstill_);
+    complete(plan_, sample, times, next_stoppage_);
 }
 
-void ExecutionTimetable::take_place(VisitId x, const DelaySample& setbacks, ActualTimes& times) {
+void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, ActualTimes& times) {
     const Tick from = times.enter[x - 1];
     if (from >= never) {
         return;
     }
     const RobotId robot = plan_.robot(x);
-    Standstills standstills(setbacks, robot, next_standstill_[robot], times.is_broken[robot]);
-    const Tick drive_before = plan_.books_ahead() ? 0 : setbacks.drive[x];
-    const Tick drive_after = setbacks.drive[x] - drive_before;
-    const Tick ready = standstills.busy_until(sum(from, setbacks.dwell[x - 1] + drive_before));
+    Stoppages stoppages(sample, robot, next_stoppage_[robot], times.is_broken[robot]);
+    const Tick drive_before = plan_.books_ahead() ? 0 : sample.drive[x];
+    const Tick drive_after = sample.drive[x] - drive_before;
+    const Tick ready = stoppages.busy_until(sum(from, sample.dwell[x - 1] + drive_before));
     const VisitId other = plan_.before(x);
-    const Tick free = other == no_visit ? 0 : sum(times.enter[other + 1], plan_.headway());
-    const Tick start = standstills.waits_until(std::max({ready, free, plan_.since(x)}));
+    const Tick free = other == none ? 0 : sum(times.enter[other + 1], plan_.headway());
+    const Tick start = stoppages.waits_until(std::max({ready, free, plan_.since(x)}));
     times.start[x] = start;
-    times.enter[x] = drive_after == 0 ? start : standstills.busy_until(sum(start, drive_after));
+    times.enter[x] = drive_after == 0 ? start : stoppages.busy_until(sum(start, drive_after));
     times.cause[x] = free > ready && start == free ? other + 1 : x - 1;
-    times.to_blame[x] = x - 1;
+    times.source[x] = x - 1;
 }
 
-// All begin when the last of them is ready.
+// All begin when the last of the robots is ready.
 void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
-                                            const DelaySample& setbacks, ActualTimes& times) {
+                                            const DelaySample& sample, ActualTimes& times) {
     Tick instant = 0;
     VisitId latest = group.front();
     const auto put_off = [&](VisitId x, Tick until) {
@@ -218,48 +215,47 @@ void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
             latest = x;
         }
     };
-    const auto standstills_of = [&](VisitId x) {
+    const auto stoppages_of = [&](VisitId x) {
         const RobotId robot = plan_.robot(x);
-        return Standstills(setbacks, robot, next_standstill_[robot], times.is_broken[robot]);
+        return Stoppages(sample, robot, next_stoppage_[robot], times.is_broken[robot]);
     };
     for (const VisitId x : group) {
         const Tick from = times.enter[x - 1];
-        const Tick done = sum(from, setbacks.dwell[x - 1] + setbacks.drive[x]);
-        put_off(x, from >= never ? never : standstills_of(x).busy_until(done));
+        const Tick done = sum(from, sample.dwell[x - 1] + sample.drive[x]);
+        put_off(x, from >= never ? never : stoppages_of(x).busy_until(done));
         put_off(x, plan_.since(x));
     }
     for (Tick before = -1; before < instant;) {
         before = instant;
         for (const VisitId x : group) {
-            put_off(x,
-                    times.enter[x - 1] >= never ? never : standstills_of(x).waits_until(instant));
+            put_off(x, times.enter[x - 1] >= never ? never : stoppages_of(x).waits_until(instant));
         }
     }
     for (const VisitId x : group) {
         times.enter[x] = times.start[x] = instant;
-        times.cause[x] = times.to_blame[x] = latest - 1;
+        times.cause[x] = times.source[x] = latest - 1;
     }
 }
 
-void by_clock(const ActionDependencyGraph& plan, const DelaySample& setbacks, ActualTimes& times) {
+void by_clock(const ActionDependencyGraph& plan, const DelaySample& sample, ActualTimes& times) {
     std::vector<std::int32_t> next;
-    reset(plan, setbacks, times, next);
+    reset(plan, sample, times, next);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
-        Standstills standstills(setbacks, r, next[r], times.is_broken[r]);
+        Stoppages stoppages(sample, r, next[r], times.is_broken[r]);
         for (VisitId x = plan.first_of(r) + 1; x <= plan.last_of(r); ++x) {
             const Tick from = times.enter[x - 1];
             if (from >= never) {
                 break;
             }
-            const Tick done = standstills.busy_until(sum(from, setbacks.dwell[x - 1]));
+            const Tick done = stoppages.busy_until(sum(from, sample.dwell[x - 1]));
             const Tick depart =
-                standstills.waits_until(std::max(done, plan.planned(x) - plan.drive(x)));
-            const Tick arrive = standstills.busy_until(sum(depart, setbacks.drive[x]));
-            times.enter[x] = standstills.waits_until(std::max(arrive, plan.planned(x)));
+                stoppages.waits_until(std::max(done, plan.planned(x) - plan.drive(x)));
+            const Tick arrive = stoppages.busy_until(sum(depart, sample.drive[x]));
+            times.enter[x] = stoppages.waits_until(std::max(arrive, plan.planned(x)));
             times.start[x] = plan.books_ahead() ? depart : times.enter[x];
         }
     }
-    complete(plan, setbacks, times, next);
+    complete(plan, sample, times, next);
 }
 
 }  // namespace rightofway

@@ -1,11 +1,52 @@
 #include "execution/runs.hpp"
 
+#include <algorithm>
+
 namespace rightofway {
 namespace {
 
 constexpr std::size_t visits_between_asking = 1 << 20;
 
 }  // namespace
+
+LatenessSources::LatenessSources(const ActionDependencyGraph& plan)
+    : plan_(plan),
+      own_(static_cast<std::size_t>(plan.n_visits()), 0),
+      of_others_(static_cast<std::size_t>(plan.n_visits()), 0) {}
+
+void LatenessSources::add(const ActualTimes& times) {
+    const auto late = [&](VisitId x) {
+        return std::max<Tick>(times.enter[x] - plan_.planned(x), 0);
+    };
+    for (RobotId r = 0; r < plan_.n_robots(); ++r) {
+        if (times.completion[r] >= never) {
+            continue;
+        }
+        VisitId x = plan_.last_of(r);
+        VisitId source = x;
+        Tick left = times.completion[r] - plan_.planned_completion(r);
+        while (left > 0) {
+            const Tick before = std::min(late(x), left);
+            charge(r, source, left - before);
+            left = before;
+            source = times.source[x];
+            x = times.cause[x];
+        }
+    }
+}
+
+void LatenessSources::charge(RobotId robot, VisitId source, Tick ticks) {
+    const RobotId other = plan_.robot(source);
+    if (ticks == 0) {
+        return;
+    }
+    if (other == robot) {
+        own_[source] += ticks;
+        return;
+    }
+    of_others_[source] += ticks;
+    between_[static_cast<std::int64_t>(robot) * plan_.n_robots() + other] += ticks;
+}
 
 ExecutionRuns::ExecutionRuns(const ActionDependencyGraph& plan, const Delays& delays)
     : plan_(plan), delays_(delays), timetable_(plan), conflicts_(plan), conflicts_by_clock_(plan) {}
@@ -22,9 +63,9 @@ RunBatch ExecutionRuns::run(std::uint64_t seed, std::uint64_t first, std::size_t
                 break;
             }
         }
-        delays_.draw(seed, first + k, setbacks_);
-        timetable_.by_right_of_way(setbacks_, times_);
-        by_clock(plan_, setbacks_, times_by_clock_);
+        delays_.draw(seed, first + k, sample_);
+        timetable_.by_right_of_way(sample_, times_);
+        by_clock(plan_, sample_, times_by_clock_);
         sources.add(times_);
         out.by_right_of_way.push_back(conflicts_.count(times_));
         out.by_clock.push_back(conflicts_by_clock_.count(times_by_clock_));

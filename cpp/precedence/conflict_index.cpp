@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace rightofway {
 namespace {
@@ -17,14 +18,66 @@ Booking booked(VisitId visit, const Routes& routes, const Timetable& timetable) 
     return {start, end};
 }
 
+template <class Accept>
+std::vector<VisitId> visits_where(const Routes& routes, Accept&& accept) {
+    std::vector<VisitId> visits;
+    for (VisitId x = 0; x < routes.n_visits(); ++x) {
+        if (accept(x)) {
+            visits.push_back(x);
+        }
+    }
+    return visits;
+}
+
 constexpr auto any_robot = [](RobotId) { return true; };
 
 }  // namespace
 
+// Vertex ids are only compared, never used as positions: they may be sparse.
+template <class Value>
+template <class Key, class OtherKey>
+ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> visits, Key key,
+                                     OtherKey other_key)
+    : slot_of(routes.n_visits(), none) {
+    std::stable_sort(visits.begin(), visits.end(),
+                     [&](VisitId left, VisitId right) { return key(left) < key(right); });
+    const auto place = [&](auto visit) {
+        return static_cast<std::int32_t>(visit - visits.begin());
+    };
+    for (const VisitId x : visits) {
+        const auto begin = std::partition_point(
+            visits.begin(), visits.end(), [&, k = other_key(x)](VisitId y) { return key(y) < k; });
+        const auto end = std::partition_point(
+            begin, visits.end(), [&, k = other_key(x)](VisitId y) { return !(k < key(y)); });
+        const RobotId robot = routes.robot(x);
+        const auto own =
+            std::partition_point(begin, end, [&](VisitId y) { return routes.robot(y) < robot; });
+        const auto own_end =
+            std::partition_point(own, end, [&](VisitId y) { return routes.robot(y) == robot; });
+        slot_of[x] = static_cast<std::int32_t>(slots.size());
+        slots.push_back({Value{}, x, robot});
+        others.push_back({place(begin), place(own), place(own_end), place(end)});
+    }
+}
+
 ConflictIndex::ConflictIndex(const Routes& routes)
-    : routes_(routes), bookings_(routes), moves_(routes) {
-    if (bookings_.n_pairs() > most_pairs) {
-        throw std::overflow_error("robots: " + std::to_string(bookings_.n_pairs()) +
+    : routes_(routes),
+      bookings_(
+          routes, visits_where(routes, [](VisitId) { return true; }),
+          [&](VisitId x) { return routes.vertex(x); }, [&](VisitId x) { return routes.vertex(x); }),
+      enters_(
+          routes, visits_where(routes, [&](VisitId x) { return routes.may_swap(x); }),
+          [&](VisitId x) { return std::pair(routes.vertex(x - 1), routes.vertex(x)); },
+          [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }) {
+    for (auto& slot : enters_.slots) {
+        slot.value = never;
+    }
+    std::int64_t n_pairs = 0;
+    for (const auto& range : bookings_.others) {
+        n_pairs += range.end - range.own_end;  // each pair of robots at its first visit
+    }
+    if (n_pairs > most_pairs) {
+        throw std::overflow_error("robots: " + std::to_string(n_pairs) +
                                   " pairs of their visits share a vertex, more than " +
                                   std::to_string(most_pairs) +
                                   " cannot be counted (plan fewer laps or fewer robots at once)");
@@ -32,7 +85,7 @@ ConflictIndex::ConflictIndex(const Routes& routes)
 }
 
 Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
-    if (!bookings_.booking(visit).is_empty()) {
+    if (!bookings_.find(visit)->is_empty()) {
         return 0;
     }
     move(visit, timetable);
@@ -41,26 +94,48 @@ Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
 
 Tick ConflictIndex::remove(VisitId visit) {
     const Tick removed = weight(visit);
-    bookings_.set(visit, no_booking);
-    moves_.clear(visit);
+    *bookings_.find(visit) = no_booking;
+    if (Tick* const enter = enters_.find(visit)) {
+        *enter = never;
+    }
     return removed;
 }
 
 void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
-    if (routes_.is_active(routes_.robot(visit))) {
-        bookings_.set(visit, booked(visit, routes_, timetable));
-        moves_.set(visit, timetable.enter(visit));
+    if (!routes_.is_active(routes_.robot(visit))) {
+        return;
     }
+    *bookings_.find(visit) = booked(visit, routes_, timetable);
+    if (Tick* const enter = enters_.find(visit)) {
+        *enter = timetable.enter(visit);
+    }
+}
+
+template <class Use>
+void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
+    const Booking own = bookings_.slots[bookings_.slot_of[visit]].value;
+    bookings_.for_each_other(visit, [&](const auto& other) {
+        if (const Tick weight = overlap(own, other.value); weight > 0) {
+            use(other, std::max(own.start, other.value.start), weight, ConflictKind::vertex);
+        }
+    });
+    if (enters_.slot_of[visit] == none) {
+        return;
+    }
+    const Tick enter = enters_.slots[enters_.slot_of[visit]].value;
+    enters_.for_each_other(visit, [&](const auto& other) {
+        if (other.value == enter && enter != never) {
+            use(other, enter, swap_weight, ConflictKind::swap);
+        }
+    });
 }
 
 template <class Accept>
 Tick ConflictIndex::weight_where(VisitId visit, Accept&& accept) const {
     Tick total = 0;
-    const auto count = [&](const auto& other, Tick, Tick weight) {
+    for_each_conflict(visit, [&](const auto& other, Tick, Tick weight, ConflictKind) {
         total += accept(other.robot) ? weight : 0;
-    };
-    bookings_.for_each_overlap(visit, count);
-    moves_.for_each_swap(visit, count);
+    });
     return total;
 }
 
@@ -73,16 +148,13 @@ Tick ConflictIndex::weight(VisitId visit, std::span<const std::uint8_t> mask) co
 template <class Accept>
 std::optional<Conflict> ConflictIndex::earliest_where(VisitId visit, Accept&& accept) const {
     std::optional<Conflict> best;
-    const auto consider = [&](ConflictKind kind) {
-        return [&, kind](const auto& other, Tick tick, Tick) {
-            if (accept(other.robot) && (!best || tick <= best->tick)) {
-                const Conflict found = conflict(visit, other.visit, tick, kind);
-                best = best ? std::min(*best, found) : found;
-            }
-        };
-    };
-    bookings_.for_each_overlap(visit, consider(ConflictKind::vertex));
-    moves_.for_each_swap(visit, consider(ConflictKind::swap));
+    for_each_conflict(visit, [&](const auto& other, Tick tick, Tick, ConflictKind kind) {
+        if (accept(other.robot) && (!best || tick <= best->tick)) {
+            const auto [a, b] = std::minmax(visit, other.visit);  // numbered robot by robot
+            const Conflict found{tick, routes_.robot(a), routes_.robot(b), a, b, kind};
+            best = best ? std::min(*best, found) : found;
+        }
+    });
     return best;
 }
 
@@ -92,11 +164,6 @@ std::optional<Conflict> ConflictIndex::earliest(VisitId visit) const {
 
 std::optional<Conflict> ConflictIndex::earliest(VisitId visit, RobotId other) const {
     return earliest_where(visit, [other](RobotId robot) { return robot == other; });
-}
-
-Conflict ConflictIndex::conflict(VisitId visit, VisitId other, Tick tick, ConflictKind kind) const {
-    const auto [a, b] = std::minmax(visit, other);  // visits are numbered robot by robot
-    return {tick, routes_.robot(a), routes_.robot(b), a, b, kind};
 }
 
 }  // namespace rightofway

@@ -1,18 +1,19 @@
 // All conflicts of a timetable, each seen from either of its two visits.
 //
-// The index holds what visits book and when they are entered. Visits are added and removed one by
-// one, and each addition or removal tells how much the count of conflicts changes. Taking a set of
-// visits out and putting it back with new times therefore counts every pair exactly once.
+// The index holds the booking of each visit, grouped by vertex, and the enter of each visit that
+// can be half of a swap, grouped by edge. Routes are fixed, so the groups are made once, each in
+// one piece of memory; only bookings and enters change. Visits are added and removed one by one,
+// and each addition or removal returns the change of the count of conflicts. Removing a set of
+// visits and adding it with new times therefore counts every pair exactly once.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/types.hpp"
-#include "precedence/booking_index.hpp"
 #include "precedence/conflict.hpp"
-#include "precedence/move_index.hpp"
 #include "precedence/routes.hpp"
 #include "precedence/timetable.hpp"
 
@@ -21,14 +22,13 @@ namespace rightofway {
 class ConflictIndex {
   public:
     // The routes are borrowed and must outlive this. At first it holds no visits.
-    // Throws std::invalid_argument if so many visits share vertices that a count might overflow.
+    // Throws std::overflow_error if so many visits share vertices that a count might overflow.
     explicit ConflictIndex(const Routes& routes);
 
     // Adds the visit at its time in the timetable and returns the weight of its conflicts with
-    // those already here. A visit that is here already stays as it is; one of an inactive robot
-    // stays out.
+    // those in the index. A visit in the index stays as it is; one of an inactive robot stays out.
     Tick add(VisitId visit, const Timetable& timetable);
-    // Removes the visit and returns the weight of its conflicts with those still here.
+    // Removes the visit and returns the weight of its conflicts with those in the index.
     Tick remove(VisitId visit);
     // Moves the visit to its time in the timetable, without counting.
     void move(VisitId visit, const Timetable& timetable);
@@ -42,15 +42,59 @@ class ConflictIndex {
     std::optional<Conflict> earliest(VisitId visit, RobotId other) const;
 
   private:
+    // Visits grouped by a key, with a value each; and for each visit the group that it can have
+    // conflicts with: the slots of one key but for those of its own robot.
+    template <class Value>
+    struct Groups {
+        struct Slot {
+            Value value;
+            VisitId visit;
+            RobotId robot;
+        };
+        struct Range {
+            std::int32_t begin;
+            std::int32_t own_begin;
+            std::int32_t own_end;
+            std::int32_t end;
+        };
+
+        std::vector<Slot> slots;            // by key, then by visit, and so by robot
+        std::vector<Range> others;          // of each slot
+        std::vector<std::int32_t> slot_of;  // of each visit; or none
+
+        template <class Key, class OtherKey>
+        Groups(const Routes& routes, std::vector<VisitId> visits, Key key, OtherKey other_key);
+
+        Value* find(VisitId visit) {
+            return slot_of[visit] == none ? nullptr : &slots[slot_of[visit]].value;
+        }
+        // Calls use(slot) for each slot in the range of a visit.
+        template <class Use>
+        void for_each_other(VisitId visit, Use&& use) const {
+            if (slot_of[visit] == none) {
+                return;
+            }
+            const Range& range = others[slot_of[visit]];
+            for (std::int32_t k = range.begin; k < range.own_begin; ++k) {
+                use(slots[k]);
+            }
+            for (std::int32_t k = range.own_end; k < range.end; ++k) {
+                use(slots[k]);
+            }
+        }
+    };
+
+    // Calls use(other visit, its robot, tick, weight, kind) for each conflict of a visit.
+    template <class Use>
+    void for_each_conflict(VisitId visit, Use&& use) const;
     template <class Accept>
     Tick weight_where(VisitId visit, Accept&& accept) const;
     template <class Accept>
     std::optional<Conflict> earliest_where(VisitId visit, Accept&& accept) const;
-    Conflict conflict(VisitId visit, VisitId other, Tick tick, ConflictKind kind) const;
 
     const Routes& routes_;
-    BookingIndex bookings_;
-    MoveIndex moves_;
+    Groups<Booking> bookings_;
+    Groups<Tick> enters_;
 };
 
 }  // namespace rightofway

@@ -692,35 +692,35 @@ class FleetSearch:
 
 class ActionDependencyGraph:
     """
-    A plan on a floor where robots are late.
+    A plan that is executed with delays.
 
     Parameters
     ----------
     first_visit : int32[R + 1]
         Robot ``r`` owns visits ``first_visit[r] .. first_visit[r + 1] - 1``, at least one.
     vertex, planned : int32[N], int64[N]
-        Where each visit is, and when it begins by the plan. [ticks]
+        The vertex of each visit, and when it begins by the plan. [ticks]
     dwell, drive : int64[N]
-        How long each visit lasts at least without the drive after it, and the drive into it. [ticks]
+        The least duration of each visit without the drive after it, and the drive into it. [ticks]
     before : int32[N]
         The visit that goes directly before at the same vertex, -1 for none.
     since : int64[N]
-        When each visit was given its right of way, if that was on the way: it begins no sooner. [ticks]
+        When the right of way of each visit was given; it begins no sooner. [ticks]
     headway : int
         Ticks from one robot's leave to the next one's enter, or start to drive there.
     books_ahead : bool
         Whether a robot books a vertex from when it starts to drive there.
     pace : float64[R]
-        How much longer than planned everything takes each robot, 1 for as planned.
+        The factor of all durations of each robot, 1 as planned.
     delay_kind : int32[D]
         0 exponential, 1 uniform, 2 normal, 3 stops, 4 breaks.
     delay_a, delay_b : float64[D]
         Mean and nothing; bounds; mean and deviation, all as parts of a visit's time; chance and
         ticks; chance and nothing.
-    first_standstill : int32[R + 1]
-        Which standstills of every run are whose.
-    standstill_tick, standstill_ticks : int64[S]
-        From when each robot stands still, rising, and how long, ``NEVER`` for ever. [ticks]
+    first_stoppage : int32[R + 1]
+        Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
+    stoppage_tick, stoppage_ticks : int64[S]
+        When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
 
     Raises
     ------
@@ -728,7 +728,7 @@ class ActionDependencyGraph:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
     def runs(self, seed: int, first: int, count: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))]]:
         """
@@ -739,17 +739,17 @@ class ActionDependencyGraph:
         seed, first, count : int
             Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
         time_limit : float or None
-            After so many seconds no run is begun.
+            No run begins after this many seconds.
 
         Returns
         -------
         completion : int64[K, R]
-            When each robot completes by right of way, ``NEVER`` for never. [ticks]
+            When each robot completes by right of way, ``NEVER`` if it does not. [ticks]
         is_broken : uint8[K, R]
             Not 0 where a robot stands still for ever.
         by_right_of_way, by_clock : int64[K, 4]
-            Pairs of visits that overlap, that overlap only by the headway, swaps, and when the first of all
-            these begins, ``NEVER`` for never.
+            Pairs of visits that overlap, pairs that overlap only by the headway, swaps, and the tick of the
+            earliest of these, ``NEVER`` without any.
         own, of_others : int64[N]
             Ticks of lateness that began at each visit: of its own robot, of others.
         between : int64[P, 3]
@@ -762,30 +762,30 @@ class ActionDependencyGraph:
 
     def delay_sample(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return what befalls one run.
+        Return the delays of one run.
 
         Returns
         -------
         tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
-            What dwells and drives really take, and the standstills, as the class takes them.
+            Actual dwells and drives, and the stoppages as the class takes them.
         """
 
-    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_standstill: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], standstill_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Run the plan once, with these setbacks.
+        Run the plan once, with these delays.
 
         Parameters
         ----------
-        dwell, drive, first_standstill, standstill_tick, standstill_ticks
-            As `setbacks` returns them.
+        dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks
+            As `delay_sample` returns them.
         clock : bool
             Whether by the clock; else by right of way.
 
         Returns
         -------
         tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
-            When each visit begins, from when it books its vertex, when robots complete, which stand still
-            for ever, and the collisions as `runs` counts them.
+            When each visit begins, when its booking begins, when robots complete, which stand still for
+            ever, and the conflicts as `runs` counts them.
 
         Raises
         ------
@@ -795,7 +795,7 @@ class ActionDependencyGraph:
 
     def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the robots that can never complete, since they wait for each other.
+        Return the robots that can never complete because they wait for each other.
         """
 
 def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None, most_steps: int | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:

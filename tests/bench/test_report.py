@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from rightofway.bench import COLUMNS, Group, Quantiles, Row, by_planner, write_report
-from rightofway.bench.groups import by_robots
+from rightofway.bench.summary import by_robots
 from rightofway.errors import InputError
 
 

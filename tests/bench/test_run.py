@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import resource
 import subprocess
 from pathlib import Path
@@ -11,9 +12,9 @@ import pytest
 
 import rightofway
 from rightofway.bench import Case, cases_of, read_suite, run_here
-from rightofway.bench.machine import cores, machine
-from rightofway.bench.process import Interrupted, Processes
+from rightofway.bench.process import Interrupted, Processes, cores, machine
 from rightofway.bench.run import run
+from rightofway.errors import InputError
 
 
 @pytest.fixture
@@ -72,3 +73,50 @@ def test_the_machine_is_told() -> None:
     if git.returncode == 0 and "site-packages" not in package.parts:
         assert git.stdout.startswith(found["commit"].removesuffix("-dirty"))
         assert len(found["commit"].removesuffix("-dirty")) == 12
+
+
+def laps_case(folder: Path, options: str) -> Case:
+    path = folder / "suite.toml"
+    path.write_text(
+        'format = "rightofway-suite/1"\ncounts = [4]\nmaps = [{random = {size = [9, 9]}}]\n'
+        f'planners = [{{name = "laps", options = {options}}}]\n',
+        encoding="utf-8",
+    )
+    [case] = cases_of(read_suite(path))
+    return case
+
+
+@pytest.mark.parametrize("rule", ["first-come", "two-level", "timetable"])
+def test_a_case_of_laps_has_the_throughput_and_the_figures_of_each_group(
+    tmp_path: Path, rule: str
+) -> None:
+    outcome = run(laps_case(tmp_path, f'{{rule = "{rule}"}}'))
+    assert (outcome["status"], outcome["valid"]) == ("solved", None)
+    figures = json.loads(outcome["figures"])
+    assert figures["throughput"] > 0
+    assert sum(group["robots"] for group in figures["groups"]) == 4
+    for group in figures["groups"]:
+        assert group["ends"] == "repeats"
+        assert group["period"] >= group["longest_lap"]
+        assert 0 < group["fairness"] <= 1
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ('{rule = "last-come"}', "planners[0].options.rule: 'last-come' is none of them (choose"),
+        ("{rules = 1}", "planners[0].options.rules: laps has no such option here (it has rule, "),
+        ('{rule = "timetable", routes = "clear"}', "planners[0].options.routes: laps has no such"),
+    ],
+)
+def test_wrong_options_of_laps_are_refused(tmp_path: Path, options: str, message: str) -> None:
+    with pytest.raises(InputError) as caught:
+        laps_case(tmp_path, options)
+    assert f"suite.toml: {message}" in str(caught.value)
+
+
+def test_a_plan_has_its_decisions_by_level_among_the_figures(case: Case) -> None:
+    plan = rightofway.solve(case.scenario(), "two-level")
+    figures = json.loads(run(case)["figures"])
+    assert sum(figures["decisions"].values()) == len(plan.run.decisions)
+    assert figures["rerouted"] == len(plan.run.reroutes)

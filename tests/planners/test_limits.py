@@ -3,13 +3,17 @@
 import math
 import signal
 import threading
+import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.model import Robot, Rules, Scenario, Stop, VertexId, roadmap_of_grid
+from rightofway.metrics import alone_completions
+from rightofway.model import Robot, Rules, Scenario, Stop, Tick, VertexId, roadmap_of_grid
+from rightofway.planners import Deadline
 from tests.builders.fleets import random_fleet
 
 NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
@@ -33,6 +37,32 @@ def test_a_time_limit_that_is_no_number_of_seconds_is_refused(
     ):
         with pytest.raises(InputError, match=r"time_limit: .* is no number of seconds \(give"):
             call()
+
+
+def test_a_deadline_leaves_time_for_what_follows_but_keeps_half() -> None:
+    deadline = Deadline.after(100)
+    left = [deadline.earlier(seconds).seconds_left() for seconds in (10, 80)]
+    assert left == [pytest.approx(90, abs=1), pytest.approx(50, abs=1)]
+
+
+def test_no_limit_has_no_earlier_one() -> None:
+    assert Deadline.after(None).earlier(10).seconds_left() is None
+
+
+def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenario) -> None:
+    """A second for each visit is more than there is, so that half of the limit is left."""
+    began = time.monotonic()
+    plan = rightofway.solve(crowd, "lns", time_limit=20, seconds_per_visit=1)
+    assert plan.run.seconds is not None
+    assert plan.run.seconds < 16
+    assert time.monotonic() - began < 20
+
+
+def test_reports_use_what_planning_computed(scenario: Scenario) -> None:
+    plan = rightofway.solve(scenario, "lacam")
+    assert plan.run.alone == alone_completions(scenario)
+    claimed = replace(plan, run=replace(plan.run, alone=tuple(map(Tick, range(10)))))
+    assert rightofway.measure(claimed).lower_bound == sum(range(10))
 
 
 def test_infinity_is_no_limit(scenario: Scenario) -> None:

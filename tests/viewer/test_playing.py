@@ -4,7 +4,7 @@ import pytest
 
 from rightofway.model import Plan
 from rightofway.viz.motion import trips_of
-from rightofway.viz.plane import plane_of
+from rightofway.viz.placement import plane_of
 from tests.builders.plans import crowd, door, hostile, loop
 from tests.viewer.conftest import Opener
 

@@ -95,15 +95,15 @@ TEST_CASE("who is done where it ends stops no more") {
     CHECK(out.dwell == std::vector<Tick>{150, 0});
 }
 
-TEST_CASE("standstills that overlap are one") {
+TEST_CASE("stoppages that overlap are one") {
     const ActionDependencyGraph plan = long_way();
     const std::vector<double> pace{1};
     const Delays delays(plan, pace, {}, {0, 3}, {{2, 10}, {5, 20}, {40, never}});
     DelaySample out;
     delays.draw(0, 0, out);
-    CHECK(out.standstills.size() == 2);
-    CHECK(out.standstills[0].ticks == 23);
-    CHECK(out.first_standstill == std::vector<std::int32_t>{0, 2});
+    CHECK(out.stoppages.size() == 2);
+    CHECK(out.stoppages[0].ticks == 23);
+    CHECK(out.first_stoppage == std::vector<std::int32_t>{0, 2});
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "execution/executed_conflicts.hpp"
 #include "execution/execution_timetable.hpp"
-#include "execution/lateness.hpp"
+#include "execution/runs.hpp"
 
 namespace rightofway {
 namespace {
@@ -25,7 +25,7 @@ struct Late {
         return ActionDependencyGraph(
             {first_visit, vertex, planned, dwell, drive, before, headway, books_ahead, since});
     }
-    DelaySample setbacks() const {
+    DelaySample sample() const {
         return {dwell, drive, std::vector<std::int32_t>(first_visit.size(), 0), {}};
     }
 };
@@ -42,38 +42,38 @@ Late ring() {
             {0, 0, 0, 0, 0, 0}, {0, 1, 0, 1, 0, 1}, {-1, 2, -1, 4, -1, 0}};
 }
 
-ActualTimes in_order(const Late& late, const DelaySample& setbacks) {
+ActualTimes in_order(const Late& late, const DelaySample& sample) {
     const ActionDependencyGraph plan = late.plan();
     ActualTimes times;
-    ExecutionTimetable(plan).by_right_of_way(setbacks, times);
+    ExecutionTimetable(plan).by_right_of_way(sample, times);
     return times;
 }
 
 TEST_CASE("without delays everything happens as planned") {
     const Late late = following();
-    CHECK(in_order(late, late.setbacks()).enter == late.planned);
+    CHECK(in_order(late, late.sample()).enter == late.planned);
 }
 
 TEST_CASE("a visit begins no sooner than its right of way was given") {
     Late late = following();
     late.since = {0, 0, 9, 0, 0, 0};
-    CHECK(in_order(late, late.setbacks()).enter == Ticks{0, 1, 9, 0, 9, 10});
+    CHECK(in_order(late, late.sample()).enter == Ticks{0, 1, 9, 0, 9, 10});
     Late round = ring();
     round.since = {0, 0, 0, 4, 0, 0};
-    CHECK(in_order(round, round.setbacks()).enter == Ticks{0, 4, 0, 4, 0, 4});
+    CHECK(in_order(round, round.sample()).enter == Ticks{0, 4, 0, 4, 0, 4});
 }
 
 TEST_CASE("who is late makes others wait, and by the clock it is run into") {
     const Late late = following();
-    DelaySample setbacks = late.setbacks();
-    setbacks.drive[2] = 5;
-    const ActualTimes times = in_order(late, setbacks);
+    DelaySample sample = late.sample();
+    sample.drive[2] = 5;
+    const ActualTimes times = in_order(late, sample);
     CHECK(times.enter == Ticks{0, 1, 6, 0, 6, 7});
     const ActionDependencyGraph plan = late.plan();
     ExecutedConflicts conflicts(plan);
     CHECK(conflicts.count(times).vertex == 0);
     ActualTimes clocked;
-    by_clock(plan, setbacks, clocked);
+    by_clock(plan, sample, clocked);
     CHECK(clocked.enter == Ticks{0, 1, 6, 0, 2, 3});
     CHECK(conflicts.count(clocked).vertex == 1);
     CHECK(conflicts.count(clocked).first == 2);
@@ -83,16 +83,16 @@ TEST_CASE("who waits starts to drive when the vertex is free, where vertices are
     Late late = following();
     late.headway = 2;
     late.books_ahead = true;
-    const ActualTimes times = in_order(late, late.setbacks());
+    const ActualTimes times = in_order(late, late.sample());
     CHECK(times.start[4] == 4);  // robot 0 left at 2
     CHECK(times.enter[4] == 5);
 }
 
 TEST_CASE("the robots of a rotation go together when the last of them is ready") {
     const Late late = ring();
-    DelaySample setbacks = late.setbacks();
-    setbacks.dwell[2] = 3;
-    CHECK(in_order(late, setbacks).enter == Ticks{0, 4, 0, 4, 0, 4});
+    DelaySample sample = late.sample();
+    sample.dwell[2] = 3;
+    CHECK(in_order(late, sample).enter == Ticks{0, 4, 0, 4, 0, 4});
     const ActionDependencyGraph plan = late.plan();
     CHECK(ExecutionTimetable(plan).deadlocked().empty());
 }
@@ -103,38 +103,38 @@ TEST_CASE("robots round a circle with a headway are deadlocked") {
     const ActionDependencyGraph plan = late.plan();
     const ExecutionTimetable timetable(plan);
     CHECK(timetable.deadlocked().size() == 3);
-    CHECK(in_order(late, late.setbacks()).completion == Ticks{never, never, never});
+    CHECK(in_order(late, late.sample()).completion == Ticks{never, never, never});
 }
 
 TEST_CASE("who stands still for ever strands those that wait for it") {
     const Late late = following();
-    DelaySample setbacks = late.setbacks();
-    setbacks.first_standstill = {0, 1, 1};
-    setbacks.standstills = {{1, never}};
-    const ActualTimes times = in_order(late, setbacks);
+    DelaySample sample = late.sample();
+    sample.first_stoppage = {0, 1, 1};
+    sample.stoppages = {{1, never}};
+    const ActualTimes times = in_order(late, sample);
     CHECK(times.enter == Ticks{0, 1, never, 0, never, never});
     CHECK(times.is_broken == std::vector<std::uint8_t>{1, 0});
 }
 
 TEST_CASE("a robot that waits anyway may stand still meanwhile") {
     const Late late = following();
-    DelaySample setbacks = late.setbacks();
-    setbacks.drive[2] = 5;
-    setbacks.first_standstill = {0, 0, 1};
-    setbacks.standstills = {{2, 3}};
-    CHECK(in_order(late, setbacks).enter == Ticks{0, 1, 6, 0, 6, 7});
-    setbacks.standstills = {{2, 6}};
-    CHECK(in_order(late, setbacks).enter == Ticks{0, 1, 6, 0, 8, 9});
+    DelaySample sample = late.sample();
+    sample.drive[2] = 5;
+    sample.first_stoppage = {0, 0, 1};
+    sample.stoppages = {{2, 3}};
+    CHECK(in_order(late, sample).enter == Ticks{0, 1, 6, 0, 6, 7});
+    sample.stoppages = {{2, 6}};
+    CHECK(in_order(late, sample).enter == Ticks{0, 1, 6, 0, 8, 9});
 }
 
 TEST_CASE("lateness is put down to the visit that it began with") {
     const Late late = following();
-    DelaySample setbacks = late.setbacks();
-    setbacks.drive[2] = 5;
-    setbacks.drive[5] = 3;
+    DelaySample sample = late.sample();
+    sample.drive[2] = 5;
+    sample.drive[5] = 3;
     const ActionDependencyGraph plan = late.plan();
     LatenessSources sources(plan);
-    sources.add(in_order(late, setbacks));
+    sources.add(in_order(late, sample));
     CHECK(sources.own() == Ticks{0, 4, 0, 0, 2, 0});
     CHECK(sources.of_others() == Ticks{0, 4, 0, 0, 0, 0});
     CHECK(sources.between().at(2) == 4);
@@ -145,7 +145,7 @@ TEST_CASE("an exchange of two vertices is a swap") {
                     {0, 0, 0, 0}, {0, 1, 0, 1}, {-1, 2, -1, 0}};
     const ActionDependencyGraph plan = late.plan();
     ExecutedConflicts conflicts(plan);
-    CHECK(conflicts.count(in_order(late, late.setbacks())).swap == 1);
+    CHECK(conflicts.count(in_order(late, late.sample())).swap == 1);
 }
 
 }  // namespace

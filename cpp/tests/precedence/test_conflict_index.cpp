@@ -117,5 +117,18 @@ TEST_CASE("two visits that swap are taken out and put back as one conflict") {
     CHECK(filled.index.add(6, filled.timetable) == 1);
 }
 
+TEST_CASE("a robot has no conflicts with itself, neither at a vertex nor going to and fro") {
+    CHECK(Filled(Example({{7, 1, 7, 1}})).total == 0);
+}
+
+TEST_CASE("bookings that only touch do not overlap") {
+    CHECK(Filled(Example({{9, 1}, {2, 9}})).total == 0);
+}
+
+TEST_CASE("moves in the same direction, or from elsewhere, are no swap") {
+    Filled filled(Example({{1, 2, 5}, {3, 1, 6}, {2, 3, 7}}));
+    CHECK_FALSE(filled.index.earliest(1).has_value());
+}
+
 }  // namespace
 }  // namespace rightofway::test

@@ -8,10 +8,10 @@ from itertools import islice
 from textwrap import shorten
 from typing import Any
 
-from rightofway.bench.cases import Case
 from rightofway.bench.extras import needed
 from rightofway.bench.process import lost, run_on_worker
-from rightofway.bench.rows import Row
+from rightofway.bench.results import Row
+from rightofway.bench.suite import Case
 from rightofway.errors import InputError
 
 __all__ = ["run_on_cluster"]
@@ -20,11 +20,10 @@ PATIENCE = 30
 """How long a scheduler has to answer [s]."""
 
 LONGEST = 200
-"""Characters of what a worker says that a message shows."""
+"""Characters of a worker's error that a message shows."""
 
 IN_FLIGHT = 2
-"""Tasks for each thread of the workers that the scheduler knows of at a time, so that none of them
-waits for work."""
+"""Tasks that the scheduler has at a time for each thread of its workers, so that none is idle."""
 
 
 def run_on_cluster(
@@ -39,7 +38,7 @@ def run_on_cluster(
     address
         Of the scheduler: ``tcp://host:8786``. Its workers need this package, of this version.
     report
-        Takes a sentence if there is something to wait for.
+        Called with a sentence if the cluster has no workers yet.
 
     Raises
     ------
@@ -48,8 +47,8 @@ def run_on_cluster(
 
     Notes
     -----
-    The scheduler gives a case to another worker if its worker dies, and a result that was lost with
-    its worker is made again; a case whose workers die four times is a row that says so.
+    If a worker dies, the scheduler gives its cases, and results it held, to another worker; a case
+    whose workers die four times is a row that says so.
     """
     client = _client(address)
     try:

@@ -1,4 +1,4 @@
-"""Libraries that only some uses need, imported where they are used."""
+"""Libraries of optional extras, imported where they are used."""
 
 from __future__ import annotations
 
@@ -14,25 +14,13 @@ EXTRAS = {"matplotlib": "bench", "pyarrow": "bench", "distributed": "dask"}
 
 
 def need(library: str, purpose: str) -> None:
-    """Make sure, before any work, that a library is installed.
-
-    Raises
-    ------
-    InputError
-        If it is not; says which extra has it.
-    """
+    """Refuse with `InputError`, before any work, if a library is not installed."""
     if find_spec(library) is None:
         remedy = f"pip install 'rightofway[{EXTRAS[library]}]'"
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")
 
 
 def needed(module: str, purpose: str) -> Any:
-    """Return a module of such a library.
-
-    Raises
-    ------
-    InputError
-        As `need`.
-    """
+    """Return a module of an optional library, or refuse as `need`."""
     need(module.partition(".")[0], purpose)
     return import_module(module)

@@ -1,4 +1,4 @@
-"""The fleet of a case, drawn: same seed, same fleet, on every machine and every Python.
+"""Random fleets of cases: same seed, same fleet, on every machine and every Python.
 
 Only `random.Random.random` promises that, so everything here is drawn with it. The first robots of
 a larger fleet are the smaller fleet of the same seed.
@@ -7,13 +7,12 @@ a larger fleet are the smaller fleet of the same seed.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import cycle, islice, repeat
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rightofway.io.formats import SCENARIO_FORMAT
 
-__all__ = ["largest_part", "random_grid", "scenario_document"]
+__all__ = ["Cell", "largest_part", "random_grid", "scenario_document"]
 
 Cell = tuple[int, int]
 
@@ -34,22 +33,18 @@ def largest_part(lines: Sequence[str]) -> list[Cell]:
         for column, character in enumerate(line)
         if character == "."
     }
-    parts: list[list[Cell]] = [[]]
+    largest: list[Cell] = []
     while unseen:
-        parts.append(_part_around(next(iter(unseen)), unseen))
-    largest: list[Cell] = max(parts, key=len)
+        part = [next(iter(unseen))]
+        del unseen[part[0]]
+        for row, column in part:  # grows as it goes
+            around = (row, column + 1), (row + 1, column), (row, column - 1), (row - 1, column)
+            for cell in around:
+                if cell in unseen:
+                    del unseen[cell]
+                    part.append(cell)
+        largest = max(largest, part, key=len)
     return sorted(largest)
-
-
-def _part_around(start: Cell, unseen: dict[Cell, None]) -> list[Cell]:
-    part = [start]
-    del unseen[start]
-    for row, column in part:  # grows as it goes
-        for cell in ((row, column + 1), (row + 1, column), (row, column - 1), (row - 1, column)):
-            if cell in unseen:
-                del unseen[cell]
-                part.append(cell)
-    return part
 
 
 def scenario_document(
@@ -66,55 +61,42 @@ def scenario_document(
     robots
         How many.
     seed
-        What draws homes and targets on random grids, speeds if they are drawn, and work.
+        Draws homes and targets on random grids (each place at most once as a home and once as a
+        target), speeds if they are drawn, and work.
     """
     if fleet is None:
         return dict(problem["scenario"])
     if "random" in problem:
         lines = random_grid(**problem["random"])
-        ends = list(islice(_drawn_ends(largest_part(lines), seed), robots))
+        places = largest_part(lines)
+        homes, targets = _shuffled(places, "homes", seed), _shuffled(places, "targets", seed)
+        ends = list(zip(homes, targets, strict=True))[:robots]
     else:
         lines, ends = list(problem["grid"]), problem["ends"]
-    speeds, works = _speeds(fleet, seed), _works(fleet, seed)
+    speeds, (least, most) = fleet["speeds"], fleet["work"]
+    draw_speed, draw_work = _generator("speeds", seed), _generator("work", seed)
+    documents = []
+    for index, (home, target) in enumerate(ends):
+        drawn = int(draw_speed.random() * len(speeds))
+        robot = {
+            "name": f"R{index + 1}",
+            "home": list(home),
+            "target": list(target),
+            "speed": speeds[drawn if fleet["by_seed"] else index % len(speeds)],
+            "work": least + int(draw_work.random() * (most - least + 1)),
+        }
+        documents.append(robot)
     return {
         "format": SCENARIO_FORMAT,
         "map": {"grid": lines},
-        "robots": [
-            {
-                "name": f"R{number}",
-                "home": list(home),
-                "target": list(target),
-                "speed": next(speeds),
-                "work": next(works),
-            }
-            for number, (home, target) in enumerate(ends, start=1)
-        ],
+        "robots": documents,
         "rules": fleet["rules"],
     }
 
 
-def _drawn_ends(places: Sequence[Cell], seed: int) -> Iterator[tuple[Cell, Cell]]:
-    """Yield homes and targets, each place at most once as a home and once as a target."""
-    homes, targets = (_shuffled(places, _generator(what, seed)) for what in ("homes", "targets"))
-    return zip(homes, targets, strict=True)
-
-
-def _speeds(fleet: Mapping[str, Any], seed: int) -> Iterator[Any]:
-    speeds = fleet["speeds"]
-    if not fleet["by_seed"]:
-        return cycle(speeds)
-    draw = _generator("speeds", seed)
-    return (speeds[int(draw.random() * len(speeds))] for _ in repeat(None))
-
-
-def _works(fleet: Mapping[str, Any], seed: int) -> Iterator[int]:
-    least, most = fleet["work"]
-    draw = _generator("work", seed)
-    return (least + int(draw.random() * (most - least + 1)) for _ in repeat(None))
-
-
-def _shuffled(items: Sequence[Cell], draw: random.Random) -> list[Cell]:
-    return sorted(items, key=lambda _: draw.random())
+def _shuffled(places: Sequence[Cell], what: str, seed: int) -> list[Cell]:
+    draw = _generator(what, seed)
+    return sorted(places, key=lambda _: draw.random())
 
 
 def _generator(what: str, seed: int) -> random.Random:

@@ -8,15 +8,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from rightofway.bench.extras import needed
-from rightofway.bench.groups import Group, by_planner, by_robots, grouped, planner_names
-from rightofway.bench.rows import Row
+from rightofway.bench.results import Row
+from rightofway.bench.summary import Group, by_planner, by_robots, grouped, planner_names
 
 __all__ = ["cactus_plot", "ratio_plot"]
 
 Format = Literal["svg", "png"]
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-"""Okabe and Ito's, which people tell apart however they see colours."""
+"""The palette of Okabe and Ito, distinct for colour-blind readers too."""
 
 MARKERS = "osD^vPX"
 
@@ -57,7 +57,9 @@ def cactus_plot(rows: Sequence[Row], form: Format) -> bytes:
 
 
 def _solved_over_time(rows: Sequence[Row]) -> tuple[list[float], list[int]]:
-    seconds = sorted(row["first_plan_seconds"] for row in rows if row["solved"])
+    # Laps have no first plan: they are known at the end.
+    known = (row["first_plan_seconds"] or row["wall_seconds"] for row in rows if row["solved"])
+    seconds = sorted(known)
     shown = [max(second, LEAST_SECONDS) for second in seconds]
     end = max([*shown, *(row["limit"] for row in rows)])
     return [*shown, end], [*range(1, len(shown) + 1), len(shown)]

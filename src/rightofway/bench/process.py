@@ -1,4 +1,7 @@
-"""A case in a process of its own, so that its time and memory are its own, and so is its end."""
+"""Cases on the cores of this machine, each in a process of its own.
+
+So the time and the memory of a case are its own, and so is its end.
+"""
 
 from __future__ import annotations
 
@@ -6,24 +9,57 @@ import contextlib
 import json
 import os
 import pickle
+import platform
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import cache
+from pathlib import Path
 from typing import IO, Any
 
-from rightofway.bench.cases import Case
-from rightofway.bench.machine import machine
-from rightofway.bench.rows import COLUMNS, Row
+import rightofway
+from rightofway.bench.results import COLUMNS, Row
+from rightofway.bench.suite import Case
+from rightofway.search import compiler
 
-__all__ = ["GRACE", "Interrupted", "Processes", "lost", "run_on_worker"]
+__all__ = [
+    "GRACE", "Interrupted", "Processes", "cores", "lost", "machine", "run_here", "run_on_worker",
+]  # fmt: skip
 
 GRACE = 60.0
 """A case is ended that many seconds after thrice its time limit [s]."""
 
 LONGEST = 500
-"""Characters of a message that a row keeps."""
+"""Characters of a message that a row holds."""
+
+
+def run_here(cases: Iterable[Case], *, jobs: int | None = None) -> Iterator[Row]:
+    """Yield the row of each case, in the order in which they end.
+
+    Parameters
+    ----------
+    cases
+        What to run.
+    jobs
+        How many at a time; as many as there are cores by default.
+
+    Notes
+    -----
+    When the iteration is left early, running cases are ended and have no row.
+    """
+    machine()  # before any thread asks for it
+    processes = Processes()
+    pool = ThreadPoolExecutor(jobs or cores())
+    try:
+        for future in as_completed([pool.submit(processes.run, case) for case in cases]):
+            yield future.result()
+    finally:
+        processes.end()
+        pool.shutdown(cancel_futures=True)
 
 
 class Interrupted(Exception):
@@ -31,7 +67,7 @@ class Interrupted(Exception):
 
 
 class Processes:
-    """The processes that run cases now, by threads of this one."""
+    """The processes that run cases, each for a thread of this process."""
 
     def __init__(self) -> None:
         self._running: set[subprocess.Popen[bytes]] = set()
@@ -46,7 +82,7 @@ class Processes:
         Interrupted
             If `end` was called before it was done.
         """
-        with tempfile.TemporaryFile() as words, self._started(words) as process:
+        with tempfile.TemporaryFile() as stderr, self._started(stderr) as process:
             allowed = 3 * float(case.limit) + GRACE
             overran = _wait(process, case, allowed)
             assert process.stdout is not None, "it is a pipe"
@@ -56,12 +92,15 @@ class Processes:
                 if self._is_over:
                     raise Interrupted
             if process.returncode == 0 and outcome:
-                return row_of(case, json.loads(outcome))
+                return _row(case, json.loads(outcome))
             if overran:
-                return row_of(case, _ended("overran", f"it was ended after {allowed:g} s"))
-            return row_of(case, _death(process.returncode, _last(words)))
+                return _failed(case, "overran", f"it was ended after {allowed:g} s")
+            stderr.seek(0)
+            lines = stderr.read().decode("utf-8", "replace").split("\n")
+            last = next((line for line in reversed(lines) if line.strip()), "")
+            return _failed(case, *_death(process.returncode, last))
 
-    def _started(self, words: IO[bytes]) -> subprocess.Popen[bytes]:
+    def _started(self, stderr: IO[bytes]) -> subprocess.Popen[bytes]:
         with self._lock:
             if self._is_over:
                 raise Interrupted
@@ -70,8 +109,8 @@ class Processes:
                 bufsize=0,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
-                stderr=words,
-                start_new_session=True,  # an interrupt from the keyboard is for us
+                stderr=stderr,
+                start_new_session=True,  # an interrupt from the keyboard is for this process
             )
             self._running.add(process)
         return process
@@ -105,23 +144,13 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
         os.killpg(process.pid, signal.SIGKILL)
 
 
-def _last(words: IO[bytes]) -> str:
-    words.seek(0)
-    lines = words.read().decode("utf-8", "replace").split("\n")
-    return next((line for line in reversed(lines) if line.strip()), "")
-
-
-def _death(code: int, words: str) -> dict[str, Any]:
-    """Return the outcome of a case whose process died before it could tell one."""
+def _death(code: int, words: str) -> tuple[str, str]:
+    """Return status and message of a case whose process died without an outcome."""
     if code >= 0:
-        return _ended("defect", f"its process ended with code {code}. {words}")
+        return "defect", f"its process ended with code {code}. {words}"
     name = next((each.name for each in signal.Signals if each == -code), f"signal {-code}")
     hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
-    return _ended("killed", f"its process was ended by {name}{hint}. {words}")
-
-
-def _ended(status: str, message: str) -> dict[str, Any]:
-    return {"solved": False, "valid": None, "status": status, "message": message}
+    return "killed", f"its process was ended by {name}{hint}. {words}"
 
 
 def run_on_worker(case: Case) -> Row:
@@ -131,11 +160,66 @@ def run_on_worker(case: Case) -> Row:
 
 def lost(case: Case, message: str) -> Row:
     """Return the row of a case whose worker died each time it was tried."""
-    return row_of(case, _ended("killed", message))
+    return _failed(case, "killed", message)
 
 
-def row_of(case: Case, outcome: dict[str, Any]) -> Row:
+def _failed(case: Case, status: str, message: str) -> Row:
+    outcome = {"solved": False, "valid": None, "status": status, "message": message}
+    return _row(case, outcome)
+
+
+def _row(case: Case, outcome: dict[str, Any]) -> Row:
     """Return a row with a value, or None, for every column."""
     row = {column.name: None for column in COLUMNS} | case.labels | machine() | outcome
     row["message"] = " ".join(str(row["message"]).split())[:LONGEST]
     return row
+
+
+@cache
+def machine() -> dict[str, Any]:
+    """Return commit, versions and hardware, as rows have them."""
+    return {
+        "commit": _commit(),
+        "version": rightofway.__version__,
+        "cpu": _cpu(),
+        "cores": cores(),
+        "compiler": compiler(),
+        "python": platform.python_version(),
+    }
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def _commit() -> str:
+    """Return the commit of the package's sources, ``-dirty`` if changed; empty if unknown.
+
+    An installed package may lie in a repository that has nothing to do with it, so git must know
+    its files.
+    """
+    package = Path(rightofway.__file__)
+    if not _git(package, "ls-files", "--error-unmatch", package.name):
+        return ""
+    return _git(package, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*")
+
+
+def _git(package: Path, *args: str) -> str:
+    command = ["git", "-C", str(package.parent), *args]
+    try:
+        ended = subprocess.run(command, capture_output=True, check=True, text=True)  # noqa: S603
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return ended.stdout.strip()
+
+
+def _cpu() -> str:
+    """Return the model of the processor; the architecture where the system does not name it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    models = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(models, "") or platform.processor() or platform.machine()

@@ -7,16 +7,23 @@ import html
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from rightofway.bench.groups import Group, Quantiles, by_planner, by_robots, grouped, planner_names
 from rightofway.bench.plots import cactus_plot, ratio_plot
-from rightofway.bench.rows import Row
+from rightofway.bench.results import Row
+from rightofway.bench.summary import (
+    Group,
+    Quantiles,
+    by_planner,
+    by_robots,
+    grouped,
+    planner_names,
+)
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 
-__all__ = ["write_report"]
+__all__ = ["markdown_table", "write_report"]
 
 Table = list[Sequence[str]]
-"""Rows of cells, the first one being the heads."""
+"""Rows of cells; the first has the headings."""
 
 CACTUS = "Solved cases over time: the more to the left and the higher, the better."
 RATIOS = (
@@ -49,12 +56,12 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     Parameters
     ----------
     rows
-        What it is on.
+        The results.
     path
         ``.html`` for one file that holds its pictures; ``.md`` for Markdown, with pictures beside
         it, ``-cactus.png`` and ``-ratio.png`` behind its name.
     title
-        Its heading.
+        Heading of the report.
 
     Raises
     ------
@@ -71,10 +78,18 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
 
 
 def _page(rows: Sequence[Row], title: str) -> str:
+    pictures = [(cactus_plot(rows, "svg"), CACTUS), (ratio_plot(rows, "svg"), RATIOS)]
+    figures = []
+    for picture, words in pictures:
+        # Each an image of its own, so that the pictures share no names.
+        data, text = base64.b64encode(picture).decode(), html.escape(words)
+        figures.append(
+            f'<figure><img alt="{text}" src="data:image/svg+xml;base64,{data}">'
+            f"<figcaption>{text}</figcaption></figure>"
+        )
     body = [
         _html_table(_planners(rows)),
-        _html_figure(cactus_plot(rows, "svg"), CACTUS),
-        _html_figure(ratio_plot(rows, "svg"), RATIOS),
+        *figures,
         _html_table(_details(rows)),
         *(f"<p>{html.escape(sentence)}</p>" for sentence in _machines(rows)),
     ]
@@ -82,43 +97,32 @@ def _page(rows: Sequence[Row], title: str) -> str:
 
 
 def _html_table(table: Table) -> str:
-    heads, *lines = table
-    cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines]
-    head = "".join(f"<th>{html.escape(cell)}</th>" for cell in heads)
-    return (
-        f"<table>\n<tr>{head}</tr>\n" + "".join(f"<tr>{row}</tr>\n" for row in cells) + "</table>"
-    )
-
-
-def _html_figure(picture: bytes, words: str) -> str:
-    """Return a figure; as an image of its own, so that the pictures share no names."""
-    data = base64.b64encode(picture).decode()
-    text = html.escape(words)
-    return (
-        f'<figure><img alt="{text}" src="data:image/svg+xml;base64,{data}">'
-        f"<figcaption>{text}</figcaption></figure>"
-    )
+    lines = [
+        "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in line)
+        for tag, line in zip(["th", *["td"] * len(table)], table, strict=False)
+    ]
+    return "<table>\n" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>"
 
 
 def _write_markdown(rows: Sequence[Row], path: Path, title: str) -> None:
-    pictures = {"cactus": cactus_plot(rows, "png"), "ratio": ratio_plot(rows, "png")}
-    names = {kind: f"{path.stem}-{kind}.png" for kind in pictures}
-    for kind, picture in pictures.items():
-        write_whole(path.with_name(names[kind]), picture)
+    cactus, ratio = f"{path.stem}-cactus.png", f"{path.stem}-ratio.png"
+    write_whole(path.with_name(cactus), cactus_plot(rows, "png"))
+    write_whole(path.with_name(ratio), ratio_plot(rows, "png"))
     parts = [
         f"# {title}",
-        _markdown_table(_planners(rows)),
-        f"![{CACTUS}]({names['cactus']})",
+        markdown_table(_planners(rows)),
+        f"![{CACTUS}]({cactus})",
         CACTUS,
-        f"![Flowtime / lower bound]({names['ratio']})",
+        f"![Flowtime / lower bound]({ratio})",
         RATIOS,
-        _markdown_table(_details(rows)),
+        markdown_table(_details(rows)),
         *_machines(rows),
     ]
     write_whole(path, "\n\n".join(parts) + "\n")
 
 
-def _markdown_table(table: Table) -> str:
+def markdown_table(table: Table) -> str:
+    """Return a table as Markdown; its first row has the headings."""
     heads, *lines = table
     rows = (heads, ["---"] * len(heads), *lines)
     return "\n".join(

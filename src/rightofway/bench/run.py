@@ -1,7 +1,7 @@
 """One case in this process, which is made for it: ``python -m rightofway.bench.run``.
 
-The case comes as a pickle on standard input, its outcome goes as JSON to standard output. Standard
-input stays open for as long as somebody waits for the outcome; when it is closed, the process ends.
+The case comes as a pickle on standard input, its outcome goes as JSON to standard output. When
+the process that waits for the outcome closes standard input, this process ends.
 """
 
 from __future__ import annotations
@@ -13,16 +13,20 @@ import pickle
 import sys
 import threading
 import time
+from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rightofway.bench.cases import Case
+from rightofway.bench.suite import LAPS, Case
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 from rightofway.metrics import measure
-from rightofway.model import Plan
+from rightofway.model import Plan, Scenario
 from rightofway.planners import find
 from rightofway.solve import solve
+
+if TYPE_CHECKING:
+    from rightofway.cyclic import GroupResult
 
 __all__ = ["main", "run"]
 
@@ -47,6 +51,9 @@ def run(case: Case) -> dict[str, Any]:
     clock = _Clock()
     try:
         scenario = case.scenario()
+        if case.planner == LAPS:
+            clock = _Clock()
+            return {**_laps(case, scenario), **clock.spent()}
         find(case.planner).load()  # importing it is not planning
         clock = _Clock()
         plan = solve(
@@ -57,40 +64,87 @@ def run(case: Case) -> dict[str, Any]:
         return {**_judged(plan), **spent}
     except Exception as error:  # noqa: BLE001 (a planner may raise anything, and the next case runs)
         status = next((name for kind, name in ENDINGS.items() if isinstance(error, kind)), "defect")
-        valid = False if status == "invalid plan" else None
         words = f"{type(error).__name__}: {error}" if status == "defect" else str(error)
-        return {
-            "solved": False, "valid": valid, "status": status, "message": words, **clock.spent(),
-        }  # fmt: skip
+        valid = False if status == "invalid plan" else None
+        return {**_ended(status, words, valid=valid), **clock.spent()}
+
+
+def _ended(status: str, message: str, *, valid: bool | None) -> dict[str, Any]:
+    return {"solved": status == "solved", "valid": valid, "status": status, "message": message}
 
 
 def _judged(plan: Plan) -> dict[str, Any]:
     report = check(plan)
     if not report.ok:
-        return {
-            "solved": False, "valid": False, "status": "invalid plan", "message": report.summary,
-        }  # fmt: skip
-    metrics = measure(plan)
+        return _ended("invalid plan", report.summary, valid=False)
+    metrics, first = measure(plan), plan.run.first_plan_seconds
+    levels = Counter(decision.level for decision in plan.run.decisions)
+    figures = {"decisions": dict(levels), "rerouted": len(plan.run.reroutes)}
     return {
-        "solved": True,
-        "valid": True,
-        "status": "solved",
-        "message": plan.run.status,
+        **_ended("solved", plan.run.status, valid=True),
         "flowtime": int(metrics.flowtime),
         "makespan": int(metrics.makespan),
         "lower_bound": int(metrics.lower_bound),
         "ratio": round(1 + metrics.gap, 6) if math.isfinite(metrics.gap) else None,
         "tick": str(plan.scenario.problem.clock.tick),
-        "first_plan_seconds": _rounded(plan.run.first_plan_seconds),
+        "figures": json.dumps(figures),
+        "first_plan_seconds": None if first is None else round(first, 6),
     }
 
 
-def _rounded(seconds: float | None) -> float | None:
-    return None if seconds is None else round(seconds, 6)
+def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
+    """Let a fleet repeat its work; it is solved if the pattern of each group is known."""
+    from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
+
+    limit = float(case.limit)
+    if case.options["rule"] == TIMETABLE:
+        result = best_timetable(scenario, time_limit=limit, seed=case.seed)
+    else:
+        result = run_laps(scenario, **case.options, time_limit=limit)
+    groups = [_group(group) for group in result.groups]
+    ends = Counter(group.ends for group in result.groups)
+    status = "solved" if set(ends) == {"repeats"} else ", ".join(sorted(set(ends) - {"repeats"}))
+    count = ", ".join(f"{number} {end}" for end, number in sorted(ends.items()))
+    figures = {"throughput": float(result.throughput()), "groups": groups}
+    return {
+        **_ended(status, f"groups: {count}", valid=None),
+        "tick": str(scenario.problem.clock.tick),
+        "figures": json.dumps(figures),
+    }
+
+
+def _group(group: GroupResult) -> dict[str, Any]:
+    """Return the figures of a group of robots; times in ticks."""
+    alone = [lap.duration for lap in group.context.laps]
+    means = group.mean_laps()
+    figures = {
+        "robots": len(group.robots),
+        "ends": group.ends,
+        "longest_lap": group.context.longest,
+        "starves": sum(mean is None for mean in means),
+        "fairness": min(
+            float(lap / mean) if mean else 0.0 for lap, mean in zip(alone, means, strict=True)
+        ),
+    }
+    if group.pattern is None:
+        return figures
+    first, steady = (
+        {(wait.vertex, wait.pair) for wait in waits}
+        for waits in (group.first_waits(), group.waits())
+    )
+    shares = [float(share) for share in group.waiting_shares() if share is not None]
+    return figures | {
+        "transient": group.pattern.transient,
+        "period": group.pattern.period,
+        "first_waits": len(first),
+        "steady_waits": len(steady),
+        "common_waits": len(first & steady),
+        "waiting": sum(shares) / len(shares) if shares else None,
+    }
 
 
 class _Clock:
-    """What this process spends from now on."""
+    """The time and memory that this process spends from now on."""
 
     def __init__(self) -> None:
         self._wall, self._cpu = time.perf_counter(), _cpu_seconds()
@@ -112,7 +166,7 @@ def _cpu_seconds() -> float:
 def _peak_memory() -> int:
     """Return the most memory that this process held [bytes].
 
-    On Linux from the process itself: what ``getrusage`` tells includes the process that started it.
+    On Linux from ``/proc``: ``getrusage`` includes the process that started this one.
     """
     status = Path("/proc/self/status")
     if status.exists():

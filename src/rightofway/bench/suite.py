@@ -1,56 +1,88 @@
-"""What a benchmark is to run: maps, fleets, counts, seeds, limits, planners; read from TOML."""
+"""A suite of cases: maps, fleets, counts, seeds, limits and planners, read from TOML."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.bench.grounds import Ground, ground_of
+from rightofway.bench.fleets import Cell, largest_part, random_grid, scenario_document
 from rightofway.errors import InputError, InputFault
-from rightofway.io import scenario_of
-from rightofway.io.faults import Faults, blaming, checked
+from rightofway.io import dump_scenario, load, scenario_of
+from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, checked_format
 from rightofway.io.text import parse_toml, read_text
+from rightofway.model import Scenario
 from rightofway.model.values import written
 from rightofway.planners import find
 
 if TYPE_CHECKING:
-    from rightofway.io.suite import PlannerDocument, SuiteDocument, SuiteFleetDocument
+    from rightofway.io.suite import (
+        MapCasesDocument,
+        PlannerDocument,
+        SuiteDocument,
+        SuiteFleetDocument,
+    )
 
-__all__ = ["Contender", "Fleet", "Suite", "read_suite"]
+__all__ = [
+    "LAPS", "Case", "Contender", "FleetSpec", "MapSpec", "Suite", "cases_of",
+    "read_suite",
+]  # fmt: skip
+
+LAPS = "laps"
+"""In place of a planner: the fleet repeats its work under a rule."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Fleet:
+class MapSpec:
+    """A map of a suite with the homes and targets of its robots; needs no files any more.
+
+    Attributes
+    ----------
+    name
+        In results.
+    scen
+        The file that has the homes and targets, if any.
+    counts
+        How many robots drive there, in one case each.
+    map
+        ``{"random": …}``, ``{"grid": …}`` or ``{"scenario": …}``, as plain data.
+    ends
+        Home and target of each row; empty where they are drawn, or the scenario has them.
+    """
+
+    name: str
+    scen: str = ""
+    counts: tuple[int, ...]
+    map: Mapping[str, Any]
+    ends: tuple[tuple[Cell, Cell], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetSpec:
     """What the robots of a case are like.
 
     Attributes
     ----------
     name
         In results.
-    speeds
-        Dealt round robin, or drawn by the seed.
-    by_seed
-        Whether they are drawn.
-    work
-        Least and most work time, drawn by the seed [time unit].
-    rules
-        The rules of its scenarios, as a scenario document has them.
+    data
+        As plain data: ``speeds``, whether they are drawn ``by_seed`` or dealt round robin, least
+        and most ``work`` [time unit], and ``rules`` as a scenario document has them.
     """
 
     name: str
-    speeds: tuple[Fraction, ...] = (Fraction(1),)
-    by_seed: bool = False
-    work: tuple[int, int] = (0, 0)
-    rules: Mapping[str, Any]
+    data: Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contender:
-    """A planner by name, with a value for each of its options."""
+    """A planner by name, or `LAPS`, with a value for each of its options."""
 
     planner: str
     options: Mapping[str, Any]
@@ -58,30 +90,122 @@ class Contender:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Suite:
-    """Every combination of these is a case.
-
-    Attributes
-    ----------
-    name
-        That of its file.
-    grounds
-        Where fleets drive, each with how many robots.
-    fleets
-        What robots are like; a ground that is a whole scenario has its own.
-    seeds
-        For drawing fleets, and for planners.
-    limits
-        Time limits [s].
-    contenders
-        Planners with their options.
-    """
+    """Maps, fleets, seeds, time limits [s] and planners; every combination of them is a case."""
 
     name: str
-    grounds: tuple[Ground, ...]
-    fleets: tuple[Fleet, ...]
+    maps: tuple[MapSpec, ...]
+    fleets: tuple[FleetSpec, ...]
     seeds: tuple[int, ...]
     limits: tuple[Fraction, ...]
     contenders: tuple[Contender, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One fleet, one planner, one time limit. It needs no files, so it can go anywhere.
+
+    Attributes
+    ----------
+    map, scen, fleet
+        Names, for people.
+    robots
+        How many.
+    seed
+        For drawing the fleet, and for the planner.
+    limit
+        The time limit [s].
+    planner, options
+        The planner, or `LAPS`, with a value for each of its options.
+    problem
+        The map with the ends of the robots, as plain data; see `MapSpec`.
+    fleet_data
+        See `FleetSpec`; None if the problem is a whole scenario.
+    key
+        A hash of all this but the names: the same case has the same key in every run.
+    """
+
+    map: str
+    scen: str
+    fleet: str
+    robots: int
+    seed: int
+    limit: Fraction
+    planner: str
+    options: Mapping[str, Any]
+    problem: Mapping[str, Any] = field(repr=False)
+    fleet_data: Mapping[str, Any] | None = field(repr=False)
+    key: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        definition = [
+            self.problem, self.fleet_data, self.robots, self.seed, str(self.limit),
+            self.planner, dict(self.options),
+        ]  # fmt: skip
+        text = json.dumps(definition, sort_keys=True, separators=(",", ":"))
+        object.__setattr__(self, "key", hashlib.sha256(text.encode()).hexdigest()[:16])
+
+    @property
+    def labels(self) -> dict[str, Any]:
+        """The columns of a row that identify the case."""
+        return {
+            "key": self.key,
+            "map": self.map,
+            "scen": self.scen,
+            "fleet": self.fleet,
+            "planner": self.planner,
+            "options": " ".join(f"{name}={value}" for name, value in self.options.items()),
+            "robots": self.robots,
+            "seed": self.seed,
+            "limit": float(self.limit),
+        }
+
+    def __str__(self) -> str:
+        labels = self.labels
+        names = [labels[name] for name in ("map", "scen", "fleet") if labels[name]]
+        counts = [f"{self.robots} robots", f"seed {self.seed}", f"{float(self.limit):g} s"]
+        return ", ".join([*names, *counts, " ".join([self.planner, labels["options"]]).strip()])
+
+    def scenario(self) -> Scenario:
+        """Make the scenario."""
+        document = scenario_document(self.problem, self.fleet_data, self.robots, self.seed)
+        return scenario_of(document)
+
+
+def cases_of(suite: Suite) -> tuple[Case, ...]:
+    """Return every case of a suite, the planners of one fleet next to each other.
+
+    Raises
+    ------
+    InputError
+        If two cases are the same but for their names.
+    """
+    cases: dict[str, Case] = {}
+    for case in _combinations(suite):
+        twin = cases.setdefault(case.key, case)
+        if twin is not case:
+            message = f"two cases are the same: {case}; and {twin} (take one of them out)"
+            raise InputError.at("", message, suite.name)
+    return tuple(cases.values())
+
+
+def _combinations(suite: Suite) -> Iterator[Case]:
+    for each in suite.maps:
+        fleets: tuple[FleetSpec | None, ...] = (None,) if "scenario" in each.map else suite.fleets
+        for fleet, count in product(fleets, each.counts):
+            ends = {"ends": each.ends[:count]} if each.ends else {}
+            for seed, limit, contender in product(suite.seeds, suite.limits, suite.contenders):
+                yield Case(
+                    map=each.name,
+                    scen=each.scen,
+                    fleet=fleet.name if fleet else "",
+                    robots=count,
+                    seed=seed,
+                    limit=limit,
+                    planner=contender.planner,
+                    options=contender.options,
+                    problem={**each.map, **ends},
+                    fleet_data=fleet.data if fleet else None,
+                )
 
 
 def read_suite(path: Path | str) -> Suite:
@@ -107,8 +231,8 @@ def read_suite(path: Path | str) -> Suite:
 
 def _suite_of(document: SuiteDocument, path: Path) -> Suite:
     faults = Faults()
-    grounds = [
-        faults.attempt(f"maps[{index}]", ground_of, each, document.counts, path.parent)
+    maps = [
+        faults.attempt(f"maps[{index}]", _maps, each, document.counts, path.parent)
         for index, each in enumerate(document.maps)
     ]
     contenders = [
@@ -119,14 +243,14 @@ def _suite_of(document: SuiteDocument, path: Path) -> Suite:
         faults.attempt(f"fleets[{index}]", _fleet, each)
         for index, each in enumerate(document.fleets or ())
     ]
-    found = [ground for ground in grounds if ground]
-    _note_twins(faults, "maps", [each.name if each else None for each in grounds])
+    _note_twins(faults, "maps", [each[0].name if each else None for each in maps])
     _note_twins(faults, "fleets", [each.name if each else None for each in fleets])
     faults.stop(("maps", "planners", "fleets"))
+    default = FleetSpec(name="default", data=_fleet_data((Fraction(1),)))
     return Suite(
         name=path.stem,
-        grounds=tuple(found),
-        fleets=tuple(fleet for fleet in fleets if fleet) or (Fleet(name="default", rules={}),),
+        maps=tuple(spec for each in maps for spec in each or ()),
+        fleets=tuple(fleet for fleet in fleets if fleet) or (default,),
         seeds=tuple(document.seeds),
         limits=tuple(document.limits or (Fraction(10),)),
         contenders=tuple(each for each in contenders if each),
@@ -141,40 +265,104 @@ def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
             faults.note(f"{key}[{index}].name", message)
 
 
-def _fleet(document: SuiteFleetDocument) -> Fleet:
+def _maps(
+    document: MapCasesDocument, counts: Sequence[int] | None, base: Path
+) -> tuple[MapSpec, ...]:
+    """Read a map of a suite with each of its files; places of faults are relative to the map."""
+    if document.scenario is not None:
+        with under("scenario"):
+            scenario = load(base / document.scenario)
+        name, content = Path(document.scenario).stem, {"scenario": dump_scenario(scenario)}
+        count = len(scenario.robots)
+        return (MapSpec(name=document.name or name, counts=(count,), map=content),)
+    counts = tuple(document.counts or counts or ())
+    if not counts:
+        raise InputError.at("counts", "is missing (give it here, or for the whole suite)")
+    if document.random is not None:
+        width, height = document.random.size
+        walls, seed = document.random.walls, document.random.seed
+        room = len(largest_part(random_grid(width=width, height=height, walls=walls, seed=seed)))
+        if max(counts) > room:
+            message = f"{max(counts)} is more than the {room} cells that hang together (give fewer)"
+            raise InputError.at("counts", message)
+        name = document.name or f"random-{width}-{height}-{walls * 100:g}"
+        recipe = {"width": width, "height": height, "walls": walls, "seed": seed}
+        return (MapSpec(name=name, counts=counts, map={"random": recipe}),)
+    faults = Faults()
+    specs = [
+        faults.attempt("", _with_rows, document, index, counts, base)
+        for index in range(len(document.scens))
+    ]
+    faults.stop()
+    return tuple(spec for spec in specs if spec)
+
+
+def _with_rows(
+    document: MapCasesDocument, index: int, counts: tuple[int, ...], base: Path
+) -> MapSpec:
+    """Read a map and rows as the scenario that they are, so that its reader finds the faults."""
+    scen = document.scens[index]
+    whole = {
+        "format": SCENARIO_FORMAT,
+        "map": {"file": document.file},
+        "robots": {"scen": scen, "count": max(counts)},
+    }
+    try:
+        scenario = scenario_of(whole, base)
+    except InputError as error:
+        keys = {"map.file": "file", "robots.scen": f"scens[{index}]", "robots.count": "counts"}
+        raise InputError(
+            InputFault(keys.get(fault.place, fault.place), fault.message) for fault in error.faults
+        ) from None
+    grid = scenario.roadmap.grid
+    assert grid is not None, "or its reader would have refused the rows"
+    return MapSpec(
+        name=document.name or Path(document.file).stem,
+        scen=Path(scen).name,
+        counts=counts,
+        map={"grid": grid.lines()},
+        ends=tuple(
+            (grid.cell(robot.home), grid.cell(robot.stops[0].at)) for robot in scenario.robots
+        ),
+    )
+
+
+def _fleet(document: SuiteFleetDocument) -> FleetSpec:
     given = document.given("occupancy", "headway", "turn", "laps", "rotations")
     if document.ends is not None:
         given["return"] = document.ends
-    fleet = Fleet(
-        name=document.name,
-        speeds=tuple(document.speeds or (Fraction(1),)),
-        by_seed=document.deal == "by seed",
-        work=document.work,
-        rules={
-            key: written(value) if isinstance(value, Fraction) else value
-            for key, value in sorted(given.items())
-        },
-    )
-    _try_out(fleet)
-    return fleet
+    rules = {
+        key: written(value) if isinstance(value, Fraction) else value
+        for key, value in sorted(given.items())
+    }
+    speeds = tuple(document.speeds or (Fraction(1),))
+    _try_out(speeds, rules)
+    by_seed = document.deal == "by seed"
+    data = _fleet_data(speeds, by_seed=by_seed, work=document.work, rules=rules)
+    return FleetSpec(name=document.name, data=data)
 
 
-def _try_out(fleet: Fleet) -> None:
+def _fleet_data(
+    speeds: Sequence[Fraction],
+    *,
+    by_seed: bool = False,
+    work: tuple[int, int] = (0, 0),
+    rules: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    numbers = [written(speed) for speed in speeds]
+    return {"speeds": numbers, "by_seed": by_seed, "work": work, "rules": dict(rules or {})}
+
+
+def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
     """Have the readers of scenarios find what is wrong with rules and speeds taken together."""
     robots = [
         {"name": f"R{index}", "home": [0, index], "target": [0, index], "speed": speed}
-        for index, speed in enumerate(fleet.speeds)
+        for index, speed in enumerate(speeds)
     ]
-    grid = ["." * len(robots)]
+    grid = {"grid": ["." * len(robots)]}
+    document = {"format": SCENARIO_FORMAT, "map": grid, "robots": robots, "rules": dict(rules)}
     try:
-        scenario_of(
-            {
-                "format": SCENARIO_FORMAT,
-                "map": {"grid": grid},
-                "robots": robots,
-                "rules": dict(fleet.rules),
-            }
-        )
+        scenario_of(document)
     except InputError as error:
         first = error.faults[0]  # the robots are alike, and so are their faults
         key = first.place.removeprefix("rules.")
@@ -182,25 +370,36 @@ def _try_out(fleet: Fleet) -> None:
 
 
 def _contender(document: PlannerDocument) -> Contender:
+    # Options come as on a command line: no True, but true.
+    options = {
+        name: str(value).lower() if isinstance(value, bool) else value
+        for name, value in document.options.items()
+    }
+    if document.name == LAPS:
+        return Contender(planner=LAPS, options=_laps_options(options))
     try:
         spec = find(document.name)
-        options = spec.settle(_plain(document.options))
+        return Contender(planner=spec.name, options=spec.settle(options))
     except InputError as error:
+        # The registry knows of no document: it names the option after the planner.
+        options_of = [(fault.place.partition(" ")[2], fault.message) for fault in error.faults]
         raise InputError(
-            InputFault(_place(fault.place), fault.message) for fault in error.faults
+            InputFault(f"options.{option}" if option else "name", message)
+            for option, message in options_of
         ) from None
-    return Contender(planner=spec.name, options=options)
 
 
-def _place(place: str) -> str:
-    """Return where a suite has what the registry, which knows of no document, speaks of."""
-    _, _, option = place.partition(" ")
-    return f"options.{option}" if option else "name"
+def _laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
+    from rightofway.cyclic import ROUTES, RULES, TIMETABLE
 
-
-def _plain(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values of options as a command line would give them: no ``True``, but true."""
-    return {
-        name: str(value).lower() if isinstance(value, bool) else value
-        for name, value in options.items()
-    }
+    choices = {"rule": (*RULES, TIMETABLE), "routes": ROUTES}
+    if given.get("rule") == TIMETABLE:
+        del choices["routes"]  # a timetable is chosen together with its routes
+    for name, value in given.items():
+        if name not in choices:
+            message = f"{LAPS} has no such option here (it has {', '.join(choices)})"
+            raise InputError.at(f"options.{name}", message)
+        if value not in choices[name]:
+            message = f"{value!r} is none of them (choose {', '.join(choices[name])})"
+            raise InputError.at(f"options.{name}", message)
+    return {name: given.get(name, known[0]) for name, known in choices.items()}

@@ -35,7 +35,7 @@ __all__ = [
     "write",
 ]
 
-SECONDS_PER_VISIT = 1e-6
+SECONDS_PER_VISIT = 0.9e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
 

@@ -2,14 +2,13 @@
 
 from rightofway.cyclic.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
 from rightofway.cyclic.pattern import Pattern
-from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult
+from rightofway.cyclic.result import Comparison, CyclicResult, GroupResult, LapWait
 from rightofway.cyclic.route import ROUTES, CyclicRoute, GroupContext, cyclic_routes
 from rightofway.cyclic.rules import RULES, TIMETABLE
 from rightofway.cyclic.run import run_laps
 from rightofway.cyclic.sensitivity import ParameterEffect, parameter_effects
 from rightofway.cyclic.timetable_search import best_timetable
 from rightofway.cyclic.to_plan import excerpt, plan_of
-from rightofway.cyclic.waits import LapWait
 
 __all__ = [
     "ROUTES",

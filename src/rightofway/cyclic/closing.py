@@ -54,7 +54,7 @@ class ClosingParams:
     around: float = 1.75  # Visits this close to the seam may change [longest laps].
     fewer_laps: int = 4  # A robot makes fewer than this many laps less than it has time for.
     given_up: int = 3  # A robot gives up fewer than this many laps on each side of the seam.
-    rounds: int = 6  # Each robot that cannot wait at home searches this often, on average.
+    searches: int = 8  # Each robot searches for a way at most this often, on average.
 
 
 DEFAULT = ClosingParams()
@@ -290,7 +290,7 @@ class _SeamClosing:
         around = int(params.around * run.context.longest)
         seam = stretch.begins + stretch.period
         self._from, self._to = seam - around, seam + around
-        self._seam = problem.empty_bookings(None)
+        self._seam, self._searches = problem.empty_bookings(None), 0
         self._kept: list[_Kept] = []
         homes, laps = homes_of(run.context.routes, run.history), run.context.laps
         for robot, (lap, past, home) in enumerate(zip(laps, run.history, homes, strict=True)):
@@ -301,11 +301,9 @@ class _SeamClosing:
             self._book_kept(robot)
 
     def connect_all(self) -> bool:
-        """Let robots wait at home, or make laps where they cannot; tell whether all can."""
+        """Let robots wait at home, or make laps where they cannot; tell whether all do."""
         queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
-        for _ in range(self._params.rounds * len(queue) + len(self._kept)):
-            if not queue or self._problem.is_out_of_time:
-                break
+        while queue and self._searches < self._params.searches * len(self._kept):
             robot = queue.popleft()
             blocking = self._connect(robot, self._choices(robot))
             if blocking is None:
@@ -364,6 +362,7 @@ class _SeamClosing:
         for kept, n_through in choices:
             times = kept.begins, kept.until, kept.leave
             through = self._seam.connect(kept.lap, n_through, *times)
+            self._searches += 1
             if through is not None:
                 self._book(robot, replace(kept, through=through))
                 return None

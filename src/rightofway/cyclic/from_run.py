@@ -21,77 +21,59 @@ from rightofway.cyclic.run import advance
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.planners import Deadline
 
-__all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle", "first_come_run"]
+__all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunChoiceParams:
     """How the time is divided between simulations; shares are of the time left."""
 
-    least_share: float = 0.03  # A simulation is tried in this share, at least.
-    most_share: float = 0.15  # A simulation is tried in this share, at most.
-    laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
-    laps_before_rule: float = 1  # Robots disperse first come first served before [longest laps].
+    trying_share: float = 0.06  # Each simulation is tried.
+    dispersing_part: float = 0.3  # In this part of that, robots disperse first come first served.
     good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
-    continuing_share: float = 0.75  # The best simulation continues in this share, then is closed.
+    continuing_share: float = 0.9  # The best simulation continues in this share, then is closed.
     slices: int = 4  # The best is chosen again after each of this many parts of that.
     seam: float = 0.55  # Each robot loses this much of a lap where a stretch is closed.
-    least_laps: float = (
-        5  # The best simulation continues to this length in any case [longest laps].
-    )
-    extension_share: float = 0.5  # That may take this share.
     stretches_each: int = 2  # This many stretches of each simulation are tried to be closed.
     most_stretches: int = 4  # This many are tried to be closed in all.
-    look_every: float = 0.2  # A simulation is looked at after each such part of its time.
-    least_look: float = 0.02  # But not more often than this [s].
 
 
 DEFAULT = RunChoiceParams()
 
 
 class SimulatedRun:
-    """A simulation of a group on some routes, and its result so far.
+    """A simulation of a group on some routes, tried for a short time; and its result so far.
 
     It is simulated up to the tick ``known``, last at a pace of so many ticks per second.
     """
 
     def __init__(
-        self, problem: CyclicProblem, context: GroupContext, params: RunChoiceParams = DEFAULT
+        self,
+        problem: CyclicProblem,
+        context: GroupContext,
+        rule: str,
+        params: RunChoiceParams = DEFAULT,
     ) -> None:
-        self._problem, self._params = problem, params
-        self._simulation = CyclicSimulator(context, "first-come")
-        self._seconds = self.pace = 0.0
-        self.known = 0
-        self.result = advance(self._simulation, Deadline.after(0))
-        self._value: Fraction | None = None
-
-    def try_rule(self, rule: str) -> None:
-        """Simulate for a short time, first come first served at first."""
-        params, left = self._params, seconds_left(self._problem)
+        self._problem = problem
+        self._simulator = CyclicSimulator(context, "first-come")
+        self.known, self.pace = 0, 0.0
+        self.result = advance(self._simulator, Deadline.after(0))
+        seconds = params.trying_share * (problem.deadline.seconds_left() or 0)
         if rule != "first-come":
-            self.advance_laps(params.laps_before_rule, 0, params.most_share * left)
+            self.advance(params.dispersing_part * seconds)
+            seconds *= 1 - params.dispersing_part
             if self.result.ends == "open":
-                self._simulation.set_rule(rule)
-        self.advance_laps(params.laps_tried, params.least_share * left, params.most_share * left)
+                self._simulator.set_rule(rule)
+        self.advance(seconds)
 
     def advance(self, seconds: float) -> None:
         """Continue for some time if the end is open."""
-        if self.result.ends == "open":
+        self._value: Fraction | None = None
+        if self.result.ends == "open" and seconds > 0:
             before = self.known
-            self.result = advance(self._simulation, Deadline.after(seconds))
+            self.result = advance(self._simulator, Deadline.after(seconds))
             self.known = max(past[-1] for past in self.result.history)
-            self.pace = (self.known - before) / max(seconds, self._params.least_look)
-            self._seconds += seconds
-            self._value = None
-
-    def advance_laps(self, laps: float, least: float, most: float) -> None:
-        """Continue for some of the longest laps, in at least and at most so much time [s]."""
-        before, began, look = self.known, self._seconds, self._params.least_look
-        until, end = before + laps * self.result.context.longest, began + most
-        self.advance(least)
-        while self.result.ends == "open" and self.known < until and self._seconds < end:
-            self.advance(max(most * self._params.look_every, look))
-        self.pace = (self.known - before) / max(self._seconds - began, look)
+            self.pace = (self.known - before) / seconds
 
     @property
     def value(self) -> Fraction:
@@ -106,18 +88,6 @@ class SimulatedRun:
         return self._value
 
 
-def seconds_left(problem: CyclicProblem) -> float:
-    """Return the time left of a problem with a deadline [s]."""
-    return problem.deadline.seconds_left() or 0.0
-
-
-def first_come_run(problem: CyclicProblem) -> SimulatedRun:
-    """Simulate the group for a short time, first come first served on its usual routes."""
-    run = SimulatedRun(problem, problem.context)
-    run.try_rule("first-come")
-    return run
-
-
 def choose_runs(
     problem: CyclicProblem, baseline: SimulatedRun, params: RunChoiceParams = DEFAULT
 ) -> list[GroupResult]:
@@ -125,7 +95,7 @@ def choose_runs(
 
     The last of each robot's ways is its direct one.
     """
-    context = problem.context
+    context, deadline = problem.context, problem.deadline
     ways = zip(context.routes, problem.ways, strict=True)
     direct = GroupContext(
         scenario=context.scenario, routes=tuple(route.on(own[-1]) for route, own in ways)
@@ -133,10 +103,11 @@ def choose_runs(
     rest = iter(((direct, "least-loss"), (direct, "first-come"), (context, "least-loss")))
     tried, enough = [baseline], params.good * baseline.value
     loss = params.seam * float(problem.worth([1] * len(problem)))
+    reserve = (1 - params.continuing_share) * (deadline.seconds_left() or 0)
 
     def best() -> SimulatedRun:
         """Return the run of the largest value once it has continued at its pace and is closed."""
-        seconds = params.continuing_share * seconds_left(problem)
+        seconds = max((deadline.seconds_left() or 0) - reserve, 0)
         return max(
             tried,
             key=lambda run: float(run.value) - loss / max(run.known + run.pace * seconds, 1),
@@ -145,20 +116,19 @@ def choose_runs(
     for left in range(params.slices, 0, -1):
         run = best()
         while run.value <= enough and (another := next(rest, None)):
-            tried.append(SimulatedRun(problem, another[0], params))
-            tried[-1].try_rule(another[1])
+            tried.append(SimulatedRun(problem, *another, params))
             run = best()
-        run.advance(params.continuing_share ** (1 / left) * seconds_left(problem) / left)
-    run = best()
-    missing = params.least_laps - run.known / context.longest
-    run.advance_laps(missing, 0, params.extension_share * seconds_left(problem))
+        run.advance(max((deadline.seconds_left() or 0) - reserve, 0) / left)
     return [run.result for run in tried if all(run.result.laps_made())]
 
 
 def extract_cycle(
     problem: CyclicProblem, runs: Sequence[GroupResult], params: RunChoiceParams = DEFAULT
 ) -> Candidate | None:
-    """Return the timetable of a long stretch of a run; None if none can be closed and is fair."""
+    """Return the timetable of a long stretch of a run; None if none can be closed and is fair.
+
+    At least one closing is completed, in a bounded number of steps, even if time runs out.
+    """
     found: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
         some = stretches(problem, run)[: params.stretches_each]
@@ -168,4 +138,6 @@ def extract_cycle(
         closed = close_stretch(problem, runs[number], stretch)
         if closed is not None and problem.accepts(closed):
             return closed
+        if problem.is_out_of_time:
+            break
     return None

@@ -1,10 +1,14 @@
-"""Large neighbourhood search: remove robots of the bottleneck from a timetable, insert them again.
+"""Search for a timetable: insertion of robots and laps, then large neighbourhood search (LNS).
 
-The objective is the value of laps divided by the cycle time. A step changes the number of laps of a
-robot, or none, and takes the longest period that keeps the objective, or a shorter one. Robots of
-critical circuits are removed until the others alone can keep that period. The others get their
-earliest times in their old orders, and the removed robots are inserted among them, on any of their
-laps. So one step may reverse one right of way, or all of a robot, for whole segments at once.
+*Insertion* places one robot after another in a period, then adds laps as long as there is room. A
+robot in the way of one that finds no place is removed and placed again later. Where that comes to
+no end, the period is too short.
+
+*LNS* removes robots of the bottleneck and inserts them again. The objective is the value of laps
+divided by the cycle time. A step changes the number of laps of a robot, or none, and takes the
+longest period that keeps the objective, or a shorter one. Robots of critical circuits are removed
+until the others alone can keep that period. The others get their earliest times in their old
+orders, and the removed robots are inserted among them, on any of their laps.
 
 References
 ----------
@@ -13,21 +17,119 @@ CP 1998 (large neighbourhood search).
 
 Notes
 -----
-Never worse than the timetable it starts from. Anytime; deterministic for a seed if the steps end
-before the time does. Not optimal.
+LNS is never worse than the timetable it starts from. Anytime; deterministic for a seed if the steps
+end before the time does. Not optimal.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from heapq import heapify, heappop, heappush
 
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
+from rightofway.errors import GaveUp
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unrolled
 from rightofway.search import PeriodicBookings
 
-__all__ = ["LnsParams", "improve", "insert_laps"]
+__all__ = ["InsertionParams", "LnsParams", "fill", "improve", "insert_all"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InsertionParams:
+    """When a period is given up as too short, and by how much the next one is longer."""
+
+    placements_per_robot: int = 6  # After more, on average, the period counts as too short.
+    growth: Fraction = Fraction(5, 4)  # The next period is longer by this factor.
+    longest: int = 2  # No longer period is tried [sums of all laps].
+
+
+def insert_all(
+    problem: CyclicProblem,
+    period: int,
+    *,
+    filling: CyclicProblem,
+    params: InsertionParams = InsertionParams(),
+) -> Candidate:
+    """Return a timetable with at least this period in which each robot makes at least one lap.
+
+    ``filling`` is the same problem with the deadline for more laps. Raises `GaveUp` if no timetable
+    was found, or time ran out.
+    """
+    period = max(period, *problem.alone)
+    while period <= params.longest * sum(problem.alone):
+        placed = _placed(problem, period, params)
+        if placed is not None:
+            return fill(filling, *placed)
+        period = period * params.growth.numerator // params.growth.denominator + 1
+    raise GaveUp("no timetable was found in which all robots have a place")
+
+
+def _placed(
+    problem: CyclicProblem, period: int, params: InsertionParams
+) -> tuple[PeriodicBookings, list[RobotCycle]] | None:
+    """Give every robot one lap in the period; None if the period is too short."""
+    bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
+    queue = deque(sorted(range(len(problem)), key=lambda robot: -problem.alone[robot]))
+    for _ in range(params.placements_per_robot * len(problem)):
+        if not queue:
+            break
+        problem.deadline.check("finding every robot a place")
+        robot = queue.popleft()
+        cycle = problem.place(bookings, robot, 1)
+        while cycle is None:
+            lap = problem.draw.choice(problem.ways[robot])
+            bookings.search(lap, 1, problem.draw.randrange(int(bookings.period)))
+            near = sorted(bookings.users([bookings.stuck_at(lap)]) & cycles.keys())
+            near = near or sorted(bookings.users(lap.vertices))
+            if not near:
+                return None
+            removed = problem.draw.choice(near)
+            bookings.remove(removed)
+            del cycles[removed]
+            queue.append(removed)
+            cycle = problem.place(bookings, robot, 1, tries=1)
+        bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
+        cycles[robot] = cycle
+    return None if queue else (bookings, [cycles[robot] for robot in range(len(problem))])
+
+
+def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotCycle]) -> Candidate:
+    """Add laps as long as there is room, first for the robot that drives least."""
+    turns = [
+        (cycle.count * alone, robot)
+        for robot, (cycle, alone) in enumerate(zip(cycles, problem.alone, strict=True))
+    ]
+    heapify(turns)
+    while turns and not problem.is_out_of_time:
+        _, robot = heappop(turns)
+        before, alone = cycles[robot].count, problem.alone[robot]
+        if (before + 1) * alone > bookings.period:
+            continue
+        bookings.remove(robot)
+        cycles[robot] = cycle = _more_laps(problem, bookings, robot, cycles[robot]) or cycles[robot]
+        bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
+        if cycle.count > before:
+            heappush(turns, (cycle.count * alone, robot))
+    return problem.candidate(problem.timetable(cycles, int(bookings.period)))
+
+
+def _more_laps(
+    problem: CyclicProblem, bookings: PeriodicBookings, robot: int, cycle: RobotCycle
+) -> RobotCycle | None:
+    """Find room for half as many laps again, or for one more; on the same lap, or on any."""
+    most = int(bookings.period) // problem.alone[robot]
+    many = min(cycle.count + max(cycle.count // 2, 1), most)
+    for count in dict.fromkeys((many, cycle.count + 1)):
+        more = problem.place(bookings, robot, count, lap=cycle.lap)
+        if more is not None:
+            return more
+    if not problem.round_trips and len(problem.ways[robot]) == 1:
+        return None
+    return problem.place(bookings, robot, cycle.count + 1, tries=1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

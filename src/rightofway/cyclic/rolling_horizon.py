@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from typing import Literal
 
@@ -43,13 +42,8 @@ def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 
     return 0 if graph.enter(graph.visit(j, segment.j_first)) < i_enters else 1
 
 
-@dataclass(frozen=True, slots=True)
-class _Checkpoint:
-    """What is needed to return to a cut."""
-
-    tick: int
-    lengths: tuple[int, ...]
-    decisions: tuple[Decision, ...]
+_Checkpoint = tuple[int, tuple[int, ...], tuple[Decision, ...]]
+"""The tick of a cut, how many visits of each robot began by then, and the open decisions."""
 
 
 class RollingHorizon:
@@ -108,7 +102,7 @@ class RollingHorizon:
             beyond = (decision.beyond(window) for decision in self._decisions)
             self._decisions = tuple(decision for decision in beyond if decision.rights)
             lengths = tuple(len(past) for past in self.history)
-            self._checkpoints.append(_Checkpoint(self._prefix.tick, lengths, self._decisions))
+            self._checkpoints.append((self._prefix.tick, lengths, self._decisions))
             if not in_trouble:
                 earlier = self._seen.setdefault(self._state(window), self._prefix.tick)
                 if earlier < self._prefix.tick:
@@ -141,14 +135,13 @@ class RollingHorizon:
             return False
         self._trouble = max(self._trouble, self._prefix.tick + 1)
         for _ in range(min(self._taken_back, len(self._checkpoints))):
-            checkpoint = self._checkpoints.pop()
-        for past, length in zip(self.history, checkpoint.lengths, strict=True):
+            cut, lengths, self._decisions = self._checkpoints.pop()
+        for past, length in zip(self.history, lengths, strict=True):
             del past[length:]
-        self._prefix = FrozenPrefix(checkpoint.tick, self.history)
-        self._decisions = checkpoint.decisions
+        self._prefix = FrozenPrefix(cut, self.history)
         self._lag *= 2
         self._taken_back *= 2
-        self._seen = {s: tick for s, tick in self._seen.items() if tick <= checkpoint.tick}
+        self._seen = {s: tick for s, tick in self._seen.items() if tick <= cut}
         return True
 
     def _advance_to_next_cut(self, window: Window) -> None:
@@ -189,7 +182,7 @@ class RollingHorizon:
         enter = {
             robot: window.graph.enter(window.visit(robot, self._next_home(robot)))
             for robot in range(len(self.context))
-            if window.holds(robot, self._next_home(robot))
+            if self._next_home(robot) - window.starts[robot] < len(window.routes[robot]) - 1
         }
         self._pacemaker = min(enter, key=lambda robot: (enter[robot], robot))
         self._seen.clear()
@@ -216,7 +209,10 @@ class RollingHorizon:
 
     def _freeze(self, window: Window, search: RightOfWaySearch) -> None:
         tick = window.begins + window.graph.enter(self._home_in(window))
-        for past, start, enter in zip(self.history, window.starts, window.enters(), strict=True):
+        for past, start, track in zip(
+            self.history, window.starts, window.graph.tracks(), strict=True
+        ):
+            enter = track.enter[:-1] + window.begins
             end = int(np.searchsorted(enter, tick, "right"))
             past.extend(enter[len(past) - start : end].tolist())
         self._prefix = FrozenPrefix(tick, self.history)

@@ -73,12 +73,6 @@ class CyclicRoute:
         """Return the least time from the enter of a visit to the enter of the next one [ticks]."""
         return self.lap.least(visit % len(self.lap)) if visit else self.first_least
 
-    def leasts(self, visits: range) -> NDArray[np.int64]:
-        """Return `least` of consecutive visits [ticks]."""
-        numbers = np.arange(visits.start, visits.stop)
-        least = np.diff(np.array(self._within, np.int64))[numbers % len(self.lap)]
-        return np.where(numbers > 0, least, self.first_least)
-
     def undelayed(self, visits: range) -> NDArray[np.int64]:
         """Return the enters of visits of a robot that never waits [ticks]."""
         within, length = np.array(self._within, np.int64), len(self.lap)

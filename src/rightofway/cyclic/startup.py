@@ -45,14 +45,11 @@ def start(
 
     def visits_while_waiting(begins: int) -> int:
         """Return how many visits others make to homes whose robots still wait there."""
-        return sum(
-            int(
-                np.count_nonzero(
-                    (ticks - begins) % period < _first_home(timetable, robot, begins)[1]
-                )
-            )
-            for robot, ticks in passes.items()
-        )
+        found = 0
+        for robot, enter in passes.items():
+            waits = _first_home(timetable, robot, begins)[1]
+            found += int(np.count_nonzero((enter - begins) % period < waits))
+        return found
 
     considered = ticks[:: -(-len(ticks) // most_begins)]
     begins = min(considered, key=lambda tick: (visits_while_waiting(tick), tick))

@@ -12,9 +12,8 @@ import numpy as np
 
 from rightofway.cyclic.closing import closed_windows
 from rightofway.cyclic.from_plan import one_lap, repeated_plan
-from rightofway.cyclic.from_run import choose_runs, extract_cycle, first_come_run
-from rightofway.cyclic.insertion import fill, insert_all
-from rightofway.cyclic.lns import improve
+from rightofway.cyclic.from_run import SimulatedRun, choose_runs, extract_cycle
+from rightofway.cyclic.lns import fill, improve, insert_all
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.result import BaselineEnds, Comparison, CyclicResult, GroupResult
 from rightofway.cyclic.route import (
@@ -121,8 +120,7 @@ def best_timetable(
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
-    time_limit = checked_time_limit(time_limit)
-    params = ChoiceParams()
+    deadline, params = Deadline.after(checked_time_limit(time_limit)), ChoiceParams()
     if n_robots > params.large:
         usual, others = clear_and_direct(scenario)
     else:
@@ -134,14 +132,14 @@ def best_timetable(
         forbidden=frozenset(),
         weights=tuple(weights or [Fraction(1)] * n_robots),
         least_fairness=least_fairness,
-        deadline=Deadline.after(time_limit),
+        deadline=deadline,
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
     found: list[GroupResult] = []
     groups = independent_groups(usual)
     for partition in (groups, [usual]):  # at last with the vertices of other groups
         try:
-            found = _by_groups(fleet, partition, rounds, seed, report or (lambda _: None), params)
+            found = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
             break
         except GaveUp:
             if len(partition) == 1:
@@ -152,10 +150,11 @@ def best_timetable(
 def _by_groups(
     fleet: CyclicProblem,
     groups: Sequence[Sequence[CyclicRoute]],
+    params: ChoiceParams,
+    *,
     rounds: int | None,
     seed: int,
-    report: Callable[[str], None],
-    params: ChoiceParams,
+    report: Callable[[str], None] | None,
 ) -> list[GroupResult]:
     """Choose a timetable for each group, small ones first, none through vertices of another."""
     taken = {vertex for lap in fleet.context.laps for vertex in lap.vertices}
@@ -163,7 +162,8 @@ def _by_groups(
     left = len(fleet)
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
-        report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
+        if report is not None:
+            report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
         taken -= {vertex for route in group for vertex in route.lap.vertices}
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
         problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
@@ -211,6 +211,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         return _started(problem, alone, "repeats", problem.value(alone))
     if len(problem) > params.large and (closed := _closed_run(problem)):
         return closed
+    problem.deadline.check("closing a stretch of a simulation")
     baseline = _simulated(problem, "first-come", params.baseline_share)
     ends, worth = _baseline(problem, baseline)
     pattern = _fair_pattern(problem, baseline)
@@ -241,7 +242,7 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     """Return a long stretch of a simulation, or the baseline's pattern if that is better."""
     if problem.deadline.at is None:
         return None
-    baseline = first_come_run(problem)
+    baseline = SimulatedRun(problem, problem.context, "first-come")
     found = extract_cycle(problem, choose_runs(problem, baseline))
     fair = [one for one in (found, _fair_pattern(problem, baseline.result)) if one is not None]
     if not fair:

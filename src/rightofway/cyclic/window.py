@@ -83,10 +83,6 @@ class Window:
         """Return the node of a robot's visit in the graph."""
         return self.graph.visit(robot, number - self.starts[robot])
 
-    def holds(self, robot: int, number: int) -> bool:
-        """Tell whether the window reaches as far as a visit."""
-        return number - self.starts[robot] < len(self.routes[robot]) - 1
-
     def number(self, visit: int) -> tuple[int, int]:
         """Return the robot and the number of a visit of the graph."""
         robot, index = self.graph.place(visit)
@@ -95,10 +91,6 @@ class Window:
     def is_past(self, robot: int, number: int) -> bool:
         """Tell whether a visit began by the cut."""
         return number < len(self.prefix.history[robot])
-
-    def enters(self) -> list[NDArray[np.int64]]:
-        """Return the enters of each robot's visits in the window [ticks]."""
-        return [track.enter[:-1] + self.begins for track in self.graph.tracks()]
 
     def ends(self) -> NDArray[np.int64]:
         """Return when each robot leaves the window [ticks]."""

@@ -287,9 +287,11 @@ def _spliced_route(old: Route, new: Route, one: Commitment, begins: int) -> Rout
         dwell = (*old.dwell[: here + 1], new.dwell[begins])
     shift = len(vertices) - 1 - begins
     to_come = new.serves[len(new.serves) - len(one.left) :]
+    serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
+    serves[-1] = len(new) - 1 + shift  # robots that are done may move aside, and come back to end
     return Route(
         vertices=(*vertices, *new.vertices[begins + 1 :]),
         dwell=(*dwell, *new.dwell[begins + 1 :]),
         drive=(*drive, *new.drive[begins + 1 :]),
-        serves=(*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)),
+        serves=tuple(serves),
     )

@@ -97,9 +97,9 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     Returns
     -------
     Draft or None
-        None if no plan was found; that proves nothing.
+        None if no plan was found, or no time is left; that proves nothing.
     """
-    if len(task.scenario.robots) > MOST_ROBOTS:
+    if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     searches, deadline = SEARCHES * len(turns), task.deadline
@@ -127,6 +127,8 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
+    if task.deadline.seconds_left() == 0:
+        return None
     paced = _paced(task.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
     search = FleetSearch(paced, headway=paced.problem.headway, seed=task.seed, threads=1)

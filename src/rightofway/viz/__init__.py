@@ -1,7 +1,7 @@
-"""Plans for the eye: a page that plays them, a picture, a film, tables.
+"""Views of a plan: a page that plays it, a picture, a film, tables.
 
-The colours are in `palette`, where vertices are drawn in `plane`, who is where in `motion`; page
-and pictures share the three. What draws is imported when it is first used.
+Page and pictures share `palette` (colours), `placement` (where vertices are drawn) and `motion`
+(what each robot does at an instant). Page and pictures are imported when they are first used.
 """
 
 from __future__ import annotations
@@ -10,13 +10,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rightofway.viz.notebook import frame_of
-    from rightofway.viz.page import page_of, payload_of, write_page
+    from rightofway.viz.page import frame_of, page_of, payload_of, write_page
     from rightofway.viz.raster import Film, write_gif, write_png
 
 _LATER = {
     "Film": "raster",
-    "frame_of": "notebook",
+    "frame_of": "page",
     "page_of": "page",
     "payload_of": "page",
     "write_gif": "raster",

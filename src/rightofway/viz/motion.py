@@ -1,7 +1,7 @@
-"""Who is where and what do they do, at any instant of a plan, for the eye.
+"""What each robot does at any instant of a plan, and between which vertices it is drawn.
 
-A robot stays at *u* for the edge's ticks and then, at one instant, is at *w*. For the eye it drives
-along the edge during those ticks: a visit is work, turning, waiting, and at last the drive.
+A robot stays at *u* for the edge's ticks and then, at one instant, is at *w*. It is drawn on the
+edge during those ticks: a visit is work, turning, waiting, and at last the drive.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from rightofway.model import Itinerary, Plan, Stage, Stays, Track, stays_of
+from rightofway.model import NEVER, Plan, Stage, stays_of
 
 __all__ = ["Activity", "Moment", "Trip", "end_of", "trips_of"]
 
@@ -83,48 +83,52 @@ class Trip:
 
     def phases(self, visit: int) -> Iterator[tuple[int, int, Activity]]:
         """Yield (begin, end, activity) of a visit, in order, without empty ones."""
-        last = visit == len(self.vertices) - 1
-        now = self.enter[visit]
-        leave = None if last else self.enter[visit + 1]
-        go = None if leave is None else max(leave - self.drive[visit + 1], now)
-        for length, activity in self._duties(visit, last=last):
-            end = now + length if go is None else min(now + length, go)
+        now, last = self.enter[visit], visit == len(self.vertices) - 1
+        leave = NEVER if last else self.enter[visit + 1]
+        departure = NEVER if last else max(leave - self.drive[visit + 1], now)
+        served = (stage for stage, at in zip(self.stages, self.served, strict=True) if at == visit)
+        duties = [
+            (ticks, activity)
+            for stage in served
+            for ticks, activity in ((stage.work, Activity.WORK), (stage.turn, Activity.TURN))
+            if not (last and activity is Activity.TURN)
+        ]
+        for ticks, activity in duties:
+            end = min(now + ticks, departure)
             if end > now:
                 yield now, end, activity
             now = end
-        if go is not None and leave is not None:
-            yield from (
-                phase
-                for phase in ((now, go, Activity.WAIT), (go, leave, Activity.DRIVE))
-                if phase[1] > phase[0]
-            )
+        if not last and departure > now:
+            yield now, departure, Activity.WAIT
+        if not last and leave > departure:
+            yield departure, leave, Activity.DRIVE
 
-    def _duties(self, visit: int, *, last: bool) -> Iterator[tuple[int, Activity]]:
-        for stage, served in zip(self.stages, self.served, strict=True):
-            if served == visit:
-                yield stage.work, Activity.WORK
-                yield (0 if last else stage.turn), Activity.TURN
+    def all_phases(self) -> Iterator[tuple[int, int, int, Activity]]:
+        """Yield (visit, begin, end, activity) of the whole trip, in order."""
+        for visit in range(len(self.vertices)):
+            for begin, end, activity in self.phases(visit):
+                yield visit, begin, end, activity
 
 
 def trips_of(plan: Plan) -> tuple[Trip, ...]:
     """Return the trip of each robot."""
-    stays = stays_of(plan.scenario, plan.tracks)
+    trips = []
+    stays_of_all = stays_of(plan.scenario, plan.tracks)
     itineraries = plan.scenario.problem.itineraries
-    return tuple(map(_trip, plan.tracks, stays, itineraries))
+    for track, stays, itinerary in zip(plan.tracks, stays_of_all, itineraries, strict=True):
+        missed = len(itinerary.stages) - len(stays.serves)
+        trip = Trip(
+            vertices=tuple(track.vertices.tolist()),
+            enter=tuple(track.enter.tolist()),
+            drive=(0, *stays.drive[:-1].tolist()),
+            stages=itinerary.stages,
+            served=(*stays.serves, *[-1] * missed),
+        )
+        trips.append(trip)
+    return tuple(trips)
 
 
 def end_of(trips: Sequence[Trip]) -> int:
     """Return the tick from which on nothing happens any more."""
     ends = (end for trip in trips for _, end, _ in trip.phases(len(trip.vertices) - 1))
     return max([*(trip.enter[-1] for trip in trips), *ends])
-
-
-def _trip(track: Track, stays: Stays, itinerary: Itinerary) -> Trip:
-    unserved = len(itinerary.stages) - len(stays.serves)
-    return Trip(
-        vertices=tuple(track.vertices.tolist()),
-        enter=tuple(track.enter.tolist()),
-        drive=(0, *stays.drive[:-1].tolist()),
-        stages=itinerary.stages,
-        served=(*stays.serves, *[-1] * unserved),
-    )

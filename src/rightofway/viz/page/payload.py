@@ -1,4 +1,4 @@
-"""What the page is told about a plan, small enough for a thousand robots.
+"""The plan as the page reads it, small enough for a thousand robots.
 
 Long lists of integers are written as first differences (``[3, 4, 6]`` as ``[3, 1, 2]``): along a
 route these are small and repeat, so the file is a fraction of the size. ``plan.js`` reads all this.
@@ -6,34 +6,38 @@ route these are small and repeat, so the file is a fraction of the size. ``plan.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from fractions import Fraction
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rightofway.metrics import Metrics, measure, waits
+from rightofway.errors import InputError
+from rightofway.metrics import Metrics, Wait, measure, waits
+from rightofway.metrics.waits import waits_in
 from rightofway.model import (
     Decision,
     ExecutionTrace,
-    Itinerary,
     Plan,
-    Reroute,
     Roadmap,
+    Stays,
     SteadyState,
+    Tick,
+    Track,
 )
+from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
-from rightofway.viz.ordering import vertices_in_line
-from rightofway.viz.page.figures import differences, wait_row
-from rightofway.viz.page.on_floor import floor_of
-from rightofway.viz.page.repeats import laps_of, last_tick_of_all, steady_of
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.plane import plane_of
+from rightofway.viz.placement import plane_of, vertices_in_line
 
 __all__ = ["payload_of"]
 
+Stoppages = Sequence[tuple[Tick, Tick | None]]
+"""When each stoppage of a robot begins, and how long it lasts [ticks]."""
+
 DECIMALS = 3
-"""Places kept of a position; a thousandth of a cell cannot be seen."""
+"""Decimals of a position; a thousandth of a cell cannot be seen."""
 
 
 def payload_of(
@@ -46,9 +50,9 @@ def payload_of(
     plan
         The plan; times in the result are ticks.
     steady
-        Where it repeats itself, if the plan does not say it.
+        Where the plan repeats itself, unless it says so itself.
     actual
-        What became of it on the floor.
+        An execution of the plan.
 
     Raises
     ------
@@ -58,38 +62,35 @@ def payload_of(
     trips = trips_of(plan)
     payload, steady = _plan(plan, trips), steady or plan.steady
     if steady:
-        payload["steady"] = steady_of(plan, steady)
-        payload["laps"] = laps_of(plan)
+        payload["steady"] = _steady(plan, steady)
+        payload["laps"] = [robot.laps or plan.scenario.rules.laps for robot in plan.scenario.robots]
     if steady and actual is None:
-        payload["end"] = last_tick_of_all(trips, payload["steady"])
+        payload["end"] = _last_tick_of_all(trips, payload["steady"])
     if actual is not None:
-        payload["floor"] = floor_of(plan, actual, trips)
+        payload["floor"] = _execution(plan, actual, trips)
     return payload
 
 
 def _plan(plan: Plan, trips: Sequence[Trip]) -> dict[str, Any]:
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
+    tick = scenario.problem.clock.tick
     return {
-        "tick": _pair(scenario.problem.clock.tick),
+        "tick": [tick.numerator, tick.denominator],
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
         "line": vertices_in_line([trip.vertices for trip in trips]),
         "robots": _robots(plan, trips, metrics),
-        "waits": [wait_row(wait) for wait in waits(plan)],
+        "waits": [_wait(wait) for wait in waits(plan)],
         "planner": {"name": run.name, "status": run.status},
         "decisions": [_decision(decision) for decision in run.decisions],
-        "reroutes": [_reroute(reroute) for reroute in run.reroutes],
-        "metrics": _figures(metrics),
-    }
-
-
-def _figures(metrics: Metrics) -> dict[str, int]:
-    return {
-        "flowtime": metrics.flowtime,
-        "makespan": metrics.makespan,
-        "lowerBound": metrics.lower_bound,
+        "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
+        "metrics": {
+            "flowtime": metrics.flowtime,
+            "makespan": metrics.makespan,
+            "lowerBound": metrics.lower_bound,
+        },
     }
 
 
@@ -103,13 +104,13 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
         **size,
         "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
         "points": np.round(plane.points, DECIMALS).ravel().tolist(),
-        "tails": differences(tails.tolist()),
-        "heads": differences(roadmap.heads.tolist()),
+        "tails": _differences(tails.tolist()),
+        "heads": _differences(roadmap.heads.tolist()),
     }
 
 
 def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[str, Any]]:
-    itineraries = plan.scenario.problem.itineraries
+    edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
     colours = robot_colours(len(trips))
     return [
         {
@@ -118,31 +119,18 @@ def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[st
             "speed": str(robot.speed),
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
-            **_trip(trips[index], itineraries[index]),
-            **({} if min(trips[index].served) >= 0 else {"stands": True}),
+            "vertices": _differences(trip.vertices),
+            "enter": _differences(trip.enter),
+            "drive": edges[0] if len(edges) == 1 else list(trip.drive),
+            "stages": [
+                [stage.vertex, stage.work, stage.turn, visit]
+                for stage, visit in zip(trip.stages, trip.served, strict=True)
+            ],
+            **({} if min(trip.served) >= 0 else {"stands": True}),
         }
-        for index, robot in enumerate(plan.scenario.robots)
-    ]
-
-
-def _trip(trip: Trip, itinerary: Itinerary) -> dict[str, Any]:
-    return {
-        "vertices": differences(trip.vertices),
-        "enter": differences(trip.enter),
-        "drive": _drive(trip, itinerary),
-        "stages": _stages(trip),
-    }
-
-
-def _drive(trip: Trip, itinerary: Itinerary) -> int | list[int]:
-    """Return the ticks into each visit, or one number where all edges are of one length."""
-    return itinerary.edge_ticks[0] if len(itinerary.edge_ticks) == 1 else list(trip.drive)
-
-
-def _stages(trip: Trip) -> list[list[int]]:
-    return [
-        [stage.vertex, stage.work, stage.turn, visit]
-        for stage, visit in zip(trip.stages, trip.served, strict=True)
+        for index, (robot, trip, edges) in enumerate(
+            zip(plan.scenario.robots, trips, edge_ticks, strict=True)
+        )
     ]
 
 
@@ -161,9 +149,119 @@ def _decision(decision: Decision) -> dict[str, Any]:
     }
 
 
-def _reroute(reroute: Reroute) -> dict[str, Any]:
-    return {"robot": reroute.robot, "because": reroute.because}
+def _steady(plan: Plan, steady: Sequence[SteadyState]) -> list[dict[str, Any]]:
+    names = [robot.name for robot in plan.scenario.robots]
+    refuse_unknown_robots(steady, names, list(map(len, plan.tracks)))
+    return [
+        {
+            "robots": list(group.robots),
+            "start": group.start,
+            "period": group.period,
+            "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
+            "critical": [list(visit) for visit in group.critical],
+        }
+        for group in steady
+    ]
 
 
-def _pair(fraction: Fraction) -> list[int]:
-    return [fraction.numerator, fraction.denominator]
+def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[dict[str, Any]]) -> int:
+    """Return the tick at which the first robot ends its laps; robots that stand still have none."""
+    untils = {robot: group["until"] for group in groups for robot in group["robots"]}
+    ends: list[int] = [
+        untils.get(robot, trip.enter[-1])
+        for robot, trip in enumerate(trips)
+        if robot in untils or min(trip.served) >= 0
+    ]
+    return max(1, min(ends))
+
+
+def _until(group: SteadyState, track: Track) -> int:
+    """Return the tick up to which a robot does what it did a period before.
+
+    The first visit that is missing or begins at another tick ends the repetition at the visit
+    before.
+    """
+    first, again = np.searchsorted(track.enter, (group.start, group.start + group.period), "right")
+    shift = int(again - first)
+    if shift == 0 or track.vertices[again - 1] != track.vertices[first - 1]:
+        return group.start
+    before, after = slice(first, len(track) - shift), slice(again, None)
+    same = (track.enter[after] - track.enter[before] == group.period) & (
+        track.vertices[after] == track.vertices[before]
+    )
+    repeated = len(same) if same.all() else int(np.argmin(same))
+    return int(track.enter[again - 1 + repeated])
+
+
+def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dict[str, Any]:
+    if len(actual.tracks) != len(plan.tracks):
+        counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
+        raise InputError.at("actual.tracks", f"{counts} (give one for each)")
+    still = actual.stoppages or ((),) * len(trips)
+    stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
+    driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))
+    return {
+        "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
+        "robots": [
+            {
+                **_executed_route(planned, taken, dwell),
+                "enter": _differences(taken.enter),
+                "drive": drive.tolist(),
+                "still": [list(stoppage) for stoppage in stoppages],
+                "completion": completion,
+            }
+            for planned, taken, dwell, drive, stoppages, completion in zip(
+                trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
+            )
+        ],
+        "waits": [_wait(wait) for wait in waits_in(plan.scenario, actual.tracks, stays)],
+    }
+
+
+def _executed_route(planned: Trip, taken: Trip, dwell: NDArray[np.int64]) -> dict[str, Any]:
+    """Return the stages of a robot's route, and its vertices where they are not the plan's."""
+    if taken.vertices == planned.vertices[: len(taken.vertices)]:
+        return {"stages": _executed_stages(planned, dwell)}
+    return {"stages": _executed_stages(taken, dwell), "vertices": _differences(taken.vertices)}
+
+
+def _executed_stays(
+    track: Track, dwell: NDArray[np.int64], drive: NDArray[np.int64], still: Stoppages
+) -> Stays:
+    """Return the parts of each visit; a stoppage counts as dwell, not as a wait."""
+    out = np.append(drive[1:], 0)
+    stood = dwell.copy()
+    for begin, ticks in still:
+        if ticks is not None:
+            inside: NDArray[np.int64] = np.clip(track.enter, begin, begin + ticks)
+            stood[:-1] += np.diff(inside)
+    waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
+    waits[-1] = 0
+    completion = Tick(int(track.enter[-1] + dwell[-1]))
+    return Stays(dwell=stood, drive=out, waits=waits, serves=(), completion=completion)
+
+
+def _executed_stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
+    """Return the stages; each takes its share of the executed duration of its visit."""
+    reached, last = len(dwell), len(trip.vertices) - 1
+    planned = np.zeros(reached, np.int64)
+    for stage, visit in zip(trip.stages, trip.served, strict=True):
+        if 0 <= visit < reached:
+            planned[visit] += stage.work + (stage.turn if visit < last else 0)
+    pace = [ticks / least if least else 1 for ticks, least in zip(dwell, planned, strict=True)]
+    return [
+        [stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit]
+        if 0 <= visit < reached
+        else [stage.vertex, stage.work, stage.turn, -1]
+        for stage, visit in zip(trip.stages, trip.served, strict=True)
+    ]
+
+
+def _differences(numbers: Iterable[int]) -> list[int]:
+    """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
+    found: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
+    return found
+
+
+def _wait(wait: Wait) -> list[int | None]:
+    return [wait.robot, wait.vertex, wait.tick, wait.ticks, wait.towards, wait.for_robot]

@@ -1,9 +1,12 @@
-"""A plan as one picture, for papers and slides."""
+"""A plan as one picture for papers and slides, and as a film that every browser and chat plays."""
 
 from __future__ import annotations
 
 import io
 import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 
 from PIL import Image
 
@@ -11,19 +14,22 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
 from rightofway.viz.palette import LIGHT, Theme
+from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.diagram import Diagram
-from rightofway.viz.raster.ground import draw_ground
-from rightofway.viz.raster.pen import Pen
-from rightofway.viz.raster.robots import draw_robots
-from rightofway.viz.raster.scene import Scene
+from rightofway.viz.raster.map import draw_ground, draw_robots
 
-__all__ = ["draw_picture", "write_png"]
+__all__ = ["Film", "write_gif", "write_png"]
 
 MARGIN = 24
-FINENESS = 3
-PLEASANT_WIDTH = 1400
-LEAST_DIAGRAM_WIDTH = 720
 MOST_PIXELS = 60_000_000
+
+PICTURE_WIDTH, LARGEST_CELL, PICTURE_FINENESS = 1400, 110, 3
+LEAST_DIAGRAM_WIDTH = 720
+
+FILM_WIDTH, LARGEST_FILM_CELL, FILM_FINENESS = 800, 64, 2
+FRAME_MILLISECONDS, LAST_MILLISECONDS = 50, 1500
+FRAMES_PER_TICK = 8
+"""At most: more cannot be told apart."""
 
 
 def write_png(
@@ -60,53 +66,131 @@ def write_png(
     """
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
-    content = io.BytesIO()
-    scene = Scene(plan=plan, theme=theme)
-    draw_picture(scene, tick, scale=scale, diagram=diagram).save(content, "png", optimize=True)
-    write_whole(path, content.getvalue())
-
-
-def draw_picture(
-    scene: Scene, tick: int | None, *, scale: float | None, diagram: bool
-) -> Image.Image:
-    """Return the picture that `write_png` writes."""
-    scale = fitting_scale(scene, PLEASANT_WIDTH, 110) if scale is None else scale
-    map_size = map_size_of(scene, scale)
-    below = Diagram(scene) if diagram else None
-    width = max(map_size[0], LEAST_DIAGRAM_WIDTH if below else 0)
-    height = map_size[1] + (round(below.height) if below else 0)
-    image = blank(scene, (width, height), FINENESS)
-    left = (width - map_size[0]) / 2 + MARGIN + scale / 2
-    pen = Pen(image, origin=(left, MARGIN + scale / 2), scale=scale, fineness=FINENESS)
+    scene, fineness = Scene(plan, theme), PICTURE_FINENESS
+    scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL) if scale is None else scale
+    map_width, map_height = _map_size(scene, scale)
+    width = max(map_width, LEAST_DIAGRAM_WIDTH if diagram else 0)
+    below = Diagram(scene, width) if diagram else None
+    image = _blank(scene, (width, map_height + (round(below.height) if below else 0)), fineness)
+    left = (width - map_width) / 2 + MARGIN + scale / 2
+    pen = Pen(image, origin=(left, MARGIN + scale / 2), scale=scale, fineness=fineness)
     draw_ground(pen, scene, routes=True)
     draw_robots(pen, scene, tick or 0)
     if below:
-        below.draw(Pen(image, origin=(0, map_size[1]), scale=1, fineness=FINENESS), width, tick)
-    return image.reduce(FINENESS)
+        below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
+    content = io.BytesIO()
+    image.reduce(fineness).save(content, "png", optimize=True)
+    write_whole(path, content.getvalue())
 
 
-def fitting_scale(scene: Scene, width: int, largest: float) -> float:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Film:
+    """How a film was cut.
+
+    Attributes
+    ----------
+    frames
+        How many pictures it has.
+    ticks_per_frame
+        How far apart in the plan they are [ticks].
+    seconds
+        How long it plays [s].
+    """
+
+    frames: int
+    ticks_per_frame: Fraction
+    seconds: float
+
+
+def write_gif(
+    plan: Plan,
+    path: str | os.PathLike[str],
+    *,
+    max_frames: int = 240,
+    scale: float | None = None,
+    theme: Theme = LIGHT,
+) -> Film:
+    """Write a plan as an animated GIF.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    path
+        Where, usually ``….gif``; the file is there whole or not at all.
+    max_frames
+        The most pictures. A long plan plays faster instead of becoming a large file.
+    scale
+        Pixels for a cell. None chooses so that the film is as wide as a column of text.
+    theme
+        Colours of everything but the robots.
+
+    Returns
+    -------
+    Film
+        How many pictures were made, and how far apart.
+
+    Raises
+    ------
+    InputError
+        For fewer than two frames, a scale that makes pictures empty or too large to draw, or a file
+        that cannot be written.
+    """
+    if max_frames <= 1:
+        raise InputError.at("max_frames", f"{max_frames} is less than a film (give 2 or more)")
+    scene = Scene(plan, theme)
+    frames = min(FRAMES_PER_TICK * scene.end + 1, max_frames)
+    step = Fraction(scene.end, frames - 1)
+    scale = _fitting_scale(scene, FILM_WIDTH, LARGEST_FILM_CELL) if scale is None else scale
+    pictures = _pictures(scene, scale, [float(frame * step) for frame in range(frames)])
+    durations = [FRAME_MILLISECONDS] * (frames - 1) + [LAST_MILLISECONDS]
+    content = io.BytesIO()
+    next(pictures).save(
+        content,
+        "gif",
+        save_all=True,
+        append_images=pictures,
+        duration=durations,
+        loop=0,
+        optimize=True,  # what has not changed since the last picture becomes transparent
+    )
+    write_whole(path, content.getvalue())
+    return Film(frames=frames, ticks_per_frame=step, seconds=sum(durations) / 1000)
+
+
+def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Image.Image]:
+    """Yield a picture for each instant, all in one palette of 255 colours."""
+    origin = (MARGIN + scale / 2, MARGIN + scale / 2)
+    ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
+    pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
+    draw_ground(pen, scene, routes=False)
+
+    def picture(tick: float) -> Image.Image:
+        image = ground.copy()
+        pen = Pen(image, origin=origin, scale=scale, fineness=FILM_FINENESS)
+        draw_robots(pen, scene, tick)
+        return image.reduce(FILM_FINENESS)
+
+    palette = picture(ticks[len(ticks) // 2]).quantize(255, Image.Quantize.MEDIANCUT)
+    for tick in ticks:
+        yield picture(tick).quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def _fitting_scale(scene: Scene, width: int, largest: float) -> float:
     """Return the pixels for a cell that make a picture of about this width."""
     return min(max((width - 2 * MARGIN) / max(scene.plane.width, scene.plane.height), 2), largest)
 
 
-def map_size_of(scene: Scene, scale: float) -> tuple[int, int]:
+def _map_size(scene: Scene, scale: float) -> tuple[int, int]:
     """Return the size of the map with its margins [pixels]."""
     plane = scene.plane
     return round(plane.width * scale) + 2 * MARGIN, round(plane.height * scale) + 2 * MARGIN
 
 
-def blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:
-    """Return an empty picture.
-
-    Raises
-    ------
-    InputError
-        If it would have no pixel, or too many.
-    """
+def _blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:
+    """Return an empty picture, `fineness` times as large; one without a pixel is refused."""
     width, height = size
-    pixels = width * height
-    if min(size) <= 2 * MARGIN or pixels > MOST_PIXELS:
+    if min(size) <= 2 * MARGIN or width * height > MOST_PIXELS:
         limits = f"(choose a scale that makes 1 to {MOST_PIXELS} pixels)"
         raise InputError.at("scale", f"makes a picture of {width} by {height} pixels {limits}")
     return Image.new("RGB", (width * fineness, height * fineness), scene.theme.paper)

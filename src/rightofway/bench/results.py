@@ -1,0 +1,250 @@
+"""Results: one row for each case, and the file that holds them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Self
+
+from rightofway.bench.extras import need, needed
+from rightofway.errors import InputError
+from rightofway.files import write_whole
+
+try:
+    import fcntl
+except ImportError:  # pragma: no cover (not on Windows)
+    fcntl = None  # type: ignore[assignment]
+
+__all__ = ["COLUMNS", "Column", "Results", "Row"]
+
+Row = dict[str, Any]
+"""A value for each column; None where there is none."""
+
+Kind = Literal["text", "int", "float", "bool"]
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column of the results."""
+
+    name: str
+    kind: Kind
+    what: str
+
+
+COLUMNS = (
+    Column("key", "text", "a hash of all that defines the case"),
+    Column("map", "text", "name of the map"),
+    Column("scen", "text", "the `.scen` file, if any"),
+    Column("fleet", "text", "name of the fleet; empty where a scenario has its own"),
+    Column("planner", "text", "name of the planner"),
+    Column("options", "text", "its options, defaults included"),
+    Column("robots", "int", "how many"),
+    Column("seed", "int", "of fleet and planner"),
+    Column("limit", "float", "the time limit [s]"),
+    Column("solved", "bool", "whether there is a plan that the judge passes"),
+    Column("valid", "bool", "what the judge says of the plan; empty where there is none"),
+    Column("status", "text", "how it ended; see below"),
+    Column("message", "text", "what the planner did, or what went wrong"),
+    Column("flowtime", "int", "sum of the completion times [ticks]"),
+    Column("makespan", "int", "the latest completion time [ticks]"),
+    Column("lower_bound", "int", "no flowtime is smaller [ticks]"),
+    Column("ratio", "float", "flowtime / lower bound"),
+    Column("tick", "text", "how long a tick is [time unit]"),
+    Column("first_plan_seconds", "float", "until there was a first plan, not yet judged [s]"),
+    Column("wall_seconds", "float", "that planning took, the judge included [s]"),
+    Column("cpu_seconds", "float", "the same, added up over all cores [s]"),
+    Column("peak_memory", "float", "most memory that its process held [MB]"),
+    Column("commit", "text", "of the package, if it is known; `-dirty` if it was changed"),
+    Column("version", "text", "of the package"),
+    Column("cpu", "text", "model of the processor"),
+    Column("cores", "int", "how many may be used"),
+    Column("compiler", "text", "of the native core"),
+    Column("python", "text", "its version"),
+    Column("figures", "text", "further figures, as JSON; see below"),
+)
+
+HEADER = [column.name for column in COLUMNS]
+
+
+NOT_RESULTS = "this is no file of results as they are now (give another file)"
+
+
+class Results:
+    """A file of rows, open for more.
+
+    Parameters
+    ----------
+    path
+        ``.parquet`` for Parquet, anything else for CSV.
+
+    Raises
+    ------
+    InputError
+        If it holds something else, or another run is writing to it.
+
+    Notes
+    -----
+    A row is one line and is written by one call, then flushed to the disk. What a kill leaves of a
+    line that was being written is cut off by the next run, which does the case again. Parquet
+    files cannot grow: rows are in a CSV file beside it until the run ends.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self.path = Path(path)
+        self.rows: dict[str, Row] = {}
+        self._is_parquet = self.path.suffix.lower() == ".parquet"
+        journal = self.path
+        if self._is_parquet:
+            need("pyarrow", "a Parquet file")
+            journal = self.path.with_name(f"{self.path.name}.csv")
+            if self.path.exists():
+                self.rows = {row["key"]: row for row in _read_parquet(self.path)}
+        self._journal = _Journal(journal)
+        for row in self._journal.rows:
+            self.rows.setdefault(row["key"], row)
+
+    def add(self, row: Mapping[str, Any]) -> None:
+        """Write a row; one whose key is there already is left out."""
+        if row["key"] not in self.rows:
+            self.rows[row["key"]] = dict(row)
+            self._journal.write(_line([_text(row[name]) for name in HEADER]))
+
+    def close(self) -> None:
+        """Finish the file."""
+        try:
+            if self._is_parquet:
+                _write_parquet(self.path, list(self.rows.values()))
+                self._journal.path.unlink()
+        finally:
+            self._journal.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        _kind: type[BaseException] | None,
+        _error: BaseException | None,
+        _trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+class _Journal:
+    """A locked CSV file that only grows, by whole lines; `rows` are those it began with."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+        except OSError as error:
+            message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
+            raise InputError.at("", message, str(path)) from None
+        try:
+            self._lock()
+            self.rows = self._mended_rows()
+        except BaseException:
+            self.close()
+            raise
+
+    def _lock(self) -> None:
+        try:
+            if fcntl is not None:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            message = "another run is writing to it (wait for its end, or give another file)"
+            raise InputError.at("", message, str(self.path)) from None
+
+    def _mended_rows(self) -> list[Row]:
+        """Begin a new file, or cut off a line that was being written; return the whole rows."""
+        content, header = self.path.read_bytes(), _line(HEADER)
+        if not content.startswith(header) and not header.startswith(content):
+            raise InputError.at("line 1", NOT_RESULTS, str(self.path))
+        whole = content.rfind(b"\n") + 1
+        if whole < len(content):
+            os.truncate(self._file, whole)
+        if not whole:
+            self.write(header)
+        lines = content[:whole].decode("utf-8", "replace").split("\n")[1:-1]
+        return [self._row(number, line) for number, line in enumerate(lines, start=2)]
+
+    def _row(self, number: int, line: str) -> Row:
+        [cells] = csv.reader([line])
+        try:
+            return {
+                column.name: _value(cell, column.kind)
+                for column, cell in zip(COLUMNS, cells, strict=True)
+            }
+        except ValueError as error:
+            message = f"this is no row of results: {error} (take the line out)"
+            raise InputError.at(f"line {number}", message, str(self.path)) from None
+
+    def write(self, line: bytes) -> None:
+        try:
+            while line:
+                line = line[os.write(self._file, line) :]
+            os.fsync(self._file)
+        except OSError as error:
+            message = f"cannot be written: {error.strerror} (the next run goes on from here)"
+            raise InputError.at("", message, str(self.path)) from None
+
+    def close(self) -> None:
+        os.close(self._file)
+
+
+def _line(cells: list[str]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue().encode()
+
+
+def _text(value: Any) -> str:
+    """Return a value as a cell; without line ends, so that a row is a line."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "" if value is None else " ".join(str(value).split())
+
+
+def _value(cell: str, kind: Kind) -> Any:
+    if kind == "text":
+        return cell
+    if cell == "":
+        return None
+    if kind == "bool":
+        if cell not in {"yes", "no"}:
+            raise ValueError(f"{cell!r} is not yes or no")
+        return cell == "yes"
+    return int(cell) if kind == "int" else float(cell)
+
+
+def _read_parquet(path: Path) -> list[Row]:
+    parquet = needed("pyarrow.parquet", "a Parquet file")
+    arrow = needed("pyarrow", "a Parquet file")
+    try:
+        table = parquet.read_table(path)
+    except (OSError, arrow.ArrowInvalid) as error:
+        message = f"cannot be read: {' '.join(str(error).split())} (give another file)"
+        raise InputError.at("", message, str(path)) from None
+    if table.column_names != HEADER:
+        raise InputError.at("", NOT_RESULTS, str(path))
+    rows: list[Row] = table.to_pylist()
+    return rows
+
+
+def _write_parquet(path: Path, rows: list[Row]) -> None:
+    arrow = needed("pyarrow", "a Parquet file")
+    parquet = needed("pyarrow.parquet", "a Parquet file")
+    kinds = {
+        "text": arrow.string(), "int": arrow.int64(), "float": arrow.float64(),
+        "bool": arrow.bool_(),
+    }  # fmt: skip
+    schema = arrow.schema([(column.name, kinds[column.kind]) for column in COLUMNS])
+    content = io.BytesIO()
+    parquet.write_table(arrow.Table.from_pylist(rows, schema=schema), content)
+    write_whole(path, content.getvalue())

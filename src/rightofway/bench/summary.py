@@ -1,0 +1,110 @@
+"""Rows of results, grouped and summarised."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rightofway.bench.results import Row
+
+__all__ = ["Group", "Quantiles", "by_planner", "by_robots", "grouped", "planner_names"]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantiles:
+    """Median and quartiles of some numbers."""
+
+    first_quartile: float
+    median: float
+    third_quartile: float
+
+    @classmethod
+    def of(cls, values: Iterable[float | None]) -> Quantiles | None:
+        """Return those of the known values, or None if there is none."""
+        known = [value for value in values if value is not None]
+        return cls(*map(float, np.percentile(known, [25, 50, 75]))) if known else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """A summary of some rows.
+
+    Attributes
+    ----------
+    cases, solved
+        How many there are, and how many of them are solved.
+    ratio
+        Flowtime / lower bound of the solved ones.
+    seconds
+        Until the first plan of the solved ones [s].
+    memory
+        The most memory that one of them held [MB].
+    statuses
+        How many cases ended with each status.
+    """
+
+    cases: int
+    solved: int
+    ratio: Quantiles | None
+    seconds: Quantiles | None
+    memory: float | None
+    statuses: Mapping[str, int]
+
+    @classmethod
+    def of(cls, rows: Sequence[Row]) -> Group:
+        """Summarise rows."""
+        memory = (row["peak_memory"] for row in rows if row["peak_memory"] is not None)
+        return cls(
+            cases=len(rows),
+            solved=sum(row["solved"] for row in rows),
+            ratio=Quantiles.of(row["ratio"] for row in rows if row["solved"]),
+            seconds=Quantiles.of(row["first_plan_seconds"] for row in rows),
+            memory=max(memory, default=None),
+            statuses=dict(Counter(row["status"] for row in rows)),
+        )
+
+
+def grouped(rows: Iterable[Row], *keys: str) -> dict[tuple[Any, ...], list[Row]]:
+    """Return the rows that agree in some columns, in the order of their first."""
+    groups: dict[tuple[Any, ...], list[Row]] = {}
+    for row in rows:
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return groups
+
+
+def planner_names(rows: Iterable[Row]) -> dict[str, str]:
+    """Return a name for the planner of each row, by the row's key.
+
+    Options are part of the name where they differ between runs of the planner, and so is the time
+    limit where it differs.
+    """
+    variants = grouped(rows, "planner", "options", "limit")
+    common: dict[str, set[str]] = {}
+    for planner, options, _ in variants:
+        common[planner] = common.get(planner, set(options.split())) & set(options.split())
+    has_limits = len({limit for _, _, limit in variants}) > 1
+    names = {}
+    for (planner, options, limit), each in variants.items():
+        own = [option for option in options.split() if option not in common[planner]]
+        name = " ".join([planner, *own, *[f"({limit:g} s)"] * has_limits])
+        names.update({row["key"]: name for row in each})
+    return names
+
+
+def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> dict[str, list[Row]]:
+    """Return the rows of each planner; names are those among all rows, if these are only some."""
+    names = names or planner_names(rows)
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(names[row["key"]], []).append(row)
+    return groups
+
+
+def by_robots(rows: Iterable[Row]) -> dict[int, Group]:
+    """Return the groups of equal numbers of robots, the smallest first."""
+    groups = grouped(rows, "robots")
+    return {robots: Group.of(each) for (robots,), each in sorted(groups.items())}

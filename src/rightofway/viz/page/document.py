@@ -1,0 +1,156 @@
+"""The page as one HTML document that needs no other file, and as a frame for notebooks.
+
+The scripts under ``assets/`` are plain classic scripts, one concept each, that share one scope;
+they are put into the page as they are, each in an element of its own.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+import os
+import re
+from collections.abc import Sequence
+from functools import cache
+from importlib.resources import files
+
+from rightofway.files import write_whole
+from rightofway.model import ExecutionTrace, Plan, SteadyState
+from rightofway.viz.page.payload import payload_of
+from rightofway.viz.palette import DARK, LIGHT
+
+__all__ = ["frame_of", "page_of", "write_page"]
+
+FRAME_HEIGHT = 680
+"""Room for map and diagram [pixels]."""
+
+SCRIPTS = (
+    "observable", "phases", "plan", "floor", "steady", "fleet_memo",
+    "motion", "clock", "choice", "use", "words",
+    "dom", "theme", "canvas", "shapes",
+    "viewport", "bottleneck", "map_base", "map_route", "map_robots", "map_view",
+    "axis", "steady_band", "space_time", "robot_rows", "census", "diagram",
+    "virtual_list", "robot_list", "decision_list", "card", "summary", "states", "tabs",
+    "transport", "loop", "mode_switch", "deep_link", "keys", "main",
+)  # fmt: skip
+"""In the order they run; each may use those before it at once, and all others later."""
+
+MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})
+"""Escapes that mean the same in JSON, and nothing in HTML."""
+
+
+def page_of(
+    plan: Plan, *, steady: Sequence[SteadyState] = (), actual: ExecutionTrace | None = None
+) -> str:
+    """Return a page that plays a plan, as one HTML document.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    steady
+        Where the plan repeats itself, unless it says so itself: the page marks the periods and
+        repeats one endlessly.
+    actual
+        An execution of the plan: the page shows it beside the plan.
+
+    Returns
+    -------
+    str
+        HTML. Its content security policy forbids any connection, and any script but our own.
+
+    Raises
+    ------
+    InputError
+        If ``steady`` or ``actual`` are not of this plan.
+    """
+    themes = (
+        f":root{{{LIGHT.css()}}}",
+        f"@media (prefers-color-scheme:dark){{:root{{{DARK.css()}}}}}",
+    )
+    style = "\n".join([*themes, _asset("style.css")])
+    scripts = [_asset(f"{name}.js") for name in SCRIPTS]
+    count = len(plan.scenario.robots)
+    title = html.escape(f"{count} robot{'s' * (count != 1)}, planned by {plan.run.name}")
+    allowed = " ".join(map(_hash, scripts))
+    payload = payload_of(plan, steady=steady, actual=actual)
+    parts = {
+        "title": title.encode("ascii", "xmlcharrefreplace").decode(),
+        "policy": "default-src 'none'; img-src data:; "
+        f"style-src {_hash(style)}; script-src {allowed}",
+        "style": style,
+        "payload": json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP),
+        "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
+    }
+    # Each {{name}} is filled once; what is filled in is not looked at again.
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("template.html"))
+
+
+def write_page(
+    plan: Plan,
+    path: str | os.PathLike[str],
+    *,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
+) -> None:
+    """Write a page that plays a plan; the file is there whole or not at all.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    path
+        Where, usually ``….html``.
+    steady
+        Where the plan repeats itself, unless it says so itself: the page marks the periods and
+        repeats one endlessly.
+    actual
+        An execution of the plan: the page shows it beside the plan.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written, or ``steady`` or ``actual`` are not of this plan.
+    """
+    write_whole(path, page_of(plan, steady=steady, actual=actual))
+
+
+def frame_of(
+    plan: Plan,
+    *,
+    height: int = FRAME_HEIGHT,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
+) -> str:
+    """Return HTML that shows a plan in a notebook; for ``_repr_html_``.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    height
+        Height of the frame [pixels].
+    steady
+        Where the plan repeats itself, unless it says so itself.
+    actual
+        An execution of the plan.
+
+    Notes
+    -----
+    The frame is sandboxed: no name in a plan can reach the notebook.
+    """
+    document = html.escape(page_of(plan, steady=steady, actual=actual))
+    style = f"width:100%;height:{height}px;border:0;border-radius:8px"
+    return f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{style}"></iframe>'
+
+
+def _hash(text: str) -> str:
+    digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+    return f"'sha256-{digest}'"
+
+
+@cache
+def _asset(name: str) -> str:
+    return files(__package__).joinpath("assets", name).read_text("utf-8")

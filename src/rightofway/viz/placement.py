@@ -1,0 +1,100 @@
+"""Where vertices are drawn: in the plane of the map, and in one line beside a time axis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.model import Roadmap
+
+__all__ = ["MAX_ROBOTS", "MAX_VERTICES", "Plane", "plane_of", "vertices_in_line"]
+
+SHORT = 0.1
+"""Share of edges that may be shorter than a unit, so that one tiny edge does not shrink robots."""
+
+MAX_ROBOTS = 6
+MAX_VERTICES = 40
+"""Beyond these, the lines of all robots in one diagram can no longer be told apart."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Plane:
+    """A roadmap laid out for drawing.
+
+    Attributes
+    ----------
+    points
+        Where each vertex is, x to the right and y down [units]; float64, shape (V, 2). On a grid
+        these are (column, row).
+    width, height
+        The drawing spans -0.5 to ``width - 0.5`` and to ``height - 0.5`` [units].
+    """
+
+    points: NDArray[np.float64]
+    width: float
+    height: float
+
+
+def plane_of(roadmap: Roadmap) -> Plane:
+    """Lay out a roadmap; one unit is a cell, or a short edge of the roadmap."""
+    grid = roadmap.grid
+    if grid is not None:
+        rows, columns = np.divmod(grid.cells, grid.columns)
+        points = np.column_stack((columns, rows)).astype(np.float64)
+        return Plane(points=points, width=grid.columns, height=grid.rows)
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+    drawn = np.hypot(*(roadmap.positions[roadmap.heads] - roadmap.positions[tails]).T)
+    drawn = drawn[drawn > 0]
+    unit = float(np.quantile(drawn, SHORT)) if len(drawn) else 1.0
+    points = (roadmap.positions - roadmap.positions.min(axis=0)) / unit
+    width, height = points.max(axis=0) + 1
+    return Plane(points=points, width=float(width), height=float(height))
+
+
+def vertices_in_line(routes: Sequence[Sequence[int]]) -> list[int]:
+    """Order the vertices of all routes so that every robot passes its own nearly in order.
+
+    Parameters
+    ----------
+    routes
+        The vertices that each robot visits.
+
+    Returns
+    -------
+    list of int
+        Every visited vertex once; empty where there are too many robots or vertices for one line.
+
+    Notes
+    -----
+    The first route gives the places 0, 1, 2, …. Each further one is laid along the vertices it
+    shares with those before: forwards or backwards, evenly between, one further each beyond.
+    """
+    if len(routes) > MAX_ROBOTS or len(set().union(*routes)) > MAX_VERTICES:
+        return []
+    places: dict[int, float] = {}
+    for route in routes:
+        once = list(dict.fromkeys(route))
+        laid = _lay(once, places)
+        places.update(
+            (vertex, place)
+            for vertex, place in zip(once, laid, strict=True)
+            if vertex not in places
+        )
+    return sorted(places, key=lambda vertex: (places[vertex], vertex))
+
+
+def _lay(route: Sequence[int], places: dict[int, float]) -> list[float]:
+    """Return a place for each vertex of a route, in line with those that have one."""
+    anchors = [index for index, vertex in enumerate(route) if vertex in places]
+    if not anchors:
+        return [float(index) for index in range(len(route))]
+    at = [places[route[anchor]] for anchor in anchors]
+    ahead = 1 if at[-1] >= at[0] else -1
+    between = np.interp(range(len(route)), anchors, at).tolist()
+    return [
+        place + ahead * (min(index - anchors[0], 0) + max(index - anchors[-1], 0))
+        for index, place in enumerate(between)
+    ]

@@ -1,0 +1,141 @@
+"""What is drawn and with what: a plan prepared for drawing, and a pen over an image of Pillow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from PIL import Image, ImageDraw, ImageFont
+
+from rightofway.model import Plan
+from rightofway.viz.motion import end_of, trips_of
+from rightofway.viz.palette import Theme, mix, robot_colours
+from rightofway.viz.placement import plane_of
+
+__all__ = ["Pen", "Point", "Scene"]
+
+Point = tuple[float, float]
+
+SMALL_CELL = 13
+"""Below this size of a cell [pixels] robots fill more of it, and homes and stops are faint."""
+
+CORNER = 0.16
+"""Radius of a square's round corners, as a share of its side."""
+
+
+class Scene:
+    """A plan prepared for drawing.
+
+    Attributes
+    ----------
+    trips, colours
+        What each robot does, and its colour.
+    end
+        The tick from which on nothing happens any more; at least 1.
+    plane, points
+        Where vertices are; the same as pairs.
+    ground
+        The colour under the robots.
+    """
+
+    def __init__(self, plan: Plan, theme: Theme) -> None:
+        self.plan, self.theme = plan, theme
+        self.roadmap = plan.scenario.roadmap
+        self.trips = trips_of(plan)
+        self.colours = robot_colours(len(self.trips))
+        self.end = max(end_of(self.trips), 1)
+        self.plane = plane_of(self.roadmap)
+        self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
+        self.ground = theme.paper if self.roadmap.grid is None else theme.floor
+
+    def faint(self, colour: str, share: float) -> str:
+        """Return a colour as it looks when it covers only a share of the ground."""
+        return mix(self.ground, colour, share)
+
+
+class Pen:
+    """A drawing in its own units.
+
+    Parameters
+    ----------
+    image
+        What to draw on, ``fineness`` times as large as the picture will be: a smooth picture is
+        drawn large, then reduced.
+    origin
+        Where the point (0, 0) is [pixels of the picture].
+    scale
+        Pixels of the picture in a unit.
+    fineness
+        How much larger ``image`` is than the picture.
+    """
+
+    def __init__(self, image: Image.Image, *, origin: Point, scale: float, fineness: int) -> None:
+        self.draw = ImageDraw.Draw(image)
+        self.origin = origin
+        self.scale = scale
+        self.fineness = fineness
+        self.hairline = 1 / scale  # a pixel of the picture [units]
+        self.is_small = scale < SMALL_CELL
+
+    def line(self, points: Sequence[Point], colour: str, width: float) -> None:
+        """Draw a line through points."""
+        self.draw.line([self._at(point) for point in points], colour, self._thick(width), "curve")
+
+    def box(self, corner: Point, opposite: Point, colour: str) -> None:
+        """Fill a rectangle; boxes that share a side neither overlap nor leave a gap."""
+        x0, y0, x1, y1 = map(round, (*self._at(corner), *self._at(opposite)))
+        self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
+
+    def disc(self, middle: Point, radius: float, colour: str) -> None:
+        """Fill a circle."""
+        self.draw.ellipse(self._around(middle, radius), colour)
+
+    def ring(
+        self, middle: Point, radius: float, turns: tuple[float, float], colour: str, width: float
+    ) -> None:
+        """Draw a part of a circle, clockwise from the top [turns]; the line lies inside."""
+        begin, end = (360 * turn - 90 for turn in turns)
+        self.draw.arc(self._around(middle, radius), begin, end, colour, self._thick(width))
+
+    def square(
+        self,
+        middle: Point,
+        side: float,
+        fill: str | None,
+        edge: str | None = None,
+        width: float = 0,
+    ) -> None:
+        """Draw a square with round corners; the line of its edge lies inside."""
+        corner = side * CORNER * self.scale * self.fineness
+        thick = self._thick(width) if edge else 0
+        self.draw.rounded_rectangle(self._around(middle, side / 2), corner, fill, edge, thick)
+
+    def polygon(self, points: Sequence[Point], colour: str) -> None:
+        """Fill a polygon."""
+        self.draw.polygon([self._at(point) for point in points], colour)
+
+    def text(self, at: Point, text: str, colour: str, *, size: float, anchor: str) -> None:
+        """Write; ``size`` in pixels of the picture, ``anchor`` as in Pillow."""
+        text = text.encode("utf-8", "replace").decode()  # a lone surrogate cannot be drawn
+        self.draw.text(self._at(at), text, colour, _font(round(size * self.fineness)), anchor)
+
+    def text_width(self, text: str, size: float) -> float:
+        """Return how wide a text is [units]."""
+        font = _font(round(size * self.fineness))
+        return self.draw.textlength(text, font) / self.fineness / self.scale
+
+    def _at(self, point: Point) -> Point:
+        (x, y), (left, top) = point, self.origin
+        return (left + x * self.scale) * self.fineness, (top + y * self.scale) * self.fineness
+
+    def _around(self, middle: Point, radius: float) -> tuple[float, float, float, float]:
+        x, y = middle
+        return (*self._at((x - radius, y - radius)), *self._at((x + radius, y + radius)))
+
+    def _thick(self, width: float) -> int:
+        return max(round(width * self.scale * self.fineness), 1)
+
+
+@cache
+def _font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    return ImageFont.load_default(size)
