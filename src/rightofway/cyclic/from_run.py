@@ -28,8 +28,11 @@ __all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle"]
 class RunChoiceParams:
     """How the time is divided between simulations; shares are of the time left."""
 
-    trying_share: float = 0.06  # Each simulation is tried.
-    dispersing_part: float = 0.3  # In this part of that, robots disperse first come first served.
+    least_share: float = 0.03  # A simulation is tried for this share, at least.
+    most_share: float = 0.15  # A simulation is tried for this share, at most.
+    laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
+    laps_dispersing: float = 1  # Before, robots disperse first come first served [longest laps].
+    looks: int = 10  # How often the length of a simulation is looked at in that time.
     good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
     continuing_share: float = 0.9  # The best simulation continues in this share, then is closed.
     slices: int = 4  # The best is chosen again after each of this many parts of that.
@@ -58,13 +61,24 @@ class SimulatedRun:
         self._simulator = CyclicSimulator(context, "first-come")
         self.known, self.pace = 0, 0.0
         self.result = advance(self._simulator, Deadline.after(0))
-        seconds = params.trying_share * (problem.deadline.seconds_left() or 0)
+        left = problem.deadline.seconds_left() or 0.0
+        most, look = params.most_share * left, params.most_share * left / params.looks
         if rule != "first-come":
-            self.advance(params.dispersing_part * seconds)
-            seconds *= 1 - params.dispersing_part
+            self._advance_laps(params.laps_dispersing, look, most)
             if self.result.ends == "open":
                 self._simulator.set_rule(rule)
-        self.advance(seconds)
+        before, tried = self.known, params.least_share * left
+        self.advance(tried)
+        tried += self._advance_laps(params.laps_tried, look, most - tried, since=before)
+        self.pace = (self.known - before) / tried if tried else 0.0
+
+    def _advance_laps(self, laps: float, look: float, most: float, *, since: int = 0) -> float:
+        """Continue to so many of the longest laps since a tick; return the time taken [s]."""
+        until, seconds = since + laps * self.result.context.longest, 0.0
+        while self.result.ends == "open" and self.known < until and seconds < most:
+            self.advance(look)
+            seconds += look
+        return seconds
 
     def advance(self, seconds: float) -> None:
         """Continue for some time if the end is open."""
