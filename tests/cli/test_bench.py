@@ -72,7 +72,7 @@ def test_rows_of_another_commit_are_kept_and_told(cli: Cli) -> None:
     ended = cli("bench", "suite.toml")
     assert ended.err.splitlines()[:2] == [
         "2 of 2 cases are there already",
-        "1 of them by another commit (give another -o to run them anew)",
+        "1 of them by another commit (give another -o to run them again)",
     ]
     assert "deadbeef0000" in Path("results.csv").read_text(encoding="utf-8")
 

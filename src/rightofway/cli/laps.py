@@ -19,7 +19,6 @@ from rightofway.cli.terminal import (
     time_limit_option,
     writable,
 )
-from rightofway.cyclic import ROUTES, RULES, TIMETABLE
 
 __all__ = ["laps"]
 
@@ -32,6 +31,19 @@ Examples:
 """
 
 
+class _LapsCommand(click.Command):
+    """A command whose help lists the rules."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the rules, then the examples."""
+        from rightofway.cyclic import RULES, TIMETABLE
+
+        search = "no rule: a search for the orders of highest throughput"
+        with formatter.section("Rules (which of two robots that meet goes first)"):
+            formatter.write_dl([*RULES.items(), (TIMETABLE, search)])
+        super().format_epilog(ctx, formatter)
+
+
 def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> Fraction:
     try:
         return Fraction(given)
@@ -39,13 +51,15 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
         raise click.BadParameter(f"{given!r} is not a number (for example 0.5 or 1/2)") from None
 
 
-@click.command(epilog=EXAMPLES, short_help="Find the cycle time of a fleet that repeats its work.")
+@click.command(
+    cls=_LapsCommand,
+    epilog=EXAMPLES,
+    short_help="Find the cycle time of a fleet that repeats its work.",
+)
 @click.argument("scenario", type=click.Path())
-@click.option("--rule", type=click.Choice([*RULES, TIMETABLE]), default="first-come",
-              show_default=True,
-              help="Rule that gives the right of way; timetable: search orders with the highest"
-              " throughput.")  # fmt: skip
-@click.option("--routes", type=click.Choice(ROUTES),
+@click.option("--rule", metavar="RULE", default="first-come", show_default=True,
+              help="Rule that gives the right of way; see below.")  # fmt: skip
+@click.option("--routes", metavar="ROUTES",
               help="Routes of the round trips. clear: avoid other robots; direct: avoid them less;"
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
@@ -79,10 +93,13 @@ def laps(
     Scenarios name no unit of time: throughput_per_hour of --json is laps in 3600 time units.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
-    from rightofway.cyclic import best_timetable, excerpt, plan_of, run_laps
+    from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of, run_laps
     from rightofway.model.steady_state import within
 
     refuse_outputs(scenario, output, as_json=as_json)
+    if rule not in {*RULES, TIMETABLE}:
+        known = ", ".join([*RULES, TIMETABLE])
+        raise click.BadParameter(f"{rule!r} is not one of {known}", param_hint="--rule")
     if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
     problem = read_scenario(scenario)
