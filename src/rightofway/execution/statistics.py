@@ -230,10 +230,9 @@ class PolicyGain:
 
 def joined(batches: Sequence[RunBatch]) -> RunBatch:
     """Return the runs of several batches of one plan as one batch."""
-    own, of_others = (sum(getattr(one, name) for one in batches) for name in ("own", "of_others"))
-    names = ("completion", "is_broken", "by_right_of_way", "by_clock", "between")
-    rows = {name: np.concatenate([getattr(one, name) for one in batches]) for name in names}
-    return RunBatch(**rows, own=own, of_others=of_others)
+    summed = {"own", "of_others"}
+    columns = zip(RunBatch._fields, zip(*batches, strict=True), strict=True)
+    return RunBatch(*(sum(each) if k in summed else np.concatenate(each) for k, each in columns))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
