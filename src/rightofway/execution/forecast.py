@@ -19,8 +19,7 @@ from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution,
 
 __all__ = ["Forecast", "Times"]
 
-Times = NDArray[np.int64]
-"""A time for each visit [ticks]; shape (N,)."""
+Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
 
 class Forecast:

@@ -28,8 +28,7 @@ LOOKS = 400
 """A robot is late by this part of the makespan, and by the duration of a median visit at least."""
 
 SHARE = 20
-"""The rest is replanned when the expected flowtime has grown by this part of the planned one since
-that was last tried."""
+"""Replan when expected flowtime has grown by this part of the planned one since the last try."""
 
 MOST_PLANS = 10
 """How often that is tried with one plan."""
@@ -143,9 +142,8 @@ class ExecutionMonitor:
     def _execute(self) -> None:
         """Execute the plan, make a forecast whenever there is news, and act on it."""
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
-        robots = range(len(self.stages)) if self.policy.replan else ()
-        breakdown = np.full(len(self.stages), NEVER)
-        breakdown[: len(robots)] = [self.delay_sample.breakdown(robot) for robot in robots]
+        ticks = (self.delay_sample.breakdown(robot) for robot in range(len(self.stages)))
+        breakdown = np.array([tick if self.policy.replan else NEVER for tick in ticks])
         patience = max(int(np.median(adg.dwell + adg.drive)), _last(adg.planned) // LOOKS, 1)
         while True:
             overdue = self.expected + patience

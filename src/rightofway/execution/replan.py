@@ -52,10 +52,10 @@ NEIGHBOURHOODS = 20
 """Neighbourhoods tried per robot; five times as many gain hardly more."""
 
 MOST_STEPS = 20_000
-"""Steps of LaCAM until robots are taken to have no way for this choice of who is cut off."""
+"""Steps of LaCAM for one choice of robots that are cut off; then the next choice is tried."""
 
 MOST_CHOICES = 200
-"""Choices of who is cut off that are tried."""
+"""Choices of robots that are cut off, the fewest robots first."""
 
 Stages = tuple[Stage, ...]
 

@@ -114,8 +114,7 @@ def simulate(
 
     every = joined(batches)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
-    stuck = np.zeros(len(plan.tracks), bool)
-    stuck[adg.deadlocked()] = True
+    stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
     return Outcome(
         plan=plan,
         runs=len(every.completion),
