@@ -1,4 +1,4 @@
-"""Plans of every planner on late floors: by right of way nobody ever collides or deadlocks."""
+"""Plans of every planner with delays: by right of way no robots ever collide or deadlock."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ MEETINGS = {"vertex conflict", "swap conflict", "headway", "rotation"}
 def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> None:
     """The judge looks at a run of each, as a second opinion.
 
-    It reckons with drives that take as long as planned, so where robots book ahead it is not asked
-    about those that are faster.
+    It assumes that drives take as long as planned, so where robots book ahead it is not asked about
+    robots that are faster.
     """
     plan = rightofway.solve(SMALL[name], planner, time_limit=1)
     for delays in DELAYS:
@@ -35,8 +35,8 @@ def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> Non
         for one in (outcome, changed):
             assert (one.collisions, one.deadlocks) == (0, 0)
         assert changed.stranded == 0
-        happened = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
+        judged = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
         if delays not in EARLY or not plan.scenario.rules.books_ahead:
-            assert not MEETINGS & set(happened.counts)
+            assert not MEETINGS & set(judged.counts)
         if delays == DELAYS[0]:
-            assert happened.ok
+            assert judged.ok

@@ -1,4 +1,4 @@
-"""Plans on a late floor: what users are told."""
+"""Simulated executions: what users see."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_a_robot_that_stops_is_run_into_by_the_clock_and_waited_for_by_right_of_
     assert outcome.lateness.sources[0].own == outcome.lateness.sources[0].of_others == 10
 
 
-def test_who_waits_for_a_broken_robot_is_stranded_not_deadlocked(plan: Plan) -> None:
+def test_robots_that_wait_for_a_broken_robot_are_stranded_not_deadlocked(plan: Plan) -> None:
     first = min(range(2), key=lambda robot: int(plan.tracks[robot].enter[1]))
     name = plan.scenario.robots[first].name
     outcome = rightofway.simulate(plan, f"stop:{name}@1", runs=2)
@@ -72,10 +72,10 @@ def test_a_run_shown_is_the_run_counted() -> None:
         outcome.trace(5)
 
 
-def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:
+def test_switching_and_replanning_gain_when_one_robot_stops() -> None:
     """Each of eight robots stands still for 30 ticks once; one run each, all added up."""
     plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
-    late = dict.fromkeys(("kept", "switched", "planned anew"), 0)
+    late = dict.fromkeys(("kept", "switched", "replanned"), 0)
     for robot in plan.scenario.robots:
         for how, (switch, replan) in zip(late, [(0, 0), (1, 0), (0, 1)], strict=True):
             stop = f"stop:{robot.name}@5+30"
@@ -84,23 +84,23 @@ def test_switching_and_planning_anew_win_when_one_robot_stops() -> None:
             )
             assert outcome.collisions == outcome.deadlocks == 0
             late[how] += int(outcome.completion.sum())
-    assert late["planned anew"] < late["switched"] < late["kept"]
+    assert late["replanned"] < late["switched"] < late["kept"]
 
 
-def test_what_was_won_is_told_of_the_same_runs() -> None:
+def test_the_gain_compares_the_same_runs() -> None:
     plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
-    kept, anew = (
+    kept, replanned = (
         rightofway.simulate(plan, "chance:0.05x20", runs=10, replan=replan)
         for replan in (False, True)
     )
-    won = kept.completion.sum(axis=1) - anew.completion.sum(axis=1)
+    won = kept.completion.sum(axis=1) - replanned.completion.sum(axis=1)
     assert kept.gain is None
-    assert anew.gain is not None
-    assert (anew.gain.runs, anew.gain.flowtime.max) == (10, won.max())
-    assert (anew.gain.earlier, anew.gain.later) == ((won > 0).sum(), (won < 0).sum())
+    assert replanned.gain is not None
+    assert (replanned.gain.runs, replanned.gain.flowtime.max) == (10, won.max())
+    assert (replanned.gain.earlier, replanned.gain.later) == ((won > 0).sum(), (won < 0).sum())
 
 
-def test_replanning_brings_home_whom_a_broken_robot_would_strand() -> None:
+def test_replanning_brings_home_robots_that_a_broken_one_would_strand() -> None:
     """R1 breaks down in the upper lane; R2 was to follow it and takes the lower one."""
     scenario = grid_fleet(
         ["....", ".@@.", "...."], [("N1", "N7"), ("N0", "N3")], rules=Rules(ends="none")
@@ -113,7 +113,7 @@ def test_replanning_brings_home_whom_a_broken_robot_would_strand() -> None:
     assert saved.completion[0, 1] > 0
 
 
-def test_who_is_cut_off_is_told() -> None:
+def test_robots_that_are_cut_off_are_counted() -> None:
     """R1 breaks down in the only way to the target of R2."""
     scenario = grid_fleet(["...."], [("N1", "N3"), ("N0", "N2")], rules=Rules(ends="none"))
     plan = rightofway.solve(scenario, "two-level")

@@ -1,4 +1,4 @@
-"""A run on the floor as a page shows it."""
+"""A run as a page shows it."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from tests.builders.fleets import random_fleet
 from tests.builders.plans import door
 
 
-def test_what_befell_a_run_accounts_for_its_times() -> None:
+def test_the_delays_of_a_run_account_for_its_times() -> None:
     """R1 stands still in N4 from 3 to 8, and R2 has to pass there behind it: 4 late."""
     outcome = simulate(door(), "stop:R1@3+5", runs=1)
     actual = outcome.trace(0)
@@ -22,7 +22,7 @@ def test_what_befell_a_run_accounts_for_its_times() -> None:
     assert actual.drive[0].tolist() == [0, 1, 1, 1, 1, 1, 1, 1, 1]
 
 
-def test_who_breaks_down_never_completes() -> None:
+def test_a_robot_that_breaks_down_never_completes() -> None:
     """R2 is in N7 at 3 and stays there; R1 behind it, too."""
     actual = simulate(door(), "stop:R2@3", runs=1).trace(0)
     assert actual.completion == (None, None)
@@ -41,7 +41,7 @@ def test_there_is_no_run_beyond_the_last() -> None:
         simulate(door(), runs=3).trace(3)
 
 
-def test_a_plan_made_anew_on_the_move_accounts_for_its_times_as_well() -> None:
+def test_a_replanned_run_accounts_for_its_times_as_well() -> None:
     """Each visit lasts as long as it takes and the drive after it, and waiting on top."""
     plan = solve(random_fleet(2, size=12, robots=10), "two-level", None)
     outcome = simulate(plan, "slow:R10x2", runs=1, replan=True)

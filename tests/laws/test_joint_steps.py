@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rightofway
-from rightofway.errors import NoPlanExists
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Rules, Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.search import untimed_lacam
@@ -54,3 +55,29 @@ def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> N
     tracks = tuple(timetable_of(scenario, steps))
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="joint"))
     assert rightofway.check(plan).faults == ()
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(fleets(), st.integers(0, 3))
+def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, robot: int) -> None:
+    """One robot need not end at its last stage; the others do, and it passes its other stages."""
+    free = robot % len(scenario.robots)
+    stages = [one.stages for one in scenario.problem.itineraries]
+    try:
+        steps = untimed_lacam(scenario, ends_anywhere={free})
+    except NoPlanExists:
+        assert not can_get_through(scenario, may_rotate=scenario.rules.occupancy == "one")
+        return
+    ends = steps[-1].tolist()
+    assert all(ends[k] == own[-1].vertex for k, own in enumerate(stages) if k != free)
+    seen = steps[:, free].tolist()
+    assert all(stage.vertex in seen for stage in stages[free][:-1])
+
+
+def test_a_search_that_ends_after_some_steps_proves_nothing() -> None:
+    """Two robots change places in a corridor: impossible, but not proven before all is tried."""
+    scenario = grid_fleet(["." * 9], [("N0", "N8"), ("N8", "N0")])
+    with pytest.raises(NoPlanExists):
+        untimed_lacam(scenario)
+    with pytest.raises(GaveUp):
+        untimed_lacam(scenario, most_steps=1)

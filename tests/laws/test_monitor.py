@@ -1,4 +1,4 @@
-"""A plan that is changed on the way never makes robots collide or deadlock, and never the past."""
+"""Changes during execution never make robots collide or deadlock, and never change the past."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_robots_that_look_find_the_new_plan_possible(
     policy=st.sampled_from(POLICIES),
 )
 @settings(max_examples=100, deadline=None)
-def test_the_judge_finds_everything_done_and_nobody_meeting(
+def test_the_judge_finds_all_work_done_and_no_robots_meeting(
     seed: int, rules: int, chance: int, policy: ExecutionPolicy
 ) -> None:
     """Robots are late, never early: the judge would find them too fast."""
@@ -75,7 +75,7 @@ def test_the_judge_finds_everything_done_and_nobody_meeting(
 
 @pytest.mark.parametrize("policy", POLICIES)
 @given(seed=st.integers(0, 5), rules=st.integers(0, len(RULES) - 1))
-def test_nothing_is_changed_where_nobody_is_late(
+def test_nothing_is_changed_where_no_robot_is_late(
     policy: ExecutionPolicy, seed: int, rules: int
 ) -> None:
     plan = some_plan(seed, rules)
@@ -118,7 +118,7 @@ class Witness(ExecutionMonitor):
 def test_no_change_reaches_into_the_past(
     seed: int, rules: int, chance: int, policy: ExecutionPolicy
 ) -> None:
-    """Who has waited until now for its right of way goes now, not when it could have gone."""
+    """A robot that has waited until now for its right of way goes now, not earlier."""
     plan, draw = some_plan(seed, rules), random.Random(chance)  # noqa: S311
     delays = some_delays(draw, len(plan.tracks), 20)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
@@ -158,7 +158,7 @@ def test_what_is_still_to_come_decides_nothing(
 
 
 @pytest.mark.parametrize("policy", POLICIES)
-def test_changes_win_on_average(policy: ExecutionPolicy) -> None:
+def test_changes_gain_on_average(policy: ExecutionPolicy) -> None:
     """Robots stop now and then: keeping the order makes the others wait for nothing."""
     scenario = random_fleet(1, size=12, robots=12)
     plan = rightofway.solve(scenario, "local-search", None)
@@ -173,7 +173,7 @@ def test_changes_win_on_average(policy: ExecutionPolicy) -> None:
     assert outcome.gain.flowtime.mean == round(won, 6) > 0
 
 
-def test_planning_anew_wins_where_switching_cannot() -> None:
+def test_replanning_gains_where_switching_cannot() -> None:
     """R10 is slow: on the same routes nothing is to be won, by another way 20 ticks."""
     plan = rightofway.solve(random_fleet(2, size=12, robots=10), "two-level", None)
     won = []

@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.check import check
 from rightofway.errors import NoPlanExists
-from rightofway.execution.commitment import closures_of, commitment_of
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.execution.replan import replan
+from rightofway.execution.replan import closures_of, commitment_of, replan
 from rightofway.model import NEVER, Plan, Rules, Stage, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage

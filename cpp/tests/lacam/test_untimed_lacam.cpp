@@ -16,9 +16,10 @@ struct Problem {
     std::vector<std::int32_t> first_stage;
     Vertices stages;
     bool may_rotate = true;
+    std::vector<std::uint8_t> ends_anywhere = {};
 
     SearchEnd run(Vertices& steps) const {
-        const UntimedProblem goals{home, first_stage, stages};
+        const UntimedProblem goals{home, first_stage, stages, ends_anywhere};
         check(roads.graph(), goals);
         StepTables tables(roads.graph());
         UntimedLacam search(roads.graph(), goals, tables, may_rotate, 0);
@@ -40,6 +41,16 @@ TEST_CASE("without a bay they cannot, and that is proven") {
     const Problem fleet{test::corridor(), {0, 3}, {0, 1, 2}, {3, 0}};
     CHECK(fleet.run(steps) == SearchEnd::proven_none);
     CHECK(steps.empty());
+}
+
+TEST_CASE("a robot that may end anywhere gets out of the way, and one that needs not stays") {
+    Vertices steps;
+    const Problem fleet{test::corridor(), {0, 2}, {0, 1, 2}, {2, 2}, true, {0, 1}};
+    REQUIRE(fleet.run(steps) == SearchEnd::found);
+    CHECK(Vertices(steps.end() - 2, steps.end()) == Vertices{2, 3});
+    const Problem done{test::corridor(), {0, 2}, {0, 1, 2}, {0, 2}, true, {0, 1}};
+    REQUIRE(done.run(steps) == SearchEnd::found);
+    CHECK(steps == Vertices{0, 2});
 }
 
 TEST_CASE("stages are passed one after the other") {

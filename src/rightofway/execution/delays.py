@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
+from typing import NamedTuple
 
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Scenario
@@ -19,21 +19,11 @@ DEFAULT = "exponential:0.2"
 """The delays if none are given."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Delay:
-    """One cause of delay.
+class Delay(NamedTuple):
+    """One cause of delay, and how it was written (``text``).
 
-    Attributes
-    ----------
-    kind
-        The word before the colon.
-    robot
-        The robot's name; empty for all robots.
-    first, second
-        The numbers in the order in which they are written; times in time units. ``second`` is None
-        if there is none.
-    text
-        The cause as it was written.
+    The robot is a name, or empty for all robots. Times are in time units. The second number is None
+    if there is none.
     """
 
     kind: str
@@ -43,16 +33,11 @@ class Delay:
     text: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cause:
+class Cause(NamedTuple):
     """How one kind of delay is written.
 
-    Attributes
-    ----------
-    form
-        The text after the colon as a regular expression: robot, first and second number.
-    examples
-        One for each way to write it, and its meaning.
+    The form is the text after the colon as a regular expression: robot, first and second number.
+    There is one example for each way to write it, with its meaning.
     """
 
     form: str

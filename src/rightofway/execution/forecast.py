@@ -19,8 +19,7 @@ from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution,
 
 __all__ = ["Forecast", "Times"]
 
-Times = NDArray[np.int64]
-"""A time for each visit [ticks]; shape (N,)."""
+Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
 
 class Forecast:
@@ -96,11 +95,7 @@ class Forecast:
 
     def is_driving(self, robot: int) -> bool:
         """Tell whether a robot is on its way to a vertex that it has not booked."""
-        visit = self.visit_of(robot)
-        is_last = visit + 1 == self.adg.first_visit[robot + 1]
-        if is_last or self.books_ahead or self.is_ready(robot):
-            return False
-        return int(self.execution.enter[visit] + self.delay_sample.dwell[visit]) <= self.now
+        return self.has_set_off(robot) and not self.is_ready(robot)
 
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the rights of way that are still to be used, in the order of the plan."""

@@ -7,7 +7,7 @@ well whenever a robot breaks down. Only what has happened by the instant decides
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,31 +28,17 @@ LOOKS = 400
 """A robot is late by this part of the makespan, and by the duration of a median visit at least."""
 
 SHARE = 20
-"""The rest is replanned when the expected flowtime has grown by this part of the planned one since
-that was last tried."""
+"""Replan when expected flowtime has grown by this part of the planned one since the last try."""
 
 MOST_PLANS = 10
 """How often that is tried with one plan."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExecutionPolicy:
-    """What may be changed during execution.
-
-    Attributes
-    ----------
-    switch
-        Whether rights of way are switched where that is expected to help.
-    replan
-        Whether the rest is replanned: where the fleet has fallen behind and that is expected to
-        help, and where a robot breaks down.
-    """
+class ExecutionPolicy(NamedTuple):
+    """What may be changed during execution: the order of visits, and the plan of the rest."""
 
     switch: bool = False
     replan: bool = False
-
-    def __bool__(self) -> bool:
-        return self.switch or self.replan
 
 
 class ExecutionMonitor:
@@ -100,7 +86,7 @@ class ExecutionMonitor:
         self.expected = adg.planned
         ends = adg.first_visit[1:] - 1
         self.last_tried = int((adg.planned + adg.dwell)[ends].sum())
-        if policy:
+        if any(policy):
             self._execute()
 
     @property
@@ -156,6 +142,8 @@ class ExecutionMonitor:
     def _execute(self) -> None:
         """Execute the plan, make a forecast whenever there is news, and act on it."""
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
+        ticks = (self.delay_sample.breakdown(robot) for robot in range(len(self.stages)))
+        breakdown = np.array([tick if self.policy.replan else NEVER for tick in ticks])
         patience = max(int(np.median(adg.dwell + adg.drive)), _last(adg.planned) // LOOKS, 1)
         while True:
             overdue = self.expected + patience
@@ -163,13 +151,17 @@ class ExecutionMonitor:
             news = int(late.min(initial=NEVER))
             if news > HORIZON * max(_last(self.adg.planned), _last(self.execution.enter)):
                 news = NEVER
-            now = min(news, self._next_breakdown())
+            at_work = self.execution.completion == NEVER
+            at_work[sorted(self.broken)] = False
+            now = min(news, int(breakdown[at_work].min(initial=NEVER)))
             if now == NEVER:
                 return
-            has_new_breakdown = self.policy.replan and self._note_breakdowns(now)
+            lost = np.flatnonzero(at_work & (breakdown <= now)).tolist()
+            self.broken = self.broken.union(np.flatnonzero(breakdown <= now).tolist())
+            self.lost = self.lost.union(lost)
             forecast = self.forecast(now)
             self.expected = forecast.times()
-            if has_new_breakdown:
+            if lost:
                 self._replan(forecast, NEVER)
                 continue
             switched = reordered(forecast) if self.policy.switch else None
@@ -184,20 +176,6 @@ class ExecutionMonitor:
                 tries += 1
                 self.last_tried = flowtime
                 self._replan(forecast, flowtime)
-
-    def _next_breakdown(self) -> int:
-        """Return the next tick at which a robot breaks down before it completes."""
-        unfinished = np.flatnonzero(self.execution.completion == NEVER).tolist()
-        new = (robot for robot in unfinished if robot not in self.broken)
-        ticks = map(self.delay_sample.breakdown, new)
-        return min(ticks, default=NEVER) if self.policy.replan else NEVER
-
-    def _note_breakdowns(self, now: int) -> bool:
-        """Note the robots that have broken down by now; return whether one has work left."""
-        down = {r for r in range(len(self.stages)) if self.delay_sample.breakdown(r) <= now}
-        lost = {r for r in down - self.broken if self.execution.completion[r] > now}
-        self.broken, self.lost = self.broken.union(down), self.lost.union(lost)
-        return bool(lost)
 
     def _replan(self, forecast: Forecast, limit: int) -> None:
         """Replan the rest; take the new plan if its expected flowtime is below a limit."""

@@ -24,9 +24,9 @@ from itertools import combinations, islice
 import numpy as np
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.execution.commitment import Commitment, closures_of, commitment_of
 from rightofway.execution.forecast import Forecast
 from rightofway.model import (
+    Itinerary,
     Plan,
     PlannerRun,
     Roadmap,
@@ -43,23 +43,98 @@ from rightofway.model import (
 from rightofway.planners import Deadline
 from rightofway.planners.lacam import timetable_in_order, timetable_of
 from rightofway.precedence import ActionDependencyGraph
-from rightofway.search import untimed_lacam
+from rightofway.search import Distances, untimed_lacam
 from rightofway.solve import improve
 
-__all__ = ["Replanned", "replan"]
-
-PLANNER = "lns"
+__all__ = ["Commitment", "Replanned", "closures_of", "commitment_of", "replan"]
 
 NEIGHBOURHOODS = 20
 """Neighbourhoods tried per robot; five times as many gain hardly more."""
 
 MOST_STEPS = 20_000
-"""Steps of LaCAM until robots are taken to have no way for this choice of who is cut off."""
+"""Steps of LaCAM for one choice of robots that are cut off; then the next choice is tried."""
 
 MOST_CHOICES = 200
-"""Choices of who is cut off that are tried."""
+"""Choices of robots that are cut off, the fewest robots first."""
 
 Stages = tuple[Stage, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Commitment:
+    """What one robot keeps of its route, and what is left for it to do.
+
+    Attributes
+    ----------
+    visit
+        The last visit that it has booked; index in its route.
+    vertex
+        The vertex of that visit.
+    busy
+        How long it is expected to be busy until that visit is done, from now [ticks].
+    drives_to
+        The vertex that it drives to without having booked it (``occupancy: one``), or None.
+    begun, left
+        The stages served until then, and those after that.
+    """
+
+    visit: int
+    vertex: VertexId
+    busy: Tick
+    drives_to: VertexId | None = None
+    begun: tuple[Stage, ...] = ()
+    left: tuple[Stage, ...] = ()
+
+    @property
+    def free_from(self) -> VertexId:
+        """The vertex from which the robot is free to go anywhere."""
+        return self.vertex if self.drives_to is None else self.drives_to
+
+
+def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
+    """Return what a robot has begun at the instant of a forecast.
+
+    Parameters
+    ----------
+    forecast
+        The expectation.
+    robot
+        Its index. A broken one keeps its bookings and has nothing left.
+    stages
+        All that its route serves.
+    """
+    adg, route = forecast.adg, forecast.adg.routes[robot]
+    first, end = adg.first_visit[robot : robot + 2].tolist()
+    index = int(np.count_nonzero(forecast.booked[first:end])) - 1
+    if robot in forecast.broken:
+        vertex = route.vertices[index]
+        return Commitment(visit=index, vertex=vertex, busy=Tick(0), begun=tuple(stages))
+    is_driving = forecast.is_driving(robot)
+    if is_driving and forecast.broken:
+        # To a vertex that is free it drives on, as if it had booked it; else it may turn back.
+        other = int(adg.before[first + index + 1])
+        is_driving = False
+        index += other < 0 or bool(forecast.entered[other + 1])
+    ends = forecast.graph.enter(first + index) + forecast.graph.routes[robot].dwell[index]
+    begun = sum(at <= index for at in route.serves)
+    return Commitment(
+        visit=index,
+        vertex=route.vertices[index],
+        busy=Tick(max(ends - forecast.now, 0)),
+        drives_to=route.vertices[index + 1] if is_driving else None,
+        begun=tuple(stages[:begun]),
+        left=tuple(stages[begun:]),
+    )
+
+
+def closures_of(forecast: Forecast) -> frozenset[VertexId]:
+    """Return the vertices that broken robots hold for ever: bookings of nobody."""
+    adg, closed = forecast.adg, set()
+    for robot in forecast.broken:
+        here, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
+        held = np.arange(here, end)[forecast.booked[here:end]]
+        closed.update(adg.vertex[held].tolist())
+    return frozenset(closed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,7 +191,7 @@ def replan(
         rest = _rest(scenario, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
-    better = improve(first, PLANNER, deadline.seconds_left(), seed, options=options)
+    better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
     for plan in (better, first):
         adg = _spliced(forecast, commitments, plan)
         # The planner may send a busy robot away and back. It stays, so robots may wait in a cycle.
@@ -154,7 +229,7 @@ def _another_way(
     deadline: Deadline,
 ) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
     """Return what robots do, as few as possible that are cut off, and tracks by LaCAM."""
-    for cut_off, tried in islice(_choices(rest.roadmap, broken, commitments), MOST_CHOICES):
+    for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
         if deadline.seconds_left() == 0:
             return None
         try:
@@ -168,21 +243,25 @@ def _another_way(
         except (NoPlanExists, GaveUp):
             continue
         ended = [
-            replace(one, left=(*one.left[:-1], _end(steps[-1, robot]))) if robot in cut_off else one
-            for robot, one in enumerate(tried)
+            _with_end(one, one.left[:-1], end) if robot in cut_off else one
+            for robot, (one, end) in enumerate(zip(tried, steps[-1].tolist(), strict=True))
         ]
         return ended, cut_off, timetable_of(_rest(rest, rest.roadmap, ended), steps)
     return None
 
 
 def _choices(
-    roadmap: Roadmap, broken: frozenset[int], commitments: Sequence[Commitment]
+    rest: Scenario, broken: frozenset[int], commitments: Sequence[Commitment]
 ) -> Iterator[tuple[frozenset[int], list[Commitment]]]:
     """Yield who may be cut off, and what all robots do then: fewest first, with most stages first.
 
     The last stage of a robot that is cut off is where it would like to end.
     """
-    reachable = [replace(one, left=_within_reach(roadmap, one)) for one in commitments]
+    distances = Distances(rest.roadmap)
+    reachable = [
+        replace(one, left=_within_reach(distances, itinerary, one))
+        for itinerary, one in zip(rest.problem.itineraries, commitments, strict=True)
+    ]
     by_map = {
         robot for robot, one in enumerate(commitments) if len(reachable[robot].left) < len(one.left)
     }
@@ -191,36 +270,25 @@ def _choices(
         for more in combinations(others, count):
             cut_off = frozenset(by_map.union(more))
             for most in (None, 0) if cut_off else (None,):
-                yield (
-                    cut_off,
-                    [
-                        _ending_anywhere(one, one.left[:most]) if robot in cut_off else one
-                        for robot, one in enumerate(reachable)
-                    ],
-                )
+                tried = list(reachable)
+                for robot in cut_off:
+                    one, left = reachable[robot], reachable[robot].left[:most]
+                    tried[robot] = _with_end(one, left, left[-1].vertex if left else one.free_from)
+                yield cut_off, tried
 
 
-def _within_reach(roadmap: Roadmap, commitment: Commitment) -> Stages:
+def _within_reach(distances: Distances, itinerary: Itinerary, one: Commitment) -> Stages:
     """Return the stages that a robot can still get to, one after the other."""
-    at, kept = commitment.goes_on_from, []
-    for stage in commitment.left:
-        found, queue = {at}, [at]
-        for vertex in queue:
-            heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
-            queue += [head for head in heads if head not in found]
-            found.update(heads)
-        if stage.vertex in found:
+    at, kept = one.free_from, []
+    for stage in one.left:
+        if distances.to(stage.vertex, itinerary.edge_ticks)[at] >= 0:
             kept.append(stage)
             at = stage.vertex
     return tuple(kept)
 
 
-def _ending_anywhere(one: Commitment, left: Stages) -> Commitment:
-    return replace(one, left=(*left, _end(left[-1].vertex if left else one.goes_on_from)))
-
-
-def _end(vertex: int) -> Stage:
-    return Stage(vertex=VertexId(int(vertex)), work=Tick(0), turn=Tick(0))
+def _with_end(one: Commitment, left: Stages, vertex: int) -> Commitment:
+    return replace(one, left=(*left, Stage(vertex=VertexId(vertex), work=Tick(0), turn=Tick(0))))
 
 
 def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment]) -> Scenario:
@@ -248,50 +316,40 @@ def _spliced(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
     """Return what has begun, followed by a plan of the rest."""
-    adg, routes, enters, sinces = forecast.adg, [], [], []
-    for robot, one in enumerate(commitments):
-        first = int(adg.first_visit[robot])
-        kept = slice(first, first + one.visit + 1)
+    adg, now = forecast.adg, forecast.now
+    routes, tracks, sinces = [], [], []
+    for robot, (one, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
         new = route_of(plan.scenario.roadmap, itinerary, track)
-        begins = new.serves[one.drives_to is not None]
-        routes.append(_spliced_route(adg.routes[robot], new, one, begins))
-        to_come = track.enter[begins + (one.drives_to is None) :]
-        enter = np.minimum(forecast.execution.enter[kept], forecast.now)
-        enters.append(np.append(enter, forecast.now + 1 + to_come))
-        since = np.full(len(to_come), forecast.now)
-        if len(to_come) and forecast.broken and forecast.has_set_off(robot):
-            following = slice(one.visit + 1, one.visit + 2)
-            if adg.routes[robot].vertices[following] != routes[-1].vertices[following]:
-                since[:1] += routes[-1].drive[one.visit + 1]  # turns back: drives from now on
-        sinces.append(np.append(adg.since[kept], since))
+        is_driving = one.drives_to is not None
+        # The visit of the new route that ends the commitment is the last one kept of the old route.
+        begins, kept = new.serves[is_driving], one.visit + 1 + is_driving
+        before = 0 if is_driving else old.dwell[one.visit] - one.busy
+        shift = kept - 1 - begins
+        to_come = new.serves[len(new.serves) - len(one.left) :]
+        serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
+        serves[-1] = len(new) - 1 + shift  # a robot that is done may move aside and come back
+        route = Route(
+            vertices=(*old.vertices[:kept], *new.vertices[begins + 1 :]),
+            dwell=(
+                *old.dwell[: kept - 1],
+                Tick(before + new.dwell[begins]),
+                *new.dwell[begins + 1 :],
+            ),
+            drive=(*old.drive[:kept], *new.drive[begins + 1 :]),
+            serves=tuple(serves),
+        )
+        booked = slice(first := int(adg.first_visit[robot]), first + one.visit + 1)
+        enter = now + 1 + track.enter[begins + 1 - is_driving :]
+        since = np.full(len(enter), now)
+        next_visit = slice(one.visit + 1, one.visit + 2)
+        turns_back = old.vertices[next_visit] != route.vertices[next_visit]
+        if len(enter) and forecast.broken and forecast.has_set_off(robot) and turns_back:
+            since[0] += route.drive[one.visit + 1]
+        enter = np.append(np.minimum(forecast.execution.enter[booked], now), enter)
+        tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))
+        routes.append(route)
+        sinces.append(np.append(adg.since[booked], since))
     return ActionDependencyGraph(
-        adg.scenario,
-        [
-            Track(vertices=np.array(route.vertices, np.int32), enter=enter)
-            for route, enter in zip(routes, enters, strict=True)
-        ],
-        adg.delay_model,
-        routes=routes,
-        since=np.concatenate(sinces),
-    )
-
-
-def _spliced_route(old: Route, new: Route, one: Commitment, begins: int) -> Route:
-    """Join routes; visits of the new one before ``begins``, which ends the commitment, go."""
-    here = one.visit
-    vertices, drive = old.vertices[: here + 1], old.drive[: here + 1]
-    dwell = (*old.dwell[:here], Tick(old.dwell[here] + new.dwell[begins] - one.busy))
-    if one.drives_to is not None:
-        vertices, drive = (*vertices, one.drives_to), old.drive[: here + 2]
-        dwell = (*old.dwell[: here + 1], new.dwell[begins])
-    shift = len(vertices) - 1 - begins
-    to_come = new.serves[len(new.serves) - len(one.left) :]
-    serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
-    serves[-1] = len(new) - 1 + shift  # robots that are done may move aside, and come back to end
-    return Route(
-        vertices=(*vertices, *new.vertices[begins + 1 :]),
-        dwell=(*dwell, *new.dwell[begins + 1 :]),
-        drive=(*drive, *new.drive[begins + 1 :]),
-        serves=tuple(serves),
+        adg.scenario, tracks, adg.delay_model, routes=routes, since=np.concatenate(sinces)
     )

@@ -76,7 +76,9 @@ def simulate(
     the plan: that holds for delays of any length. Both are counted nevertheless.
     """
     time_limit = checked_time_limit(time_limit)
-    _refuse_faults(plan)
+    judged = check(plan)
+    if not judged.ok:
+        raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
     deadline = Deadline.after(time_limit)
@@ -87,10 +89,10 @@ def simulate(
     kept: list[NDArray[np.int64]] = []
     switches = replans = cut_off = deadlocks = 0
     traces: dict[int, ExecutionTrace] = {}
-    chunk = 1 if policy else max(CHUNK // len(adg.vertex), 1)
+    chunk = 1 if any(policy) else max(CHUNK // len(adg.vertex), 1)
     for first in range(0, runs, chunk):
         batch = adg.runs(seed, first, min(chunk, runs - first))
-        if policy:
+        if any(policy):
             monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
             if deadline.seconds_left() == 0:  # replanning may have been cut short
                 if first:
@@ -112,8 +114,7 @@ def simulate(
 
     every = joined(batches)
     is_broken, unfinished = every.is_broken.astype(bool), every.completion == NEVER
-    stuck = np.zeros(len(plan.tracks), bool)
-    stuck[adg.deadlocked()] = True
+    stuck = np.isin(np.arange(len(plan.tracks)), adg.deadlocked())
     return Outcome(
         plan=plan,
         runs=len(every.completion),
@@ -127,14 +128,8 @@ def simulate(
         cut_off=cut_off,
         switches=switches,
         replans=replans,
-        gain=PolicyGain.of(np.concatenate(kept), every.completion) if policy else None,
+        gain=PolicyGain.of(np.concatenate(kept), every.completion) if kept else None,
         lateness=Lateness.of(adg, every),
         completion=np.where(unfinished, -1, every.completion),
         _trace=trace,
     )
-
-
-def _refuse_faults(plan: Plan) -> None:
-    report = check(plan)
-    if not report.ok:
-        raise InputError.at("", f"the plan has {report.summary} (only one without can be run)")

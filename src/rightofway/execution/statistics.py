@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -157,17 +157,14 @@ class Lateness:
         late = completion - planned
         everybody = completion[done.all(axis=1)]
         own = np.add.reduceat(batch.own, adg.first_visit[:-1]).tolist()
-        waiting: list[dict[int, int]] = [defaultdict(int) for _ in own]
+        waiting: list[Counter[int]] = [Counter() for _ in own]
         for robot, other, ticks in batch.between.tolist():
             waiting[robot][other] += ticks
         robots = tuple(
             RobotLateness(
                 quantiles=Quantiles.of(late[done[:, robot], robot]),
                 own=round(own[robot] / runs, 6),
-                waiting={
-                    other: round(ticks / runs, 6)
-                    for other, ticks in sorted(waiting[robot].items(), key=lambda one: -one[1])
-                },
+                waiting={k: round(ticks / runs, 6) for k, ticks in waiting[robot].most_common()},
             )
             for robot in range(len(own))
         )
@@ -181,22 +178,21 @@ class Lateness:
 
 
 def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[Source, ...]:
-    found: dict[tuple[int, int], list[int]] = defaultdict(lambda: [0, 0])
+    """Return the sources of lateness: sums over the visits of one robot at one vertex."""
+    own, of_others = Counter[tuple[int, int]](), Counter[tuple[int, int]]()
     for visit in np.flatnonzero(batch.own + batch.of_others).tolist():
         place = adg.robot_of(visit), int(adg.vertex[visit])
-        found[place][0] += int(batch.own[visit])
-        found[place][1] += int(batch.of_others[visit])
-    runs = len(batch.completion)
+        own[place] += int(batch.own[visit])
+        of_others[place] += int(batch.of_others[visit])
+    total, runs = own + of_others, len(batch.completion)
     return tuple(
         Source(
-            robot=robot,
-            vertex=VertexId(vertex),
-            own=round(own / runs, 6),
-            of_others=round(of_others / runs, 6),
+            robot=place[0],
+            vertex=VertexId(place[1]),
+            own=round(own[place] / runs, 6),
+            of_others=round(of_others[place] / runs, 6),
         )
-        for (robot, vertex), (own, of_others) in sorted(
-            found.items(), key=lambda item: (-sum(item[1]), item[0])
-        )
+        for place in sorted(total, key=lambda place: (-total[place], place))
     )
 
 
@@ -230,10 +226,9 @@ class PolicyGain:
 
 def joined(batches: Sequence[RunBatch]) -> RunBatch:
     """Return the runs of several batches of one plan as one batch."""
-    own, of_others = (sum(getattr(one, name) for one in batches) for name in ("own", "of_others"))
-    names = ("completion", "is_broken", "by_right_of_way", "by_clock", "between")
-    rows = {name: np.concatenate([getattr(one, name) for one in batches]) for name in names}
-    return RunBatch(**rows, own=own, of_others=of_others)
+    summed = {"own", "of_others"}
+    columns = zip(RunBatch._fields, zip(*batches, strict=True), strict=True)
+    return RunBatch(*(sum(each) if k in summed else np.concatenate(each) for k, each in columns))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

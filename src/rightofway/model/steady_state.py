@@ -1,4 +1,4 @@
-"""From when on a plan repeats itself, after how long, and what keeps it from repeating sooner."""
+"""Steady state of a plan with repeated laps: its start, its period, its critical cycle."""
 
 from __future__ import annotations
 
@@ -13,21 +13,20 @@ __all__ = ["SteadyState", "refuse_unknown_robots", "within"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SteadyState:
-    """Robots that repeat themselves together.
+    """A group of robots whose visits repeat with one period.
 
     Attributes
     ----------
     robots
-        Who, by index; robots that never meet these have a steady period of their own.
+        Their indices; robots that never meet these have a steady state of their own.
     start
-        From when on everything comes again [ticks]. What is before is the transient.
+        The first tick from which on every visit repeats; the transient is before [ticks].
     period
-        After how many ticks.
+        The time from a visit to its repetition [ticks].
     critical
-        The bottleneck: visits (robot, index in its track) that wait for each other in a circle, in
-        the order of that circle, each as it is in any one period. Of a visit before one of another
-        robot only the beginning counts: by it, the vertex is left that the other waits for. None
-        where that is not known.
+        The critical cycle: visits (robot, index in its track) that wait for each other, in the
+        order of the cycle, each as it is in any one period. Of a visit before one of another robot
+        only the begin counts: it ends the visit that the other robot waits for. Empty if unknown.
 
     Raises
     ------
@@ -54,14 +53,14 @@ class SteadyState:
 def refuse_unknown_robots(
     steady: Sequence[SteadyState], names: Sequence[str], visits: Sequence[int]
 ) -> None:
-    """Refuse groups that are not of a plan.
+    """Refuse groups that do not fit a plan.
 
     Parameters
     ----------
     steady
         Groups of its robots.
     names, visits
-        What each robot of the plan is called, and how many visits its track has.
+        Name of each robot of the plan, and number of visits of its track.
 
     Raises
     ------
@@ -86,14 +85,14 @@ def refuse_unknown_robots(
 
 
 def within(steady: Sequence[SteadyState], visits: Sequence[int]) -> tuple[SteadyState, ...]:
-    """Return the groups for a plan with shorter tracks: bottlenecks beyond their ends are unknown.
+    """Return the groups for a plan with shorter tracks, without critical cycles beyond their ends.
 
     Parameters
     ----------
     steady
         Groups of the robots of a plan.
     visits
-        How many visits the track of each robot has.
+        Number of visits of the track of each robot.
     """
     return tuple(
         group
