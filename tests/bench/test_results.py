@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +81,7 @@ def test_what_a_killed_run_left_of_a_parquet_file_is_taken_up(tmp_path: Path) ->
         results.add(row("a"))
     killed = Results(tmp_path / "r.parquet")
     killed.add(row("b"))
-    killed._journal.close()  # and nothing else is done any more
+    os.close(killed._file)  # and nothing else is done any more
     with Results(tmp_path / "r.parquet") as results:
         assert list(results.rows) == ["a", "b"]
     assert [path.name for path in tmp_path.iterdir()] == ["r.parquet"]

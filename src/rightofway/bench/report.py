@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import base64
 import html
+import io
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any, Literal
 
-from rightofway.bench.plots import cactus_plot, ratio_plot
+from rightofway.bench.extras import needed
 from rightofway.bench.results import Row
 from rightofway.bench.summary import (
     Group,
@@ -22,6 +25,8 @@ from rightofway.files import write_whole
 
 __all__ = ["markdown_table", "write_report"]
 
+Format = Literal["svg", "png"]
+
 Table = list[Sequence[str]]
 """Rows of cells; the first has the headings."""
 
@@ -31,7 +36,6 @@ RATIOS = (
     " 1 cannot be beaten. Hollow markers: some cases are not solved, and those tend to be the hard"
     " ones."
 )
-
 PAGE = """<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
@@ -48,6 +52,25 @@ img {{ max-width: 100%; }}
 <h1>{title}</h1>
 {body}
 """
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+"""The palette of Okabe and Ito, distinct for colour-blind readers too."""
+
+MARKERS = "osD^vPX"
+
+STYLE = {
+    "svg.hashsalt": "rightofway",  # the same rows, the same bytes
+    "svg.fonttype": "none",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+}
+
+LEAST_SECONDS = 0.001
+"""Shorter times are drawn as this one, since a logarithmic axis has no 0."""
 
 
 def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
@@ -71,29 +94,60 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     path = Path(path)
     if not rows:
         raise InputError.at("", "there is no row to report on (run some cases)", str(path))
+    names = planner_names(rows)
+    planners = [
+        [name, *_figures(group), _unsolved(group)]
+        for name, group in ((name, Group.of(each)) for name, each in by_planner(rows).items())
+    ]
+    details = [
+        [*place, str(robots), planner, *_figures(group)]
+        for place, part in grouped(rows, "map", "fleet").items()
+        for planner, each in by_planner(part, names).items()
+        for robots, group in by_robots(each).items()
+    ]
+    tables: tuple[Table, Table] = (
+        [["planner", *FIGURES, "not solved"], *planners],
+        [["map", "fleet", "robots", "planner", *FIGURES], *details],
+    )
     if path.suffix.lower() == ".md":
-        _write_markdown(rows, path, title)
+        _write_markdown(rows, tables, path, title)
     else:
-        write_whole(path, _page(rows, title))
+        write_whole(path, _page(rows, tables, title))
 
 
-def _page(rows: Sequence[Row], title: str) -> str:
-    pictures = [(cactus_plot(rows, "svg"), CACTUS), (ratio_plot(rows, "svg"), RATIOS)]
+FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
+
+
+def _figures(group: Group) -> Iterator[str]:
+    def spread(found: Quantiles | None, form: str) -> str:
+        if found is None:
+            return ""
+        low, high = (f"{each:{form}}" for each in (found.first_quartile, found.third_quartile))
+        return f"{found.median:{form}} ({low} to {high})"
+
+    yield f"{group.solved} of {group.cases}"
+    yield spread(group.ratio, ".3f")
+    yield spread(group.seconds, ".2g")
+    yield "" if group.memory is None else f"{group.memory:.0f}"
+
+
+def _unsolved(group: Group) -> str:
+    return ", ".join(f"{n} {status}" for status, n in group.statuses.items() if status != "solved")
+
+
+def _page(rows: Sequence[Row], tables: tuple[Table, Table], title: str) -> str:
     figures = []
-    for picture, words in pictures:
+    for picture, words in ((_cactus(rows, "svg"), CACTUS), (_ratios(rows, "svg"), RATIOS)):
         # Each an image of its own, so that the pictures share no names.
         data, text = base64.b64encode(picture).decode(), html.escape(words)
         figures.append(
             f'<figure><img alt="{text}" src="data:image/svg+xml;base64,{data}">'
             f"<figcaption>{text}</figcaption></figure>"
         )
-    body = [
-        _html_table(_planners(rows)),
-        *figures,
-        _html_table(_details(rows)),
-        *(f"<p>{html.escape(sentence)}</p>" for sentence in _machines(rows)),
-    ]
-    return PAGE.format(title=html.escape(title), body="\n".join(body))
+    planners, details = map(_html_table, tables)
+    machines = (f"<p>{html.escape(sentence)}</p>" for sentence in _machines(rows))
+    body = "\n".join([planners, *figures, details, *machines])
+    return PAGE.format(title=html.escape(title), body=body)
 
 
 def _html_table(table: Table) -> str:
@@ -104,18 +158,21 @@ def _html_table(table: Table) -> str:
     return "<table>\n" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>"
 
 
-def _write_markdown(rows: Sequence[Row], path: Path, title: str) -> None:
+def _write_markdown(
+    rows: Sequence[Row], tables: tuple[Table, Table], path: Path, title: str
+) -> None:
     cactus, ratio = f"{path.stem}-cactus.png", f"{path.stem}-ratio.png"
-    write_whole(path.with_name(cactus), cactus_plot(rows, "png"))
-    write_whole(path.with_name(ratio), ratio_plot(rows, "png"))
+    write_whole(path.with_name(cactus), _cactus(rows, "png"))
+    write_whole(path.with_name(ratio), _ratios(rows, "png"))
+    planners, details = map(markdown_table, tables)
     parts = [
         f"# {title}",
-        markdown_table(_planners(rows)),
+        planners,
         f"![{CACTUS}]({cactus})",
         CACTUS,
         f"![Flowtime / lower bound]({ratio})",
         RATIOS,
-        markdown_table(_details(rows)),
+        details,
         *_machines(rows),
     ]
     write_whole(path, "\n\n".join(parts) + "\n")
@@ -124,50 +181,10 @@ def _write_markdown(rows: Sequence[Row], path: Path, title: str) -> None:
 def markdown_table(table: Table) -> str:
     """Return a table as Markdown; its first row has the headings."""
     heads, *lines = table
-    rows = (heads, ["---"] * len(heads), *lines)
     return "\n".join(
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |"
+        for row in (heads, ["---"] * len(heads), *lines)
     )
-
-
-def _planners(rows: Sequence[Row]) -> Table:
-    lines = [
-        [name, *_numbers(group), ", ".join(_unsolved(group))]
-        for name, group in ((name, Group.of(each)) for name, each in by_planner(rows).items())
-    ]
-    return [["planner", *NUMBERS, "not solved"], *lines]
-
-
-NUMBERS = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
-
-
-def _numbers(group: Group) -> Iterator[str]:
-    yield f"{group.solved} of {group.cases}"
-    yield _words(group.ratio, ".3f")
-    yield _words(group.seconds, ".2g")
-    yield "" if group.memory is None else f"{group.memory:.0f}"
-
-
-def _words(spread: Quantiles | None, form: str) -> str:
-    if spread is None:
-        return ""
-    low, high = (f"{each:{form}}" for each in (spread.first_quartile, spread.third_quartile))
-    return f"{spread.median:{form}} ({low} to {high})"
-
-
-def _unsolved(group: Group) -> Iterator[str]:
-    return (f"{count} {name}" for name, count in group.statuses.items() if name != "solved")
-
-
-def _details(rows: Sequence[Row]) -> Table:
-    planner_of = planner_names(rows)
-    lines = [
-        [*names, str(robots), planner, *_numbers(group)]
-        for names, part in grouped(rows, "map", "fleet").items()
-        for planner, each in by_planner(part, planner_of).items()
-        for robots, group in by_robots(each).items()
-    ]
-    return [["map", "fleet", "robots", "planner", *NUMBERS], *lines]
 
 
 def _machines(rows: Iterable[Row]) -> Iterator[str]:
@@ -176,3 +193,94 @@ def _machines(rows: Iterable[Row]) -> Iterator[str]:
         what = f"rightofway {version}" + (f" (commit {commit})" if commit else "")
         cases = f"{len(each)} case{'s' * (len(each) != 1)}"
         yield f"{cases} by {what} on {cpu}, {cores} cores, {compiler}, Python {python}."
+
+
+def _cactus(rows: Sequence[Row], form: Format) -> bytes:
+    """Draw how many cases each planner has solved after how many seconds."""
+    with needed("matplotlib", "a report").rc_context(STYLE):
+        figure = needed("matplotlib.figure", "a report").Figure((7, 4.2), layout="constrained")
+        axes, planners = figure.add_subplot(), by_planner(rows)
+        for index, (name, each) in enumerate(planners.items()):
+            # Laps have no first plan: they are known at the end.
+            known = (
+                row["first_plan_seconds"] or row["wall_seconds"] for row in each if row["solved"]
+            )
+            seconds = sorted(max(second, LEAST_SECONDS) for second in known)
+            end = max([*seconds, *(row["limit"] for row in each)])
+            counts = [*range(1, len(seconds) + 1), len(seconds)]
+            colour = COLOURS[index % len(COLOURS)]
+            axes.step(
+                [*seconds, end], counts, where="post", label=name, color=colour, linewidth=1.6
+            )
+        most = max(map(len, planners.values()))
+        axes.axhline(most, color="#888888", linestyle=":", linewidth=1)
+        axes.set(
+            xscale="log",
+            xlabel="time to the first plan [s]",
+            ylabel=f"solved cases, of {most}",
+            ylim=(0, 1.05 * most),
+        )
+        axes.legend(loc="lower right")
+        return _saved(figure, form)
+
+
+def _ratios(rows: Sequence[Row], form: Format) -> bytes:
+    """Draw flowtime / lower bound by number of robots: medians and quartiles, a part for each map.
+
+    Medians are of solved cases; where others are not solved the marker is hollow.
+    """
+    parts, names = grouped(rows, "map", "fleet"), planner_names(rows)
+    planners = list(dict.fromkeys(names.values()))
+    columns = min(3, len(parts))
+    lines = math.ceil(len(parts) / columns)
+    with needed("matplotlib", "a report").rc_context(STYLE):
+        figure = needed("matplotlib.figure", "a report").Figure(
+            (1.2 + 3.6 * columns, 0.6 + 3 * lines), layout="constrained"
+        )
+        grid = figure.subplots(lines, columns, squeeze=False)
+        for axes in grid.flat[len(parts) :]:
+            axes.remove()
+        for axes, (title, part) in zip(grid.flat, parts.items(), strict=False):
+            axes.set_title(", ".join(filter(None, title)), fontsize="medium")
+            found = by_planner(part, names)
+            for index, name in enumerate(planners):
+                beside = 1.02 ** (index - (len(planners) - 1) / 2)  # spreads do not cover others
+                _draw_planner(axes, by_robots(found.get(name, [])), name, index, beside)
+            counts = sorted({row["robots"] for row in part})
+            axes.set(xscale="log", xlim=(counts[0] / 1.3, counts[-1] * 1.3))
+            axes.set_xticks(counts, [str(count) for count in counts])
+            axes.minorticks_off()
+            axes.margins(y=0.1)
+            axes.axhline(1, color="#888888", linestyle=":", linewidth=1)
+        figure.supxlabel("robots", fontsize="medium")
+        figure.supylabel("flowtime / lower bound", fontsize="medium")
+        lines_of, labels = grid.flat[0].get_legend_handles_labels()
+        figure.legend(lines_of, labels, loc="outside upper center", ncols=min(3, len(labels)))
+        return _saved(figure, form)
+
+
+def _draw_planner(
+    axes: Any, groups: dict[int, Group], name: str, index: int, beside: float
+) -> None:
+    look = {"color": COLOURS[index % len(COLOURS)], "linewidth": 1.6}
+    marker = MARKERS[index % len(MARKERS)]
+    points = [
+        (robots * beside, group.ratio, group.solved == group.cases)
+        for robots, group in groups.items()
+        if group.ratio
+    ]
+    axes.plot([], [], marker=marker, label=name, **look)
+    axes.plot([x for x, _, _ in points], [ratio.median for _, ratio, _ in points], **look)
+    for x, ratio, is_whole in points:
+        spread = [[ratio.median - ratio.first_quartile], [ratio.third_quartile - ratio.median]]
+        axes.errorbar(
+            [x], [ratio.median], yerr=spread, marker=marker, capsize=2,
+            markerfacecolor=look["color"] if is_whole else "white", **look,
+        )  # fmt: skip
+
+
+def _saved(figure: Any, form: Format) -> bytes:
+    content = io.BytesIO()
+    metadata = {"Date": None} if form == "svg" else {}
+    figure.savefig(content, format=form, dpi=150, metadata=metadata)
+    return content.getvalue()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -92,37 +92,45 @@ class Results:
     -----
     A row is one line and is written by one call, then flushed to the disk. What a kill leaves of a
     line that was being written is cut off by the next run, which does the case again. Parquet
-    files cannot grow: rows are in a CSV file beside it until the run ends.
+    files cannot grow: rows are in a CSV file beside it, the journal, until the run ends.
     """
 
     def __init__(self, path: Path | str) -> None:
-        self.path = Path(path)
+        self.path = self.journal = Path(path)
         self.rows: dict[str, Row] = {}
         self._is_parquet = self.path.suffix.lower() == ".parquet"
-        journal = self.path
         if self._is_parquet:
             need("pyarrow", "a Parquet file")
-            journal = self.path.with_name(f"{self.path.name}.csv")
+            self.journal = self.path.with_name(f"{self.path.name}.csv")
             if self.path.exists():
                 self.rows = {row["key"]: row for row in _read_parquet(self.path)}
-        self._journal = _Journal(journal)
-        for row in self._journal.rows:
-            self.rows.setdefault(row["key"], row)
+        try:
+            self._file = os.open(self.journal, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+        except OSError as error:
+            message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
+            raise self._fault(message) from None
+        try:
+            self._lock()
+            for row in self._mended_rows():
+                self.rows.setdefault(row["key"], row)
+        except BaseException:
+            os.close(self._file)
+            raise
 
     def add(self, row: Mapping[str, Any]) -> None:
         """Write a row; one whose key is there already is left out."""
         if row["key"] not in self.rows:
             self.rows[row["key"]] = dict(row)
-            self._journal.write(_line([_text(row[name]) for name in HEADER]))
+            self._write(_line([_text(row[name]) for name in HEADER]))
 
     def close(self) -> None:
         """Finish the file."""
         try:
             if self._is_parquet:
                 _write_parquet(self.path, list(self.rows.values()))
-                self._journal.path.unlink()
+                self.journal.unlink()
         finally:
-            self._journal.close()
+            os.close(self._file)
 
     def __enter__(self) -> Self:
         return self
@@ -135,67 +143,46 @@ class Results:
     ) -> None:
         self.close()
 
-
-class _Journal:
-    """A locked CSV file that only grows, by whole lines; `rows` are those it began with."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        try:
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
-        except OSError as error:
-            message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
-            raise InputError.at("", message, str(path)) from None
-        try:
-            self._lock()
-            self.rows = self._mended_rows()
-        except BaseException:
-            self.close()
-            raise
-
     def _lock(self) -> None:
         try:
             if fcntl is not None:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             message = "another run is writing to it (wait for its end, or give another file)"
-            raise InputError.at("", message, str(self.path)) from None
+            raise self._fault(message) from None
 
-    def _mended_rows(self) -> list[Row]:
-        """Begin a new file, or cut off a line that was being written; return the whole rows."""
-        content, header = self.path.read_bytes(), _line(HEADER)
+    def _mended_rows(self) -> Iterator[Row]:
+        """Begin a new journal, or cut off a line that was being written; yield the whole rows."""
+        content, header = self.journal.read_bytes(), _line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
-            raise InputError.at("line 1", NOT_RESULTS, str(self.path))
+            raise self._fault(NOT_RESULTS, "line 1")
         whole = content.rfind(b"\n") + 1
         if whole < len(content):
             os.truncate(self._file, whole)
         if not whole:
-            self.write(header)
+            self._write(header)
         lines = content[:whole].decode("utf-8", "replace").split("\n")[1:-1]
-        return [self._row(number, line) for number, line in enumerate(lines, start=2)]
+        for number, [cells] in enumerate((csv.reader([line]) for line in lines), start=2):
+            try:
+                yield {
+                    column.name: _value(cell, column.kind)
+                    for column, cell in zip(COLUMNS, cells, strict=True)
+                }
+            except ValueError as error:
+                message = f"this is no row of results: {error} (take the line out)"
+                raise self._fault(message, f"line {number}") from None
 
-    def _row(self, number: int, line: str) -> Row:
-        [cells] = csv.reader([line])
-        try:
-            return {
-                column.name: _value(cell, column.kind)
-                for column, cell in zip(COLUMNS, cells, strict=True)
-            }
-        except ValueError as error:
-            message = f"this is no row of results: {error} (take the line out)"
-            raise InputError.at(f"line {number}", message, str(self.path)) from None
-
-    def write(self, line: bytes) -> None:
+    def _write(self, line: bytes) -> None:
         try:
             while line:
                 line = line[os.write(self._file, line) :]
             os.fsync(self._file)
         except OSError as error:
             message = f"cannot be written: {error.strerror} (the next run goes on from here)"
-            raise InputError.at("", message, str(self.path)) from None
+            raise self._fault(message) from None
 
-    def close(self) -> None:
-        os.close(self._file)
+    def _fault(self, message: str, place: str = "") -> InputError:
+        return InputError.at(place, message, str(self.journal))
 
 
 def _line(cells: list[str]) -> bytes:

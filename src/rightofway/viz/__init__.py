@@ -13,15 +13,9 @@ if TYPE_CHECKING:
     from rightofway.viz.page import frame_of, page_of, payload_of, write_page
     from rightofway.viz.raster import Film, write_gif, write_png
 
-_LATER = {
-    "Film": "raster",
-    "frame_of": "page",
-    "page_of": "page",
-    "payload_of": "page",
-    "write_gif": "raster",
-    "write_page": "page",
-    "write_png": "raster",
-}
+_LATER = dict.fromkeys(("Film", "write_gif", "write_png"), "raster") | dict.fromkeys(
+    ("frame_of", "page_of", "payload_of", "write_page"), "page"
+)
 
 __all__ = [
     "Film",

@@ -132,10 +132,15 @@ def _hex(channels: tuple[int, ...]) -> str:
 
 def _hex_of_oklch(lightness: float, chroma: float, hue: float) -> str:
     """Convert to sRGB, with as much of the chroma as that can show."""
-    while not all(0 <= channel <= 1 for channel in _linear_rgb(lightness, chroma, hue)):
-        chroma -= 0.002
     linear = _linear_rgb(lightness, chroma, hue)
-    return _hex(tuple(round(255 * _gamma(channel)) for channel in linear))
+    while not all(0 <= channel <= 1 for channel in linear):
+        chroma -= 0.002
+        linear = _linear_rgb(lightness, chroma, hue)
+    curved = (
+        12.92 * channel if channel <= STRAIGHT_UNTIL else 1.055 * channel ** (1 / 2.4) - 0.055
+        for channel in linear
+    )
+    return _hex(tuple(round(255 * channel) for channel in curved))
 
 
 def _linear_rgb(lightness: float, chroma: float, hue: float) -> tuple[float, float, float]:
@@ -148,10 +153,3 @@ def _linear_rgb(lightness: float, chroma: float, hue: float) -> tuple[float, flo
         -1.2684380046 * long + 2.6097574011 * middle - 0.3413193965 * short,
         -0.0041960863 * long - 0.7034186147 * middle + 1.7076147010 * short,
     )
-
-
-def _gamma(linear: float) -> float:
-    """Return a channel as sRGB writes it."""
-    if linear <= STRAIGHT_UNTIL:
-        return 12.92 * linear
-    return 1.055 * math.pow(linear, 1 / 2.4) - 0.055

@@ -77,24 +77,16 @@ def vertices_in_line(routes: Sequence[Sequence[int]]) -> list[int]:
     places: dict[int, float] = {}
     for route in routes:
         once = list(dict.fromkeys(route))
-        laid = _lay(once, places)
-        places.update(
-            (vertex, place)
-            for vertex, place in zip(once, laid, strict=True)
-            if vertex not in places
-        )
+        laid = list(map(float, range(len(once))))
+        anchors = [index for index, vertex in enumerate(once) if vertex in places]
+        if anchors:
+            at = [places[once[anchor]] for anchor in anchors]
+            ahead = 1 if at[-1] >= at[0] else -1
+            between = np.interp(laid, anchors, at).tolist()
+            laid = [
+                place + ahead * (min(index - anchors[0], 0) + max(index - anchors[-1], 0))
+                for index, place in enumerate(between)
+            ]
+        for vertex, place in zip(once, laid, strict=True):
+            places.setdefault(vertex, place)
     return sorted(places, key=lambda vertex: (places[vertex], vertex))
-
-
-def _lay(route: Sequence[int], places: dict[int, float]) -> list[float]:
-    """Return a place for each vertex of a route, in line with those that have one."""
-    anchors = [index for index, vertex in enumerate(route) if vertex in places]
-    if not anchors:
-        return [float(index) for index in range(len(route))]
-    at = [places[route[anchor]] for anchor in anchors]
-    ahead = 1 if at[-1] >= at[0] else -1
-    between = np.interp(range(len(route)), anchors, at).tolist()
-    return [
-        place + ahead * (min(index - anchors[0], 0) + max(index - anchors[-1], 0))
-        for index, place in enumerate(between)
-    ]

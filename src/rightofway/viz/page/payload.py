@@ -59,22 +59,10 @@ def payload_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan.
     """
-    trips = trips_of(plan)
-    payload, steady = _plan(plan, trips), steady or plan.steady
-    if steady:
-        payload["steady"] = _steady(plan, steady)
-        payload["laps"] = [robot.laps or plan.scenario.rules.laps for robot in plan.scenario.robots]
-    if steady and actual is None:
-        payload["end"] = _last_tick_of_all(trips, payload["steady"])
-    if actual is not None:
-        payload["floor"] = _execution(plan, actual, trips)
-    return payload
-
-
-def _plan(plan: Plan, trips: Sequence[Trip]) -> dict[str, Any]:
+    trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick = scenario.problem.clock.tick
-    return {
+    payload: dict[str, Any] = {
         "tick": [tick.numerator, tick.denominator],
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,
@@ -92,6 +80,14 @@ def _plan(plan: Plan, trips: Sequence[Trip]) -> dict[str, Any]:
             "lowerBound": metrics.lower_bound,
         },
     }
+    if steady:
+        payload["steady"] = _steady(plan, steady)
+        payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
+    if steady and actual is None:
+        payload["end"] = _last_tick_of_all(trips, payload["steady"])
+    if actual is not None:
+        payload["floor"] = _execution(plan, actual, trips)
+    return payload
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:

@@ -67,7 +67,8 @@ def write_png(
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
     scene, fineness = Scene(plan, theme), PICTURE_FINENESS
-    scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL) if scale is None else scale
+    if scale is None:
+        scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL)
     map_width, map_height = _map_size(scene, scale)
     width = max(map_width, LEAST_DIAGRAM_WIDTH if diagram else 0)
     below = Diagram(scene, width) if diagram else None

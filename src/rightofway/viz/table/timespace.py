@@ -106,12 +106,6 @@ class TimeSpaceTable:
         """The ticks of its columns."""
         return range(self.first_tick, self.last_tick + 1)
 
-    @property
-    def marks(self) -> set[Mark]:
-        """The marks that occur in it."""
-        cells = (run.cell for row in self.rows for run in row.runs)
-        return {cell.mark for cell in cells if cell.mark}
-
     def refuse_more_than(self, columns: int) -> None:
         """Make sure that the table can be written out.
 
@@ -238,14 +232,11 @@ def _runs(
     )
     collides, waits_here = np.array(begun) > np.array(ended)
     vertices = track.vertices[visits].tolist()
+    cells = roadmap.grid.cells if roadmap.grid is not None and roadmap.labels is None else None
     for index, (start, end) in enumerate(pairwise(cuts.tolist())):
         mark: Mark | None = (
             "collision" if collides[index] else "wait" if waits_here[index] else None
         )
-        yield Run(Tick(start), Tick(end), Cell(_place(roadmap, vertices[index]), mark))
-
-
-def _place(roadmap: Roadmap, vertex: int) -> Place:
-    if roadmap.labels is None and roadmap.grid is not None:
-        return int(roadmap.grid.cells[vertex])
-    return roadmap.name(vertex)
+        vertex = vertices[index]
+        place: Place = roadmap.name(vertex) if cells is None else int(cells[vertex])
+        yield Run(Tick(start), Tick(end), Cell(place, mark))

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
 
-from rightofway.viz.table.timespace import Mark, Place, Row, RowKind, TimeSpaceTable
+from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
 __all__ = ["workbook_of"]
 
@@ -53,15 +52,13 @@ def _write_table(sheet: Any, table: TimeSpaceTable) -> None:
     _widen(sheet, 3, len(table.ticks) + 2, {str(table.last_tick), *places})
     sheet.append([_cell(sheet, title, font=BOLD) for title in ("robot", "row", *table.ticks)])
     for row in table.rows:
-        sheet.append(list(_row(sheet, row, table)))
-
-
-def _row(sheet: Any, row: Row, table: TimeSpaceTable) -> Iterator[Any]:
-    font = FONTS[row.kind]
-    yield _cell(sheet, row.robot, font=BOLD)
-    yield _cell(sheet, row.kind, font=font)
-    for place, mark in row.cells(table.first_tick, table.last_tick):
-        yield _cell(sheet, place, font=None if mark else font, mark=mark)
+        font = FONTS[row.kind]
+        names = [_cell(sheet, row.robot, font=BOLD), _cell(sheet, row.kind, font=font)]
+        cells = (
+            _cell(sheet, place, font=None if mark else font, mark=mark)
+            for place, mark in row.cells(table.first_tick, table.last_tick)
+        )
+        sheet.append([*names, *cells])
 
 
 def _write_legend(sheet: Any, table: TimeSpaceTable) -> None:

@@ -74,9 +74,8 @@ def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
 
 
 def _legend(table: TimeSpaceTable) -> Iterator[str]:
-    notes = [
-        f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in table.marks
-    ]
+    marks = {run.cell.mark for row in table.rows for run in row.runs}
+    notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
     if table.tick != 1:
         notes.append(f"a tick lasts {table.tick}")
     if notes:
