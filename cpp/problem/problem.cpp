@@ -48,7 +48,8 @@ Problem::Problem(const ProblemArrays& arrays, std::int32_t n_classes, const Book
       stage_turn_(copy(arrays.stage_turn)),
       n_classes_(static_cast<std::size_t>(n_classes)),
       rules_(rules),
-      distances_(std::make_unique<SharedDistances>(roads(), bytes_for_distances)) {
+      distances_(std::make_unique<SharedDistances>(roads(), bytes_for_distances)),
+      alone_(home_.size()) {
     if (n_classes < 0) {
         reject("n_classes", n_classes, "is negative");
     }
@@ -101,6 +102,15 @@ std::int32_t Problem::drive(RobotId robot, VertexId tail, VertexId head) const {
 }
 
 Tick Problem::alone(RobotId robot) const {
+    constexpr Tick offset = 2;
+    std::atomic<Tick>& known = alone_[static_cast<std::size_t>(robot)];
+    if (known == 0) {
+        known = least_completion(robot) + offset;
+    }
+    return known - offset;
+}
+
+Tick Problem::least_completion(RobotId robot) const {
     const auto vertices = stages(robot);
     std::size_t first_last = vertices.size() - 1;
     while (first_last > 0 && vertices[first_last - 1] == vertices.back()) {

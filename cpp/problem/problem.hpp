@@ -2,6 +2,7 @@
 // and never changes.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -55,6 +56,7 @@ class Problem {
 
   private:
     void check(const ProblemArrays& arrays) const;
+    Tick least_completion(RobotId robot) const;
 
     // What belongs to the stages of a robot.
     template <class T>
@@ -77,6 +79,7 @@ class Problem {
     std::size_t n_classes_;
     BookingRules rules_;
     std::unique_ptr<SharedDistances> distances_;
+    mutable std::vector<std::atomic<Tick>> alone_;  // plus 2; 0 until it is asked for
 };
 
 // Makes a robot's trip ready for a search, in memory that is used again; one for each thread.
