@@ -6,6 +6,21 @@ import re
 
 from tests.conftest import SLOW, TESTS
 
+CPP = TESTS.parent / "cpp"
+ROOMS = [
+    "core",
+    "problem",
+    "distances",
+    "search",
+    "precedence",
+    "lacam",
+    "lns",
+    "cyclic",
+    "execution",
+    "bind",
+]
+"""The folders of the native core; an include may name a folder further left, never one behind."""
+
 
 def test_no_test_imports_another_test() -> None:
     """Shared makers live in ``tests/builders``, so that a test file can be rewritten alone."""
@@ -22,3 +37,14 @@ def test_no_test_imports_another_test() -> None:
 def test_every_name_in_the_slow_lane_is_a_file_or_folder() -> None:
     """A test file that is renamed would otherwise move to the quick lane unnoticed."""
     assert [name for name in SLOW if not (TESTS / name).exists()] == []
+
+
+def test_includes_of_the_native_core_never_point_back() -> None:
+    found = [
+        (file.parent.name, room, f"{file.name} includes {room}")
+        for file in sorted(CPP.glob("*/*.?pp"))
+        if file.parent.name in ROOMS
+        for room in re.findall(r'^#include "(\w+)/', file.read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert len(found) > len(ROOMS)
+    assert [what for own, room, what in found if ROOMS.index(room) > ROOMS.index(own)] == []

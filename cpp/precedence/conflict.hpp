@@ -1,6 +1,6 @@
-// Bookings and the two ways in which they can fail.
+// The two kinds of conflict.
 //
-// A visit books its vertex for the half-open interval [start, end). A vertex conflict is an overlap
+// A vertex conflict is an overlap
 // of two bookings of one vertex by different robots. A swap conflict is two robots exchanging two
 // vertices at one instant without any such overlap.
 #pragma once
@@ -9,19 +9,10 @@
 #include <compare>
 #include <cstdint>
 
+#include "core/booking.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
-
-struct Booking {
-    Tick start = never;
-    Tick end = never;
-
-    bool is_empty() const { return start >= end; }
-};
-
-// A booking that overlaps nothing, not even one without end.
-inline constexpr Booking no_booking{};
 
 // What an overlap counts: its ticks, at most `conflict_cap`; 0 or less if there is none.
 inline Tick overlap(const Booking& left, const Booking& right) {

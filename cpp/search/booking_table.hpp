@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "core/booking.hpp"
 #include "core/types.hpp"
-#include "precedence/conflict.hpp"
 
 namespace rightofway {
 
