@@ -54,14 +54,14 @@ def test_give_and_take_back_a_right_of_way(benchmark: BenchmarkFixture, scenario
 
 def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
     distances = Distances(scenario.roadmap)
-    bookings = Bookings(scenario.roadmap, headway=scenario.problem.headway, books_ahead=False)
-    *others, one = scenario.problem.itineraries
-    for robot, itinerary in enumerate(others):
-        track = earliest_track(itinerary, bookings, distances)
+    bookings = Bookings(scenario.problem)
+    last = len(scenario.robots) - 1
+    for robot in range(last):
+        track = earliest_track(robot, bookings, distances)
         if track is not None:
-            bookings.add(robot, track, itinerary)
-    benchmark(earliest_track, one, bookings, distances)
+            bookings.add(robot, track)
+    benchmark(earliest_track, last, bookings, distances)
 
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
-    benchmark(lambda: timetable_of(scenario, untimed_lacam(scenario)))
+    benchmark(lambda: timetable_of(scenario, untimed_lacam(scenario.problem)))

@@ -58,7 +58,7 @@ void bind_distances(nb::module_& module);
 void bind_simulator(nb::module_& module);
 void bind_timed_event_graph(nb::module_& module);
 void bind_lacam(nb::module_& module);
-void bind_pibt(nb::module_& module);
+void bind_problem(nb::module_& module);
 void bind_fleet(nb::module_& module);
 void bind_adg(nb::module_& module);
 void bind_untimed_lacam(nb::module_& module);

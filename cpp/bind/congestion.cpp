@@ -13,10 +13,8 @@ added on the opposite edge.
 
 Parameters
 ----------
-indptr : int32[V + 1]
-    Where each vertex's edges begin.
-indices : int32[E]
-    The vertex at which each edge ends.
+problem : Problem
+    The roads, and how fast robots drive.
 shares : int
     In how many shares a tick is counted.
 station : int64[V]
@@ -31,10 +29,10 @@ constexpr auto path_doc = R"(Return a cheapest path.
 
 Parameters
 ----------
+robot : int
+    Which robot.
 start, target : int
     The vertices from and to which it leads.
-edge_ticks : int32[E]
-    What each edge takes, above 0. [ticks]
 to_go : int32[V]
     Least time from each vertex to the target, -1 where no way leads there. [ticks]
 
@@ -63,25 +61,26 @@ Raises
 ValueError
     If that is no path.)";
 
-void init(Congestion* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
-          std::int64_t shares, const ArrayIn<std::int64_t>& station) {
-    new (self) Congestion({view(indptr), view(indices)}, shares, view(station));
-}
-
-ArrayOut<VertexId> path(Congestion& self, VertexId start, VertexId target,
-                        const ArrayIn<std::int32_t>& edge_ticks,
-                        const ArrayIn<std::int32_t>& to_go) {
-    return to_numpy(self.path(start, target, view(edge_ticks), view(to_go)));
-}
-
 }  // namespace
 
 void bind_congestion(nb::module_& module) {
     nb::class_<Congestion>(module, "Congestion", class_doc)
-        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("indices").noconvert(),
-             nb::arg("shares"), nb::arg("station").noconvert())
-        .def("path", &path, nb::arg("start"), nb::arg("target"), nb::arg("edge_ticks").noconvert(),
-             nb::arg("to_go").noconvert(), path_doc)
+        .def(
+            "__init__",
+            [](Congestion* self, const Problem& problem, std::int64_t shares,
+               const ArrayIn<std::int64_t>& station) {
+                new (self) Congestion(problem, shares, view(station));
+            },
+            nb::arg("problem"), nb::arg("shares"), nb::arg("station").noconvert(),
+            nb::keep_alive<1, 2>())
+        .def(
+            "path",
+            [](Congestion& self, RobotId robot, VertexId start, VertexId target,
+               const ArrayIn<std::int32_t>& to_go) {
+                return to_numpy(self.path(robot, start, target, view(to_go)));
+            },
+            nb::arg("robot"), nb::arg("start"), nb::arg("target"), nb::arg("to_go").noconvert(),
+            path_doc)
         .def(
             "add",
             [](Congestion& self, const ArrayIn<VertexId>& path, std::int64_t oncoming) {

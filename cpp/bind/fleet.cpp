@@ -12,7 +12,6 @@
 #include "deadline.hpp"
 #include "lns/anytime_lns.hpp"
 #include "lns/prioritized_portfolio.hpp"
-#include "precedence/retiming.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -21,35 +20,12 @@ constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, a
 
 Parameters
 ----------
-indptr, heads : int32[V + 1], int32[E]
-    The directed graph in compressed rows.
-length_class : int32[E]
-    The length class of each edge.
-paces : int32[P * C]
-    Ticks for an edge of each of the C length classes, one row for each pace.
-pace_of : int32[R]
-    The pace of each robot.
-home : int32[R]
-    Where each robot is at tick 0.
-first_stage : int32[R + 1]
-    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
-stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
-    Where each stage is, and how long it takes to work and then to turn. [ticks]
-n_classes : int
-    C.
-headway : int
-    Ticks that a vertex stays booked after it was left.
-books_ahead : bool
-    Whether a vertex is booked from when a robot starts to drive there.
+problem : Problem
+    What the fleet has to do.
 seed : int
     For all that is drawn.
 n_threads : int
     For `improve`; what it finds does not depend on it.
-
-Raises
-------
-ValueError
-    If the arrays do not fit together; names the array, the index and the value.
 
 Notes
 -----
@@ -139,18 +115,18 @@ using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, Array
 
 class FleetSearch {
   public:
-    FleetSearch(const ProblemArrays& arrays, std::int32_t n_classes, const BookingRules& rules,
-                std::uint64_t seed, std::size_t n_threads)
-        : fleet_(arrays, n_classes, rules, bytes_for_distances),
-          plan_(fleet_),
+    FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads)
+        : problem_(problem),
+          distances_(problem),
+          plan_(problem),
           seed_(seed),
           n_threads_(n_threads) {}
 
-    const std::vector<Tick>& alone(const Deadline& deadline) {
+    const std::vector<Tick>& alone(const StopCondition& deadline) {
         if (alone_.empty()) {
-            std::vector<Tick> alone(static_cast<std::size_t>(fleet_.n_robots()));
-            for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
-                alone[static_cast<std::size_t>(robot)] = fleet_.alone(robot);
+            std::vector<Tick> alone(static_cast<std::size_t>(problem_.n_robots()));
+            for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+                alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
                 if (robot % 64 == 0) {
                     deadline();
                 }
@@ -165,13 +141,14 @@ class FleetSearch {
     }
 
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
-                    const Deadline& deadline, const Deadline& with_net) {
+                    const StopCondition& deadline, const StopCondition& with_net) {
         clear();
-        in_turn_.emplace(fleet_, plan_, order);
+        in_turn_.emplace(distances_, plan_, order);
         return go_on(n_searches, deadline, with_net);
     }
 
-    bool go_on(std::int64_t n_searches, const Deadline& deadline, const Deadline& with_net) {
+    bool go_on(std::int64_t n_searches, const StopCondition& deadline,
+               const StopCondition& with_net) {
         if (!in_turn_ || !in_turn_->run(n_searches, n_threads_ > 1, deadline, with_net)) {
             return false;
         }
@@ -182,20 +159,20 @@ class FleetSearch {
     void start(std::span<const std::int32_t> first_visit, std::span<const VertexId> vertices,
                std::span<const Tick> enter) {
         clear();
-        TripReader reader(fleet_);
-        for (RobotId robot = 0; robot < fleet_.n_robots(); ++robot) {
+        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
             TimedTrack track;
             for (auto k = static_cast<std::size_t>(first_visit[robot]);
                  k < static_cast<std::size_t>(first_visit[robot + 1]); ++k) {
                 const bool is_first = track.visits.empty();
                 const std::int32_t drive =
-                    is_first ? 0 : fleet_.drive(robot, vertices[k - 1], vertices[k]);
+                    is_first ? 0 : problem_.drive(robot, vertices[k - 1], vertices[k]);
                 if (drive < 0) {
                     reject_entry("vertices", k, vertices[k], "is not next to the one before");
                 }
                 track.visits.push_back({enter[k], vertices[k], drive});
             }
-            track.completion = track.visits.empty() ? -1 : reader.completion(robot, track.visits);
+            track.completion =
+                track.visits.empty() ? -1 : completion(problem_.itinerary(robot), track.visits);
             if (track.completion < 0 || !plan_.fits(robot, track)) {
                 clear();
                 reject("robot", robot, "has a track that breaks the rules");
@@ -204,11 +181,11 @@ class FleetSearch {
         }
     }
 
-    std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const Deadline& deadline,
-                         const Deadline& pause) {
+    std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const StopCondition& deadline,
+                         const StopCondition& pause) {
         alone(deadline);
         if (!improvement_) {
-            improvement_.emplace(fleet_, plan_, alone_, seed_, n_threads_);
+            improvement_.emplace(distances_, plan_, alone_, seed_, n_threads_);
         }
         const std::int64_t before = improvement_->n_tasks();
         improvement_->run(n_tasks, patience, deadline,
@@ -218,7 +195,7 @@ class FleetSearch {
 
     void retime() {
         improvement_.reset();
-        rightofway::retime(fleet_, plan_);
+        plan_.retime();
     }
 
     TrackArrays tracks() const {
@@ -227,21 +204,19 @@ class FleetSearch {
                 to_numpy(std::move(all.enter))};
     }
 
-    RobotId n_robots() const { return fleet_.n_robots(); }
     Tick flowtime() const { return plan_.flowtime(); }
     std::int64_t n_idle() const { return improvement_ ? improvement_->n_idle() : 0; }
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
   private:
-    static constexpr std::size_t bytes_for_distances = std::size_t{256} << 20;
-
     void clear() {
         in_turn_.reset();
         improvement_.reset();
-        plan_ = FleetPlan(fleet_);
+        plan_ = FleetPlan(problem_);
     }
 
-    Problem fleet_;
+    const Problem& problem_;
+    SharedDistances distances_;
     FleetPlan plan_;
     std::uint64_t seed_;
     std::size_t n_threads_;
@@ -251,29 +226,12 @@ class FleetSearch {
     std::optional<AnytimeLns> improvement_;
 };
 
-void init(FleetSearch* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& heads,
-          const ArrayIn<std::int32_t>& length_class, const ArrayIn<std::int32_t>& paces,
-          const ArrayIn<std::int32_t>& pace_of, const ArrayIn<VertexId>& home,
-          const ArrayIn<std::int32_t>& first_stage, const ArrayIn<VertexId>& stage_vertex,
-          const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn, std::int32_t n_classes,
-          Tick headway, bool books_ahead, std::uint64_t seed, std::size_t n_threads) {
-    const ProblemArrays arrays{
-        view(indptr), view(heads),       view(length_class), view(paces),      view(pace_of),
-        view(home),   view(first_stage), view(stage_vertex), view(stage_work), view(stage_turn)};
-    new (self) FleetSearch(arrays, n_classes, {headway, books_ahead}, seed, n_threads);
-}
-
 }  // namespace
 
 void bind_fleet(nb::module_& module) {
     nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
-        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("heads").noconvert(),
-             nb::arg("length_class").noconvert(), nb::arg("paces").noconvert(),
-             nb::arg("pace_of").noconvert(), nb::arg("home").noconvert(),
-             nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
-             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
-             nb::arg("n_classes"), nb::arg("headway"), nb::arg("books_ahead"), nb::arg("seed"),
-             nb::arg("n_threads"))
+        .def(nb::init<const Problem&, std::uint64_t, std::size_t>(), nb::arg("problem"),
+             nb::arg("seed"), nb::arg("n_threads"), nb::keep_alive<1, 2>())
         .def(
             "alone",
             [](FleetSearch& self) {

@@ -30,7 +30,7 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_simulator(module);
     rightofway::bind::bind_timed_event_graph(module);
     rightofway::bind::bind_lacam(module);
-    rightofway::bind::bind_pibt(module);
+    rightofway::bind::bind_problem(module);
     rightofway::bind::bind_fleet(module);
     rightofway::bind::bind_adg(module);
     rightofway::bind::bind_untimed_lacam(module);

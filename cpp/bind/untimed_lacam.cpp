@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "core/reject.hpp"
 #include "deadline.hpp"
 
 namespace rightofway::bind {
@@ -21,24 +22,16 @@ no two change places. Times follow from the routes and the order of visits at ea
 
 Parameters
 ----------
-indptr, indices : int32[V + 1], int32[E]
-    The directed graph in compressed rows.
-home : int32[R]
-    Where each robot is at first.
-first_stage : int32[R + 1]
-    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
-stage_vertex : int32[S]
-    The vertices to go to, one after the other; a robot stays at its last one.
-may_rotate : bool
-    Whether three or more robots may move round a circle in one step.
+problem : Problem
+    What the fleet has to do.
 ends_anywhere : uint8[R], or empty
     Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
 seed : int
     For ties.
-time_limit : float or None
-    After so many seconds the search stops.
 most_steps : int or None
     After about so many steps of the fleet the search stops.
+time_limit : float or None
+    After so many seconds the search stops.
 
 Returns
 -------
@@ -46,64 +39,47 @@ tuple of (int, int32[T, R])
     How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
     after each step, the start included.
 
-Raises
-------
-ValueError
-    If the arrays do not fit together.
-
 Notes
 -----
 Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is obeyed.)";
 
 using Steps = std::tuple<int, TableOut<VertexId>>;
 
-SearchEnd search(const Graph& graph, const UntimedProblem& goals, bool may_rotate,
-                 std::uint32_t seed, const Deadline& deadline,
-                 std::optional<std::int64_t> most_steps, std::vector<VertexId>& steps) {
-    check(graph, goals);
-    StepTables tables(graph);
-    const SearchEnd reach = reach_all(goals, tables, deadline);
-    if (reach != SearchEnd::found) {
-        return reach;
+Steps untimed_lacam(const Problem& problem, const ArrayIn<std::uint8_t>& ends_anywhere,
+                    std::uint32_t seed, std::optional<std::int64_t> most_steps,
+                    std::optional<double> time_limit) {
+    const auto n_robots = static_cast<std::size_t>(problem.n_robots());
+    if (ends_anywhere.size() > 0) {
+        require_length("ends_anywhere", ends_anywhere.size(), n_robots);
     }
-    UntimedLacam lacam(graph, goals, tables, may_rotate, seed);
-    std::int64_t done = 0;
-    const SearchEnd end = lacam.run([&] {
-        done += UntimedLacam::steps_between_questions;
-        return (most_steps && done > *most_steps) || deadline();
-    });
-    steps = lacam.steps();
-    return end;
-}
-
-Steps untimed_lacam(const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
-                    const ArrayIn<VertexId>& home, const ArrayIn<std::int32_t>& first_stage,
-                    const ArrayIn<VertexId>& stage_vertex,
-                    const ArrayIn<std::uint8_t>& ends_anywhere, bool may_rotate, std::uint32_t seed,
-                    std::optional<double> time_limit, std::optional<std::int64_t> most_steps) {
-    const UntimedProblem goals{view(home), view(first_stage), view(stage_vertex),
-                               view(ends_anywhere)};
     const Deadline deadline(time_limit);
     SearchEnd end = SearchEnd::stopped;
     std::vector<VertexId> steps;
     {
         const nb::gil_scoped_release released;
-        end = search({view(indptr), view(indices)}, goals, may_rotate, seed, deadline, most_steps,
-                     steps);
+        StepTables tables(problem.graph());
+        end = reach_all(problem, tables, deadline);
+        if (end == SearchEnd::found) {
+            UntimedLacam lacam(problem, tables, seed, view(ends_anywhere));
+            std::int64_t done = 0;
+            end = lacam.run([&] {
+                done += UntimedLacam::steps_between_questions;
+                return (most_steps && done > *most_steps) || deadline();
+            });
+            steps = lacam.steps();
+        }
     }
-    const std::size_t n_steps = home.size() == 0 ? 0 : steps.size() / home.size();
+    const std::size_t n_steps = n_robots == 0 ? 0 : steps.size() / n_robots;
     return {static_cast<int>(end),
-            hand_over<TableOut<VertexId>>(std::move(steps), {n_steps, home.size()})};
+            hand_over<TableOut<VertexId>>(std::move(steps), {n_steps, n_robots})};
 }
 
 }  // namespace
 
 void bind_untimed_lacam(nb::module_& module) {
-    module.def("untimed_lacam", &untimed_lacam, nb::arg("indptr").noconvert(),
-               nb::arg("indices").noconvert(), nb::arg("home").noconvert(),
-               nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
-               nb::arg("ends_anywhere").noconvert(), nb::arg("may_rotate"), nb::arg("seed"),
-               nb::arg("time_limit").none(), nb::arg("most_steps").none(), steps_doc);
+    module.def("untimed_lacam", &untimed_lacam, nb::arg("problem"),
+               nb::arg("ends_anywhere").noconvert(), nb::arg("seed"), nb::arg("most_steps").none(),
+               nb::arg("time_limit").none(), steps_doc);
 }
 
 }  // namespace rightofway::bind

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/types.hpp"
@@ -26,6 +27,12 @@ struct Graph {
         }
         return -1;
     }
+};
+
+// A graph whose edges fall into classes of one length each.
+struct Roads {
+    Graph graph;
+    std::span<const std::int32_t> length_class;  // of each edge
 };
 
 // Throws std::invalid_argument, naming the array, the index and the value, if that is no graph.

@@ -8,13 +8,10 @@
 namespace rightofway {
 namespace {}  // namespace
 
-Congestion::Congestion(const Graph& graph, std::int64_t shares,
+Congestion::Congestion(const Problem& problem, std::int64_t shares,
                        std::span<const std::int64_t> station)
-    : indptr_(graph.indptr.begin(), graph.indptr.end()),
-      indices_(graph.indices.begin(), graph.indices.end()),
-      shares_(shares),
-      station_(station.begin(), station.end()) {
-    require_graph(graph);
+    : problem_(problem), shares_(shares), station_(station.begin(), station.end()) {
+    const Graph& graph = problem.graph();
     require_length("station", station.size(), static_cast<std::size_t>(graph.n_vertices()));
     if (shares < 1) {
         reject("shares", shares, "is not above 0");
@@ -24,28 +21,19 @@ Congestion::Congestion(const Graph& graph, std::int64_t shares,
             reject_entry("station", v, station[v], "is negative");
         }
     }
-    oncoming_.assign(indices_.size(), 0);
+    oncoming_.assign(graph.indices.size(), 0);
     cost_.assign(station_.size(), never);
     cheapest_way_.assign(station_.size(), none);
     is_marked_.assign(station_.size(), 0);
     for (VertexId v = 0; v < n_vertices(); ++v) {
-        for (EdgeId e = indptr_[v]; e < indptr_[v + 1]; ++e) {
-            opposite_.push_back(edge(indices_[e], v));
+        for (const VertexId head : graph.heads(v)) {
+            opposite_.push_back(graph.edge(head, v));
         }
     }
-}
-
-EdgeId Congestion::edge(VertexId tail, VertexId head) const {
-    for (EdgeId e = indptr_[tail]; e < indptr_[tail + 1]; ++e) {
-        if (indices_[e] == head) {
-            return e;
-        }
-    }
-    return none;
 }
 
 std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const {
-    const VertexId head = indices_[edge];
+    const VertexId head = problem_.graph().indices[edge];
     std::int64_t per_tick = shares_;
     if (head != target) {
         per_tick += station_[head];
@@ -56,17 +44,16 @@ std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, std::int32_t tick
     return per_tick * ticks;
 }
 
-std::vector<VertexId> Congestion::path(VertexId start, VertexId target,
-                                       std::span<const std::int32_t> edge_ticks,
+std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId target,
                                        std::span<const std::int32_t> to_go) {
+    require_id("robot", robot, problem_.n_robots());
     require_id("start", start, n_vertices());
     require_id("target", target, n_vertices());
-    require_length("edge_ticks", edge_ticks.size(), indices_.size());
     require_length("to_go", to_go.size(), station_.size());
     if (to_go[start] < 0) {
         reject("target", target, "cannot be reached from " + std::to_string(start));
     }
-    search(start, target, edge_ticks, to_go);
+    search(robot, start, target, to_go);
     mark_cheapest(target);
     std::vector<VertexId> path = first_marked(start, target);
     clear();
@@ -74,8 +61,9 @@ std::vector<VertexId> Congestion::path(VertexId start, VertexId target,
 }
 
 // A* that goes on until every way that is as cheap as the cheapest is known.
-void Congestion::search(VertexId start, VertexId target, std::span<const std::int32_t> edge_ticks,
+void Congestion::search(RobotId robot, VertexId start, VertexId target,
                         std::span<const std::int32_t> to_go) {
+    const Graph& graph = problem_.graph();
     cost_[start] = 0;
     reached_.push_back(start);
     open_.push_back({shares_ * to_go[start], shares_ * to_go[start], 0, start});
@@ -86,10 +74,11 @@ void Congestion::search(VertexId start, VertexId target, std::span<const std::in
         if (top.cost - top.to_go > cost_[top.vertex] || top.vertex == target) {
             continue;  // reached more cheaply since
         }
-        for (EdgeId e = indptr_[top.vertex]; e < indptr_[top.vertex + 1]; ++e) {
-            const VertexId head = indices_[e];
+        for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
+            const VertexId head = graph.indices[e];
             if (to_go[head] >= 0) {
-                const std::int64_t cost = cost_[top.vertex] + cost_of(e, target, edge_ticks[e]);
+                const std::int64_t cost =
+                    cost_[top.vertex] + cost_of(e, target, problem_.drive(robot, e));
                 reach(head, top.vertex, cost, shares_ * to_go[head]);
             }
         }
@@ -140,7 +129,7 @@ std::vector<VertexId> Congestion::first_marked(VertexId start, VertexId target) 
     };
     std::vector<VertexId> path{start};
     while (path.back() != target) {
-        const auto heads = graph().heads(path.back());
+        const auto heads = problem_.graph().heads(path.back());
         path.push_back(*std::find_if(heads.begin(), heads.end(), [&](VertexId head) {
             return is_marked_[head] != 0 && leads_from(head, path.back());
         }));
@@ -174,7 +163,7 @@ void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {
     for (std::size_t k = 0; k < path.size(); ++k) {
         require_id("path[" + std::to_string(k) + "]", path[k], n_vertices());
         if (k > 0) {
-            edges.push_back(edge(path[k - 1], path[k]));
+            edges.push_back(problem_.graph().edge(path[k - 1], path[k]));
         }
         if (k > 0 && edges.back() == none) {
             reject_entry("path", k, path[k], "is no neighbour of " + std::to_string(path[k - 1]));

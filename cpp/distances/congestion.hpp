@@ -11,23 +11,22 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
 #include "core/types.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
 class Congestion {
   public:
-    // Copies what it is given: in how many shares a tick is counted, and what it costs more per
-    // tick to enter each vertex, where others have their home or a stop. Throws
-    // std::invalid_argument where that does not fit together.
-    Congestion(const Graph& graph, std::int64_t shares, std::span<const std::int64_t> station);
+    // Borrows the problem. A tick is counted in `shares`; `station` is the surcharge per tick to
+    // enter each vertex, where others have their home or a stop. Throws std::invalid_argument where
+    // these do not fit together.
+    Congestion(const Problem& problem, std::int64_t shares, std::span<const std::int64_t> station);
 
     // A cheapest path; of several, the one that takes the first edge of a vertex that it can.
     // `to_go` has the least ticks from each vertex to the target, -1 where no way leads there.
     // Throws std::invalid_argument if there is none from the start.
-    std::vector<VertexId> path(VertexId start, VertexId target,
-                               std::span<const std::int32_t> edge_ticks,
+    std::vector<VertexId> path(RobotId robot, VertexId start, VertexId target,
                                std::span<const std::int32_t> to_go);
 
     // Has one more robot on a path: whoever goes against it pays so much more per tick.
@@ -49,18 +48,15 @@ class Congestion {
     };
 
     static bool is_later(const Open& left, const Open& right);
-    Graph graph() const { return {indptr_, indices_}; }
-    EdgeId edge(VertexId tail, VertexId head) const;
     std::int64_t cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const;
-    void search(VertexId start, VertexId target, std::span<const std::int32_t> edge_ticks,
+    void search(RobotId robot, VertexId start, VertexId target,
                 std::span<const std::int32_t> to_go);
     void reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go);
     void mark_cheapest(VertexId target);
     std::vector<VertexId> first_marked(VertexId start, VertexId target) const;
     void clear();
 
-    std::vector<EdgeId> indptr_;
-    std::vector<VertexId> indices_;
+    const Problem& problem_;
     std::vector<EdgeId> opposite_;  // of each edge, -1 for a one-way
     std::int64_t shares_;
     std::vector<std::int64_t> station_;   // what it costs more to enter a vertex

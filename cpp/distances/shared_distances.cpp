@@ -4,24 +4,24 @@
 
 namespace rightofway {
 
-SharedDistances::SharedDistances(const Roads& roads, std::size_t budget)
-    : roads_(roads),
-      tables_(roads.graph.indptr, roads.graph.indices),
-      is_uniform_(std::all_of(roads.length_class.begin(), roads.length_class.end(),
+SharedDistances::SharedDistances(const Problem& problem, std::size_t budget)
+    : problem_(problem),
+      tables_(problem.graph().indptr, problem.graph().indices),
+      is_uniform_(std::all_of(problem.roads().length_class.begin(),
+                              problem.roads().length_class.end(),
                               [](std::int32_t one) { return one == 0; })),
-      budget_(budget) {}
+      budget_(budget),
+      alone_(static_cast<std::size_t>(problem.n_robots())) {}
 
-std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target,
-                                                         std::span<const std::int32_t> pace) {
-    Key key{target, 0};
+std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target, RobotId robot) {
+    const Key key{target, is_uniform_ ? 0 : problem_.pace_of(robot)};
     {
         const std::lock_guard lock(mutex_);
-        key.pace = is_uniform_ ? 0 : number_of(pace);
         if (const auto found = known_.find(key); found != known_.end()) {
             return found->second;
         }
     }
-    auto table = make(target, pace);
+    auto table = make(target, robot);
     const std::lock_guard lock(mutex_);
     if (known_.emplace(key, table).second) {
         by_age_.push_back(key);
@@ -36,31 +36,44 @@ std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target,
     return table;
 }
 
-Tick SharedDistances::between(VertexId from, VertexId target, std::span<const std::int32_t> pace) {
+Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
     if (!is_uniform_) {
-        return to(target, pace)->view(1).from(from);
+        return to(target, robot)->view(1).from(from);
     }
     const std::lock_guard lock(ways_mutex_);
     if (!ways_) {
-        ways_.emplace(roads_.graph, tables_);
+        ways_.emplace(problem_.graph(), tables_);
     }
     const std::int32_t steps = ways_->between(from, target);
-    return steps == AltDistance::no_way ? -1 : scale(pace) * steps;
+    return steps == AltDistance::no_way ? -1 : scale(robot) * steps;
 }
 
-std::int32_t SharedDistances::number_of(std::span<const std::int32_t> pace) {
-    const auto known = std::find_if(paces_.begin(), paces_.end(), [&](const auto& one) {
-        return std::equal(one.begin(), one.end(), pace.begin(), pace.end());
-    });
-    const auto number = static_cast<std::int32_t>(known - paces_.begin());
-    if (known == paces_.end()) {
-        paces_.emplace_back(pace.begin(), pace.end());
+Tick SharedDistances::alone(RobotId robot) {
+    constexpr Tick offset = 2;
+    std::atomic<Tick>& known = alone_[static_cast<std::size_t>(robot)];
+    if (known == 0) {
+        known = least_completion(robot) + offset;
     }
-    return number;
+    return known - offset;
 }
 
-std::shared_ptr<const DistanceTable> SharedDistances::make(
-    VertexId target, std::span<const std::int32_t> pace) const {
+Tick SharedDistances::least_completion(RobotId robot) {
+    const Itinerary itinerary = problem_.itinerary(robot);
+    const std::size_t first_at_end = itinerary.first_stage_at_end();
+    Tick sum = 0;
+    VertexId place = itinerary.home;
+    for (std::size_t k = 0; k < itinerary.n_stages(); ++k) {
+        const Tick way = between(place, itinerary.stage_vertex[k], robot);
+        if (way < 0) {
+            return -1;
+        }
+        sum += way + itinerary.stage_work[k] + (k < first_at_end ? itinerary.stage_turn[k] : 0);
+        place = itinerary.stage_vertex[k];
+    }
+    return sum;
+}
+
+std::shared_ptr<const DistanceTable> SharedDistances::make(VertexId target, RobotId robot) const {
     auto table = std::make_shared<DistanceTable>();
     if (is_uniform_) {
         if (tables_.steps_to(target, table->narrow)) {
@@ -68,10 +81,9 @@ std::shared_ptr<const DistanceTable> SharedDistances::make(
         }
         table->narrow = {};
     }
-    std::vector<std::int32_t> ticks(roads_.length_class.size(), 1);
-    if (!is_uniform_) {
-        std::transform(roads_.length_class.begin(), roads_.length_class.end(), ticks.begin(),
-                       [&](std::int32_t one) { return pace[static_cast<std::size_t>(one)]; });
+    std::vector<std::int32_t> ticks(problem_.graph().indices.size(), 1);
+    for (std::size_t e = 0; e < ticks.size() && !is_uniform_; ++e) {
+        ticks[e] = problem_.drive(robot, static_cast<EdgeId>(e));
     }
     table->wide = tables_.to(target, ticks);
     return table;

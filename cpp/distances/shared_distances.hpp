@@ -6,20 +6,20 @@
 // whoever still reads a table keeps it alive.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "distances/alt_distance.hpp"
 #include "distances/distance_tables.hpp"
 #include "distances/distance_view.hpp"
-#include "problem/trip.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
@@ -36,19 +36,26 @@ struct DistanceTable {
 
 class SharedDistances {
   public:
-    // Borrows the roads. Keeps at most so many bytes of tables, and always the latest one.
-    SharedDistances(const Roads& roads, std::size_t budget);
+    // Borrows the problem. Keeps at most so many bytes of tables, and always the latest one.
+    explicit SharedDistances(const Problem& problem, std::size_t budget = std::size_t{256} << 20);
 
-    // A table to the target, in units of `scale`, for robots of that pace. May be called by several
-    // threads at once.
-    std::shared_ptr<const DistanceTable> to(VertexId target, std::span<const std::int32_t> pace);
+    const Problem& problem() const { return problem_; }
 
-    // The ticks from one vertex to another for a robot of that pace, -1 where no way leads there;
-    // without keeping a table, where all edges are equally long.
-    Tick between(VertexId from, VertexId target, std::span<const std::int32_t> pace);
+    // A table to the target, in units of `scale`, for a robot and all of its pace. May be called by
+    // several threads at once.
+    std::shared_ptr<const DistanceTable> to(VertexId target, RobotId robot);
 
-    // What one unit of the tables takes a robot of that pace.
-    Tick scale(std::span<const std::int32_t> pace) const {
+    // The ticks that a robot needs from one vertex to another, -1 where no way leads there; without
+    // keeping a table, where all edges are equally long.
+    Tick between(VertexId from, VertexId target, RobotId robot);
+
+    // The least completion of a robot without the others, -1 if it cannot get to a stage.
+    // Remembered, and may be asked by several threads at once.
+    Tick alone(RobotId robot);
+
+    // The ticks that one unit of the tables takes a robot.
+    Tick scale(RobotId robot) const {
+        const auto pace = problem_.pace(robot);
         return is_uniform_ && !pace.empty() ? pace.front() : 1;
     }
 
@@ -65,21 +72,20 @@ class SharedDistances {
         }
     };
 
-    std::int32_t number_of(std::span<const std::int32_t> pace);
-    std::shared_ptr<const DistanceTable> make(VertexId target,
-                                              std::span<const std::int32_t> pace) const;
+    std::shared_ptr<const DistanceTable> make(VertexId target, RobotId robot) const;
+    Tick least_completion(RobotId robot);
 
-    Roads roads_;
+    const Problem& problem_;
     DistanceTables tables_;
     bool is_uniform_;
     std::size_t budget_;
     std::mutex ways_mutex_;
     std::optional<AltDistance> ways_;  // made when first asked for
     std::mutex mutex_;
-    std::vector<std::vector<std::int32_t>> paces_;
     std::unordered_map<Key, std::shared_ptr<const DistanceTable>, Hash> known_;
     std::deque<Key> by_age_;
     std::size_t bytes_ = 0;
+    std::vector<std::atomic<Tick>> alone_;  // plus 2; 0 until it is asked for
 };
 
 }  // namespace rightofway

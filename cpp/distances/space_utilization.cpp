@@ -28,20 +28,20 @@ constexpr std::int64_t legs_between_questions = 32;
 
 }  // namespace
 
-SpaceUtilization::SpaceUtilization(const Trips& trips, StepTables& tables)
-    : trips_(trips),
+SpaceUtilization::SpaceUtilization(const Problem& problem, StepTables& tables)
+    : problem_(problem),
       tables_(tables),
-      tail_(trips.graph.indices.size()),
-      back_(trips.graph.indices.size(), none),
-      ended_from_(static_cast<std::size_t>(trips.graph.n_vertices()), never),
-      edge_cost_(trips.graph.indices.size(), cost_of_edge),
+      tail_(problem.graph().indices.size()),
+      back_(problem.graph().indices.size(), none),
+      ended_from_(static_cast<std::size_t>(problem.graph().n_vertices()), never),
+      edge_cost_(problem.graph().indices.size(), cost_of_edge),
       into_cost_(ended_from_.size(), 0),
-      first_hop_(trips.stage_vertex.size(), 0),
-      end_hop_(trips.stage_vertex.size(), 0),
+      first_hop_(problem.n_stages(), 0),
+      end_hop_(problem.n_stages(), 0),
       best_(ended_from_.size(), {0, 0, none, 0}) {}
 
 void SpaceUtilization::pair_edges() {
-    const Graph& graph = trips_.graph;
+    const Graph& graph = problem_.graph();
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
         std::fill(tail_.begin() + graph.indptr[v], tail_.begin() + graph.indptr[v + 1], v);
     }
@@ -52,39 +52,39 @@ void SpaceUtilization::pair_edges() {
 
 // The last stages, and when their robots are there if nobody makes them wait.
 void SpaceUtilization::find_ends() {
-    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
-        VertexId place = trips_.home[r];
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        VertexId place = problem_.home(r);
         Tick when = 0;
-        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
-            const VertexId target = trips_.stage_vertex[s];
-            when += trips_.pace(r) * tables_.steps(tables_.table_of(target), place);
-            if (trips_.is_last(r, s)) {
+        for (std::int32_t s = problem_.first_stage(r); s < problem_.first_stage(r + 1); ++s) {
+            const VertexId target = problem_.stage_vertex(s);
+            when += problem_.quickest_edge(r) * tables_.steps(tables_.table_of(target), place);
+            if (problem_.is_last(r, s)) {
                 ended_from_[target] = when;
             }
-            when += trips_.stage_dwell[s];
+            when += problem_.stage_dwell(s);
             place = target;
         }
     }
 }
 
 bool SpaceUtilization::choose(const StopCondition& is_over) {
-    const auto n_legs = static_cast<std::int64_t>(trips_.stage_vertex.size());
+    const auto n_legs = static_cast<std::int64_t>(problem_.n_stages());
     if (n_legs * least_for_a_leg > most_opened) {
         return true;
     }
     pair_edges();
     find_ends();
     std::int64_t n_chosen = 0;
-    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
-        VertexId place = trips_.home[r];
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        VertexId place = problem_.home(r);
         Tick when = 0;
-        for (std::int32_t s = trips_.first_stage[r]; s < trips_.first_stage[r + 1]; ++s) {
+        for (std::int32_t s = problem_.first_stage(r); s < problem_.first_stage(r + 1); ++s) {
             if (++n_chosen % legs_between_questions == 0 && is_over()) {
                 return false;
             }
             credit_ += most_opened / n_legs;  // what one leg leaves over is for the next ones
-            when = choose_leg({r, place, s}, when) + trips_.stage_dwell[s];
-            place = trips_.stage_vertex[s];
+            when = choose_leg({r, place, s}, when) + problem_.stage_dwell(s);
+            place = problem_.stage_vertex(s);
         }
     }
     return true;
@@ -100,7 +100,7 @@ VertexId SpaceUtilization::next(std::int32_t stage, VertexId at) const {
 
 // Returns when the robot would be there.
 Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
-    const VertexId target = trips_.stage_vertex[leg.stage];
+    const VertexId target = problem_.stage_vertex(leg.stage);
     if (leg.start == target) {
         return when;
     }
@@ -108,12 +108,13 @@ Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
         keep(leg);
         return best_[target].when;
     }
-    return when + trips_.pace(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
+    return when +
+           problem_.quickest_edge(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
 bool SpaceUtilization::search(const Leg& leg, Tick when) {
-    const Graph& graph = trips_.graph;
-    const VertexId target = trips_.stage_vertex[leg.stage];
+    const Graph& graph = problem_.graph();
+    const VertexId target = problem_.stage_vertex(leg.stage);
     const StepTables::TableId table = tables_.table_of(target);
     ++round_;
     open_.clear();
@@ -131,7 +132,7 @@ bool SpaceUtilization::search(const Leg& leg, Tick when) {
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
-            const Tick then = best.when + trips_.drive(leg.robot, e);
+            const Tick then = best.when + problem_.drive(leg.robot, e);
             const bool has_ended = head != target && ended_from_[head] <= then;
             open(head,
                  {best.cost + edge_cost_[e] + into_cost_[head] + (has_ended ? cost_ended : 0), then,
@@ -178,7 +179,7 @@ bool SpaceUtilization::take_next(Open& next) {
 // Goes back along the edges by which the search came.
 void SpaceUtilization::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
-    for (VertexId at = trips_.stage_vertex[leg.stage]; at != leg.start;) {
+    for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {
         const EdgeId edge = best_[at].by;
         into_cost_[at] = std::min(into_cost_[at] + cost_shared, most_shared);
         if (const EdgeId back = back_[edge]; back != none) {

@@ -12,19 +12,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-#include "core/search_end.hpp"
 #include "core/types.hpp"
 #include "distances/step_tables.hpp"
-#include "problem/trips.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
 class SpaceUtilization {
   public:
-    // Without a preference for anything. Borrows the trips and the tables.
-    SpaceUtilization(const Trips& trips, StepTables& tables);
+    // Without a preference for anything. Borrows both.
+    SpaceUtilization(const Problem& problem, StepTables& tables);
 
     // Chooses the paths; false if told to stop before that was done. The effort is bounded: in a
     // large fleet some robots are left without a path, and in a very large one all of them.
@@ -64,7 +64,7 @@ class SpaceUtilization {
     bool take_next(Open& next);
     void keep(const Leg& leg);
 
-    const Trips& trips_;
+    const Problem& problem_;
     StepTables& tables_;
     std::vector<VertexId> tail_;           // of each edge
     std::vector<EdgeId> back_;             // of each edge: the one the other way, or -1

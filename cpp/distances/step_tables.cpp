@@ -205,13 +205,13 @@ void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
     search.frontier.assign(scratch.begin(), scratch.end());
 }
 
-SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables, const StopCondition& is_over) {
+SearchEnd reach_all(const Problem& problem, StepTables& tables, const StopCondition& is_over) {
     std::vector<StepTables::Request> legs;
-    for (RobotId r = 0; r < goals.n_robots(); ++r) {
-        VertexId place = goals.home[r];
-        for (std::int32_t s = goals.first_stage[r]; s < goals.first_stage[r + 1]; ++s) {
-            legs.push_back({tables.table_of(goals.stage_vertex[s]), place});
-            place = goals.stage_vertex[s];
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        VertexId place = problem.home(r);
+        for (std::int32_t s = problem.first_stage(r); s < problem.first_stage(r + 1); ++s) {
+            legs.push_back({tables.table_of(problem.stage_vertex(s)), place});
+            place = problem.stage_vertex(s);
         }
     }
     for (std::size_t first = 0; first < legs.size(); first += legs_between_questions) {

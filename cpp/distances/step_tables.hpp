@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,7 +20,7 @@
 #include "core/graph.hpp"
 #include "core/search_end.hpp"
 #include "core/types.hpp"
-#include "lacam/untimed_state.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
@@ -97,6 +98,6 @@ class StepTables {
 };
 
 // Whether every robot, if it were alone, could go through all of its stages: `found` if so.
-SearchEnd reach_all(const UntimedProblem& goals, StepTables& tables, const StopCondition& is_over);
+SearchEnd reach_all(const Problem& problem, StepTables& tables, const StopCondition& is_over);
 
 }  // namespace rightofway

@@ -42,14 +42,14 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 
 }  // namespace
 
-FleetState::FleetState(const Trips& trips)
-    : trips_(&trips),
-      robots_(trips.home.size()),
-      vertices_(static_cast<std::size_t>(trips.graph.n_vertices()),
-                {nobody, nobody, -trips.headway}) {
-    for (RobotId r = 0; r < trips.n_robots(); ++r) {
-        robots_[r] = {trips.home[r], trips.home[r], trips.first_stage[r], busy, 0, 0};
-        vertices_[trips.home[r]].here = r;
+FleetState::FleetState(const Problem& problem)
+    : problem_(&problem),
+      robots_(static_cast<std::size_t>(problem.n_robots())),
+      vertices_(static_cast<std::size_t>(problem.graph().n_vertices()),
+                {nobody, nobody, -problem.rules().headway}) {
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        robots_[r] = {problem.home(r), problem.home(r), problem.first_stage(r), busy, 0, 0};
+        vertices_[problem.home(r)].here = r;
         begin_stage(r);
     }
 }
@@ -76,7 +76,7 @@ void FleetState::set_busy(RobotId robot, Tick until) {
 
 void FleetState::set_free(RobotId robot) {
     Robot& r = robots_[robot];
-    if (trips_->is_last(robot, r.stage) && r.at == target(robot)) {
+    if (problem_->is_last(robot, r.stage) && r.at == target(robot)) {
         r.place = arrived;
         ++n_arrived_;
     } else {
@@ -100,8 +100,8 @@ void FleetState::take_off_list(RobotId robot) {
 // Works where there is work; the last stage needs none here, for nothing comes after it.
 void FleetState::begin_stage(RobotId robot) {
     Robot& r = robots_[robot];
-    while (!trips_->is_last(robot, r.stage) && r.at == target(robot)) {
-        const Tick dwell = trips_->stage_dwell[r.stage];
+    while (!problem_->is_last(robot, r.stage) && r.at == target(robot)) {
+        const Tick dwell = problem_->stage_dwell(r.stage);
         if (dwell > 0) {
             set_busy(robot, now_ + dwell);
             return;

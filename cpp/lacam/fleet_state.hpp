@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "problem/trips.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
@@ -24,14 +24,14 @@ struct Decision {
 
 class FleetState {
   public:
-    // Everybody at home at tick 0, those without work there free to go. Borrows the trips.
-    explicit FleetState(const Trips& trips);
+    // Everybody at home at tick 0, those without work there free to go. Borrows the problem.
+    explicit FleetState(const Problem& problem);
 
     Tick now() const { return now_; }
     VertexId at(RobotId robot) const { return robots_[robot].at; }
     VertexId to(RobotId robot) const { return robots_[robot].to; }  // `at`, unless it moves
     std::int32_t stage(RobotId robot) const { return robots_[robot].stage; }
-    VertexId target(RobotId robot) const { return trips_->stage_vertex[robots_[robot].stage]; }
+    VertexId target(RobotId robot) const { return problem_->stage_vertex(robots_[robot].stage); }
     Tick ready(RobotId robot) const { return robots_[robot].ready; }  // of one that is busy
     Tick on_its_way_since(RobotId robot) const { return robots_[robot].since; }
     bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
@@ -41,9 +41,9 @@ class FleetState {
     RobotId comes(VertexId vertex) const { return vertices_[vertex].comes; }  // its move is booked
     Tick left(VertexId vertex) const { return vertices_[vertex].left; }  // last, -headway: never
 
-    // Those that are neither busy nor at the end of their trips, in no order.
+    // Those that are neither busy nor at the end of their problem, in no order.
     std::span<const RobotId> undecided() const { return undecided_; }
-    bool is_goal() const { return n_arrived_ == trips_->n_robots(); }
+    bool is_goal() const { return n_arrived_ == problem_->n_robots(); }
 
     void decide(const Decision& decision);
 
@@ -83,7 +83,7 @@ class FleetState {
     void take_off_list(RobotId robot);
     void begin_stage(RobotId robot);
 
-    const Trips* trips_;
+    const Problem* problem_;
     Tick now_ = 0;
     std::vector<Robot> robots_;
     std::vector<Vertex> vertices_;

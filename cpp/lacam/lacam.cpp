@@ -12,20 +12,20 @@ constexpr std::size_t most_snapshots = 16;
 
 }  // namespace
 
-Lacam::Lacam(const Trips& trips, StepTables& tables, const SpaceUtilization& paths,
+Lacam::Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
              std::uint64_t seed)
-    : trips_(trips),
-      pibt_(trips, tables, paths, seed),
-      start_(trips),
+    : problem_(problem),
+      pibt_(problem, tables, paths, seed),
+      start_(problem),
       state_(start_),
       state_of_(none),
-      rank_(trips.home.size()),
+      rank_(static_cast<std::size_t>(problem.n_robots())),
       goal_(none) {
-    std::vector<std::int32_t> way(trips.home.size());
-    for (RobotId r = 0; r < trips.n_robots(); ++r) {
-        way[r] = tables.steps(tables.table_of(start_.target(r)), trips.home[r]);
+    std::vector<std::int32_t> way(static_cast<std::size_t>(problem.n_robots()));
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        way[r] = tables.steps(tables.table_of(start_.target(r)), problem.home(r));
     }
-    std::vector<RobotId> robots(trips.home.size());
+    std::vector<RobotId> robots(static_cast<std::size_t>(problem.n_robots()));
     std::iota(robots.begin(), robots.end(), 0);
     std::sort(robots.begin(), robots.end(), [&way](RobotId left, RobotId right) {
         return way[left] != way[right] ? way[left] > way[right] : left < right;
@@ -96,7 +96,7 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
     if (constraint == 0) {
         const auto undecided = by_urgency();
         node.order.assign(undecided.begin(), undecided.end());
-        for (RobotId r = 0; r < trips_.n_robots(); ++r) {
+        for (RobotId r = 0; r < problem_.n_robots(); ++r) {
             if (state_.has_arrived(r)) {
                 node.order.push_back(r);
             }
@@ -108,7 +108,7 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
     }
     const RobotId robot = node.order[depth];
     const VertexId here = state_.at(robot);
-    for (const VertexId head : trips_.graph.heads(here)) {
+    for (const VertexId head : problem_.graph().heads(here)) {
         node.constraints.push_back({constraint, depth + 1, robot, head});
     }
     node.constraints.push_back({constraint, depth + 1, robot, here});
@@ -234,7 +234,7 @@ Tracks Lacam::tracks() const {
             }
         }
     };
-    std::vector<VisitId> next(trips_.home.size() + 1, 1);
+    std::vector<VisitId> next(static_cast<std::size_t>(problem_.n_robots()) + 1, 1);
     next[0] = 0;
     for_each_decision([&next](const Decision& decision) { ++next[decision.robot + 1]; });
     std::partial_sum(next.begin(), next.end(), next.begin());
@@ -245,8 +245,8 @@ Tracks Lacam::tracks() const {
         tracks.vertex[next[robot]] = vertex;
         tracks.enter[next[robot]++] = tick;
     };
-    for (RobotId r = 0; r < trips_.n_robots(); ++r) {
-        enter(r, trips_.home[r], 0);
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        enter(r, problem_.home(r), 0);
     }
     for_each_decision([&enter](const Decision& decision) {
         enter(decision.robot, decision.vertex, decision.arrival);

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -19,15 +20,15 @@
 #include "core/search_end.hpp"
 #include "lacam/fleet_state.hpp"
 #include "lacam/pibt.hpp"
+#include "problem/problem.hpp"
 #include "problem/tracks.hpp"
-#include "problem/trips.hpp"
 
 namespace rightofway {
 
 class Lacam {
   public:
     // Borrows everything.
-    Lacam(const Trips& trips, StepTables& tables, const SpaceUtilization& paths,
+    Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
           std::uint64_t seed);
 
     // Stops when `is_over` says so, asked every few thousand units of effort, or when that is
@@ -79,7 +80,7 @@ class Lacam {
     void keep_snapshot(std::int32_t node);
     std::vector<std::int32_t> path_to(std::int32_t node) const;
 
-    const Trips& trips_;
+    const Problem& problem_;
     Pibt pibt_;
     const FleetState start_;
     FleetState state_;

@@ -19,7 +19,7 @@ struct Pibt::Choosing {
     Pibt& pibt;
     const FleetState& now;
 
-    const Graph& graph() const { return pibt.trips_.graph; }
+    const Graph& graph() const { return pibt.problem_.graph(); }
     VertexId at(RobotId robot) const { return now.at(robot); }
     RobotId here(VertexId vertex) const { return now.here(vertex); }
     VertexId target(RobotId robot) const { return now.target(robot); }
@@ -28,26 +28,27 @@ struct Pibt::Choosing {
     bool is_idle(RobotId robot) const { return pibt.is_idle(now, robot); }
 };
 
-Pibt::Pibt(const Trips& trips, StepTables& tables, const SpaceUtilization& paths,
+Pibt::Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
            std::uint64_t seed)
-    : trips_(trips),
+    : problem_(problem),
       tables_(tables),
       paths_(paths),
-      outlook_(trips.home.size()),
+      outlook_(static_cast<std::size_t>(problem.n_robots())),
       draw_(seed),
-      claim_(static_cast<std::size_t>(trips.graph.n_vertices()), nobody),
-      next_(trips.home.size(), nowhere),
-      arrival_(trips.home.size(), unsettled) {
-    for (const VertexId target : trips.stage_vertex) {
+      claim_(static_cast<std::size_t>(problem.graph().n_vertices()), nobody),
+      next_(static_cast<std::size_t>(problem.n_robots()), nowhere),
+      arrival_(static_cast<std::size_t>(problem.n_robots()), unsettled) {
+    for (std::size_t stage = 0; stage < problem.n_stages(); ++stage) {
+        const VertexId target = problem.stage_vertex(static_cast<std::int32_t>(stage));
         stage_table_.push_back(tables.table_of(target));
     }
-    for (RobotId r = 0; r < trips.n_robots(); ++r) {
-        pace_.push_back(trips.pace(r));
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        pace_.push_back(problem.quickest_edge(r));
     }
-    for (VertexId v = 0; v < trips.graph.n_vertices(); ++v) {
-        most_heads_ = std::max(most_heads_, trips.graph.heads(v).size());
+    for (VertexId v = 0; v < problem.graph().n_vertices(); ++v) {
+        most_heads_ = std::max(most_heads_, problem.graph().heads(v).size());
     }
-    steps_beside_.resize(trips.home.size() * most_heads_);
+    steps_beside_.resize(static_cast<std::size_t>(problem.n_robots()) * most_heads_);
 }
 
 void Pibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
@@ -112,7 +113,8 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     ++n_choices_;
     const VertexId here = now.at(robot);
     if (has_to_wait(now, robot)) {
-        draw_ += draw_step * (trips_.graph.heads(here).size() + 1);  // as if its places were ranked
+        draw_ +=
+            draw_step * (problem_.graph().heads(here).size() + 1);  // as if its places were ranked
         const bool may_stay = is_open(now, robot, here);
         take(robot, here);
         return may_stay;
@@ -138,7 +140,7 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
 // on the move have booked them all: they come first.
 bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
     const Outlook& ahead = outlook(now, robot);
-    const auto heads = trips_.graph.heads(ahead.here);
+    const auto heads = problem_.graph().heads(ahead.here);
     const std::int32_t* steps = steps_beside(robot);
     bool are_booked = true;
     for (std::size_t k = 0; k < heads.size(); ++k) {
@@ -158,7 +160,7 @@ bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
 
 bool Pibt::has_partner(const FleetState& now, RobotId robot) {
     const Outlook& ahead = outlook_[robot];
-    const std::size_t n_heads = trips_.graph.heads(ahead.here).size();
+    const std::size_t n_heads = problem_.graph().heads(ahead.here).size();
     const std::int32_t* steps = steps_beside(robot);
     Place best = place(now, robot, n_heads);
     for (std::size_t k = 0; k < n_heads; ++k) {
@@ -176,7 +178,7 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
         const VertexId place = places_[k].vertex;
         const RobotId other = now.here(place);
         if (!is_open(now, robot, place) ||
-            (!trips_.may_rotate && place != here && closes_circle(now, robot, place))) {
+            (!problem_.may_rotate() && place != here && closes_circle(now, robot, place))) {
             continue;
         }
         take(robot, place);
@@ -185,7 +187,7 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
         }
         const bool pulls = partner != nobody && k == first && place != here;
         if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
-            trips_.graph.edge(now.at(partner), here) >= 0) {
+            problem_.graph().edge(now.at(partner), here) >= 0) {
             take(partner, here);
         }
         return true;
@@ -206,7 +208,7 @@ Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick dr
     const RobotId other = now.here(place);
     const bool drives_away = other != nobody && other != robot && now.is_busy(other);
     const Tick left = drives_away ? now.ready(other) : other == nobody ? now.left(place) : 0;
-    return std::max(now.now() + drive, left + trips_.gap(drive));
+    return std::max(now.now() + drive, left + problem_.gap(drive));
 }
 
 // How far it is from where a robot is and from the places beside it. Who waits asks many times.
@@ -222,7 +224,7 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
     outlook.steps = way(now, robot, here);
     outlook.preferred = paths_.next(stage, here);
     std::int32_t* beside = steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
-    for (const VertexId head : trips_.graph.heads(here)) {
+    for (const VertexId head : problem_.graph().heads(here)) {
         *beside++ = head == outlook.preferred ? outlook.steps - 1 : way(now, robot, head);
     }
     return outlook;
@@ -232,11 +234,11 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
 // preferred path counts as one nearer, and goes first among equals; other ties are at random.
 Pibt::Place Pibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
     const Outlook& ahead = outlook_[robot];
-    const EdgeId edge = trips_.graph.indptr[ahead.here] + static_cast<EdgeId>(k);
-    const bool stays = edge == trips_.graph.indptr[ahead.here + 1];
-    const VertexId vertex = stays ? ahead.here : trips_.graph.indices[edge];
+    const EdgeId edge = problem_.graph().indptr[ahead.here] + static_cast<EdgeId>(k);
+    const bool stays = edge == problem_.graph().indptr[ahead.here + 1];
+    const VertexId vertex = stays ? ahead.here : problem_.graph().indices[edge];
     const Tick there =
-        stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, trips_.drive(robot, edge));
+        stays ? now.now() + pace_[robot] : soonest(now, robot, vertex, problem_.drive(robot, edge));
     const Tick way_on = (stays ? ahead.steps : steps_beside(robot)[k]) * pace_[robot];
     const bool is_first = !stays && vertex == ahead.preferred;
     const std::uint64_t draw = draw_ + (k + 1) * draw_step;
@@ -255,7 +257,7 @@ bool Pibt::ranks_before(const Place& left, const Place& right) {
 // All places to go to, that from where the target is reached soonest first.
 void Pibt::push_places(const FleetState& now, RobotId robot) {
     const auto begin = static_cast<std::ptrdiff_t>(places_.size());
-    const std::size_t n_places = trips_.graph.heads(outlook(now, robot).here).size() + 1;
+    const std::size_t n_places = problem_.graph().heads(outlook(now, robot).here).size() + 1;
     for (std::size_t k = 0; k < n_places; ++k) {
         places_.push_back(place(now, robot, k));
     }
@@ -299,21 +301,21 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
         const Tick left = ahead == nobody      ? now.left(place)
                           : now.is_busy(ahead) ? now.ready(ahead)
                                                : arrival_[ahead];
-        const Tick drive = trips_.drive(next, trips_.graph.edge(now.at(next), place));
-        arrival_[next] = std::max(now.now() + drive, left + trips_.gap(drive));
+        const Tick drive = problem_.drive(next, problem_.graph().edge(now.at(next), place));
+        arrival_[next] = std::max(now.now() + drive, left + problem_.gap(drive));
     }
     return true;
 }
 
 bool Pibt::settle_circle(const FleetState& now, RobotId member) {
-    if (!trips_.may_rotate) {
+    if (!problem_.may_rotate()) {
         return false;
     }
     Tick slowest = 0;
     RobotId robot = member;
     do {
-        slowest =
-            std::max(slowest, trips_.drive(robot, trips_.graph.edge(now.at(robot), next_[robot])));
+        slowest = std::max<Tick>(
+            slowest, problem_.drive(robot, problem_.graph().edge(now.at(robot), next_[robot])));
         robot = now.here(next_[robot]);
     } while (robot != member);
     do {

@@ -18,14 +18,15 @@
 #include "distances/space_utilization.hpp"
 #include "distances/step_tables.hpp"
 #include "lacam/fleet_state.hpp"
-#include "problem/trips.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
 class Pibt {
   public:
     // Borrows everything.
-    Pibt(const Trips& trips, StepTables& tables, const SpaceUtilization& paths, std::uint64_t seed);
+    Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
+         std::uint64_t seed);
 
     // Says where a free robot goes at this instant; its own place: it stays.
     void fix(RobotId robot, VertexId vertex);
@@ -85,7 +86,7 @@ class Pibt {
     bool settle_circle(const FleetState& now, RobotId member);
     void forget(const FleetState& now);
 
-    const Trips& trips_;
+    const Problem& problem_;
     StepTables& tables_;
     const SpaceUtilization& paths_;
     std::vector<StepTables::TableId> stage_table_;

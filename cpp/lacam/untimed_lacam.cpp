@@ -21,16 +21,16 @@ std::size_t hash_of(const Configuration& now) {
 
 }  // namespace
 
-UntimedLacam::UntimedLacam(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
-                           bool may_rotate, std::uint32_t seed)
-    : graph_(graph), goals_(goals), pibt_(graph, goals, tables, may_rotate, seed) {}
+UntimedLacam::UntimedLacam(const Problem& problem, StepTables& tables, std::uint32_t seed,
+                           std::span<const std::uint8_t> ends_anywhere)
+    : problem_(problem), ends_anywhere_(ends_anywhere), pibt_(problem, tables, seed) {}
 
 SearchEnd UntimedLacam::run(const StopCondition& is_over) {
     Configuration start;
-    start.at.assign(goals_.home.begin(), goals_.home.end());
-    start.stage.assign(goals_.first_stage.begin(), goals_.first_stage.end() - 1);
-    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
-        advance(goals_, start, r);
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        start.at.push_back(problem_.home(r));
+        start.stage.push_back(problem_.first_stage(r));
+        advance(problem_, start, r);
     }
     add(std::move(start), none);
     for (std::int64_t n_steps = 1; !open_.empty(); ++n_steps) {
@@ -39,7 +39,7 @@ SearchEnd UntimedLacam::run(const StopCondition& is_over) {
         }
         const std::int32_t top = open_.back();
         Node& node = nodes_[top];
-        if (is_goal(goals_, node.now)) {
+        if (is_goal(problem_, ends_anywhere_, node.now)) {
             goal_ = top;
             return SearchEnd::found;
         }
@@ -80,7 +80,7 @@ void UntimedLacam::add(Configuration&& now, std::int32_t parent) {
 // and between equals, the longer way counts.
 std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t parent) const {
     std::vector<float> urgent(now.at.size());
-    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         const std::int32_t stage = now.stage[r];
         if (parent == none) {
             const auto way = static_cast<float>(pibt_.way(now, r, now.at[r]));
@@ -89,7 +89,7 @@ std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t 
         }
         const Node& before = nodes_[parent];
         const bool begins_anew =
-            stage != before.now.stage[r] || goals_.stage_vertex[stage] == now.at[r];
+            stage != before.now.stage[r] || problem_.stage_vertex(stage) == now.at[r];
         urgent[r] = begins_anew ? before.urgency[r] - std::floor(before.urgency[r])
                                 : before.urgency[r] + 1.0F;
     }
@@ -99,12 +99,12 @@ std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t 
 // Tells one more robot where to go, in every way there is.
 void UntimedLacam::branch(Node& node, std::int32_t constraint) {
     const std::int32_t depth = node.constraints[constraint].depth;
-    if (depth == goals_.n_robots()) {
+    if (depth == problem_.n_robots()) {
         return;
     }
     const RobotId robot = node.order[depth];
     const VertexId here = node.now.at[robot];
-    for (const VertexId head : graph_.heads(here)) {
+    for (const VertexId head : problem_.graph().heads(here)) {
         node.constraints.push_back({constraint, depth + 1, robot, head});
     }
     node.constraints.push_back({constraint, depth + 1, robot, here});
@@ -121,8 +121,8 @@ bool UntimedLacam::take_step(Node& node, std::int32_t constraint) {
 Configuration UntimedLacam::after_step(const Configuration& now) const {
     Configuration next = now;
     next.at.assign(pibt_.next().begin(), pibt_.next().end());
-    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
-        advance(goals_, next, r);
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
+        advance(problem_, next, r);
     }
     return next;
 }

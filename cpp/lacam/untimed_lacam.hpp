@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -24,9 +25,9 @@ class UntimedLacam {
   public:
     static constexpr std::int64_t steps_between_questions = 64;
 
-    // Borrows the graph, the goals and the tables.
-    UntimedLacam(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
-                 bool may_rotate, std::uint32_t seed);
+    // Borrows everything. `ends_anywhere` is for each robot, or empty.
+    UntimedLacam(const Problem& problem, StepTables& tables, std::uint32_t seed,
+                 std::span<const std::uint8_t> ends_anywhere = {});
 
     // `is_over` is asked every `steps_between_questions` steps whether to stop.
     SearchEnd run(const StopCondition& is_over);
@@ -58,8 +59,8 @@ class UntimedLacam {
     Configuration after_step(const Configuration& now) const;
     std::int32_t find(const Configuration& now) const;
 
-    Graph graph_;
-    const UntimedProblem& goals_;
+    const Problem& problem_;
+    std::span<const std::uint8_t> ends_anywhere_;
     UntimedPibt pibt_;
     std::vector<Node> nodes_;
     std::vector<std::int32_t> open_;

@@ -20,27 +20,25 @@ struct UntimedPibt::Choosing {
     const UntimedPibt& pibt;
     const Configuration& now;
 
-    const Graph& graph() const { return pibt.graph_; }
+    const Graph& graph() const { return pibt.problem_.graph(); }
     VertexId at(RobotId robot) const { return now.at[robot]; }
     RobotId here(VertexId vertex) const { return pibt.here_[vertex]; }
-    VertexId target(RobotId robot) const { return pibt.goals_.stage_vertex[now.stage[robot]]; }
+    VertexId target(RobotId robot) const { return pibt.problem_.stage_vertex(now.stage[robot]); }
     std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
     bool is_free(RobotId) const { return true; }
     bool is_idle(RobotId robot) const { return pibt.next_[robot] == nowhere; }
 };
 
-UntimedPibt::UntimedPibt(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
-                         bool may_rotate, std::uint32_t seed)
-    : graph_(graph),
-      goals_(goals),
+UntimedPibt::UntimedPibt(const Problem& problem, StepTables& tables, std::uint32_t seed)
+    : problem_(problem),
       tables_(tables),
-      may_rotate_(may_rotate),
       draw_(seed),
-      here_(graph.n_vertices(), nobody),
-      comes_(graph.n_vertices(), nobody),
-      next_(goals.n_robots(), nowhere),
-      tie_(graph.n_vertices(), 0) {
-    for (const VertexId target : goals.stage_vertex) {
+      here_(problem.n_vertices(), nobody),
+      comes_(problem.n_vertices(), nobody),
+      next_(problem.n_robots(), nowhere),
+      tie_(problem.n_vertices(), 0) {
+    for (std::size_t stage = 0; stage < problem.n_stages(); ++stage) {
+        const VertexId target = problem.stage_vertex(static_cast<std::int32_t>(stage));
         stage_table_.push_back(tables.table_of(target));
     }
 }
@@ -52,15 +50,15 @@ std::int32_t UntimedPibt::way(const Configuration& now, RobotId robot, VertexId 
 void UntimedPibt::fix(RobotId robot, VertexId vertex) { fixed_.push_back({robot, vertex}); }
 
 bool UntimedPibt::step(const Configuration& now, std::span<const RobotId> order) {
-    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         here_[now.at[r]] = r;
         next_[r] = nowhere;
     }
     const bool found = take_fixed(now) && std::all_of(order.begin(), order.end(), [&](RobotId r) {
                            return next_[r] != nowhere || choose(now, r);
                        });
-    const bool is_good = found && (may_rotate_ || !closes_rotation(now));
-    for (RobotId r = 0; r < goals_.n_robots(); ++r) {
+    const bool is_good = found && (problem_.may_rotate() || !closes_rotation(now));
+    for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         here_[now.at[r]] = nobody;
         if (next_[r] != nowhere) {
             comes_[next_[r]] = nobody;
@@ -110,7 +108,7 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
         }
         const bool pulls = partner != nobody && place == places.front() && place != here;
         if (pulls && next_[partner] == nowhere && comes_[here] == nobody &&
-            has(graph_.heads(now.at[partner]), here)) {
+            has(problem_.graph().heads(now.at[partner]), here)) {
             take(partner, here);
         }
         return true;
@@ -121,7 +119,7 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
 
 // All places to go to, the nearest to the robot's stage first; ties at random.
 std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, RobotId robot) {
-    const auto heads = graph_.heads(now.at[robot]);
+    const auto heads = problem_.graph().heads(now.at[robot]);
     std::vector<VertexId> places(heads.begin(), heads.end());
     places.push_back(now.at[robot]);
     for (const VertexId place : places) {
@@ -140,7 +138,7 @@ std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, 
 // Follows every robot to the one it displaces; three or more that come back to the first rotate.
 bool UntimedPibt::closes_rotation(const Configuration& now) const {
     std::vector<RobotId> seen(next_.size(), nobody);  // in whose walk
-    for (RobotId first = 0; first < goals_.n_robots(); ++first) {
+    for (RobotId first = 0; first < problem_.n_robots(); ++first) {
         RobotId robot = first;
         while (robot != nobody && seen[robot] == nobody) {
             seen[robot] = first;

@@ -22,9 +22,8 @@ namespace rightofway {
 
 class UntimedPibt {
   public:
-    // Borrows the graph, the goals and the tables.
-    UntimedPibt(const Graph& graph, const UntimedProblem& goals, StepTables& tables,
-                bool may_rotate, std::uint32_t seed);
+    // Borrows the problem and the tables.
+    UntimedPibt(const Problem& problem, StepTables& tables, std::uint32_t seed);
 
     // How many edges it is from a vertex to the stage of a robot.
     std::int32_t way(const Configuration& now, RobotId robot, VertexId vertex) const;
@@ -53,11 +52,9 @@ class UntimedPibt {
     std::vector<VertexId> places_by_distance(const Configuration& now, RobotId robot);
     bool closes_rotation(const Configuration& now) const;
 
-    Graph graph_;
-    const UntimedProblem& goals_;
+    const Problem& problem_;
     StepTables& tables_;
     std::vector<StepTables::TableId> stage_table_;
-    bool may_rotate_;
     std::mt19937 draw_;
     std::vector<RobotId> here_;       // who is at each vertex
     std::vector<RobotId> comes_;      // who will be at each vertex

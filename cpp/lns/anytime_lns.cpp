@@ -10,15 +10,15 @@ constexpr std::int64_t tasks_per_robot = 50;
 
 }  // namespace
 
-AnytimeLns::AnytimeLns(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone,
+AnytimeLns::AnytimeLns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                        std::uint64_t seed, std::size_t n_threads)
-    : fleet_(fleet),
+    : distances_(distances),
       plan_(plan),
       alone_(alone),
       seed_(seed),
       n_threads_(n_threads),
-      idle_until_stuck_(tasks_per_robot * fleet.n_robots()),
-      one_(fleet, plan, alone, seed, n_threads) {}
+      idle_until_stuck_(tasks_per_robot * distances.problem().n_robots()),
+      one_(distances, plan, alone, seed, n_threads) {}
 
 void AnytimeLns::run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
                      const StopCondition& is_due) {
@@ -30,7 +30,7 @@ void AnytimeLns::run(std::int64_t n_tasks, std::int64_t patience, const StopCond
             return;
         }
         n_tasks -= n_done;
-        many_.emplace(fleet_, plan_, alone_, seed_, n_threads_, one_.n_idle());
+        many_.emplace(distances_, plan_, alone_, seed_, n_threads_, one_.n_idle());
     }
     many_->run(n_tasks, patience, is_over, is_due);
 }

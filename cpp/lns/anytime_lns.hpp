@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
-#include "core/search_end.hpp"
 #include "lns/lns.hpp"
 #include "lns/population.hpp"
 
@@ -14,7 +14,7 @@ namespace rightofway {
 class AnytimeLns {
   public:
     // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
-    AnytimeLns(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone,
+    AnytimeLns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                std::uint64_t seed, std::size_t n_threads);
 
     // As `Lns::run`.
@@ -26,7 +26,7 @@ class AnytimeLns {
     std::int64_t n_expanded() const;
 
   private:
-    const Problem& fleet_;
+    SharedDistances& distances_;
     FleetPlan& plan_;
     std::span<const Tick> alone_;
     std::uint64_t seed_;

@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "distances/trip.hpp"
+#include "precedence/retiming.hpp"
+
 namespace rightofway {
 
-FleetPlan::FleetPlan(const Problem& fleet)
-    : fleet_(&fleet),
-      bookings_(fleet.n_vertices()),
-      tracks_(static_cast<std::size_t>(fleet.n_robots())),
+FleetPlan::FleetPlan(const Problem& problem)
+    : problem_(&problem),
+      bookings_(problem.n_vertices()),
+      tracks_(static_cast<std::size_t>(problem.n_robots())),
       held_(tracks_.size(), 0) {}
 
 Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     const auto& visits = track.visits;
-    const Tick approach = fleet_->rules().books_ahead ? visits[k].drive : 0;
-    const Tick end = k + 1 < visits.size() ? visits[k + 1].enter + fleet_->rules().headway : never;
+    const Tick approach = problem_->rules().books_ahead ? visits[k].drive : 0;
+    const Tick end =
+        k + 1 < visits.size() ? visits[k + 1].enter + problem_->rules().headway : never;
     return {visits[k].enter - approach, end};
 }
 
@@ -42,21 +46,36 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
     }
 }
 
+void FleetPlan::retime() {
+    Tracks all = tracks();
+    rightofway::retime(*problem_, all);
+    FleetPlan retimed(*problem_);
+    for (RobotId robot = 0; robot < n_robots(); ++robot) {
+        TimedTrack one = track(robot);
+        for (std::size_t k = 0; k < one.visits.size(); ++k) {
+            one.visits[k].enter = all.enter[static_cast<std::size_t>(all.first_visit[robot]) + k];
+        }
+        one.completion = completion(problem_->itinerary(robot), one.visits);
+        retimed.exchange(robot, one);
+    }
+    *this = std::move(retimed);
+}
+
 void FleetPlan::hold_home(RobotId robot, Tick until) {
     Tick& held = held_[static_cast<std::size_t>(robot)];
     if (held > 0) {
-        bookings_.erase(fleet_->home(robot), 0, robot);
+        bookings_.erase(problem_->home(robot), 0, robot);
     }
     held = until;
     if (held > 0) {
-        bookings_.insert(fleet_->home(robot), {0, held}, robot);
+        bookings_.insert(problem_->home(robot), {0, held}, robot);
     }
 }
 
 // Tells of every booking in the way, until `found` has heard enough.
 template <class Found>
 void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found) const {
-    const bool may_swap = fleet_->rules().headway == 0 && !fleet_->rules().books_ahead;
+    const bool may_swap = problem_->may_follow();
     for (std::size_t k = 0; k < track.visits.size(); ++k) {
         const Booking own = booking(track, k);
         const auto here = bookings_.at(track.visits[k].vertex);

@@ -18,8 +18,9 @@ struct TimedTrack {
 
 class FleetPlan {
   public:
-    explicit FleetPlan(const Problem& fleet);
+    explicit FleetPlan(const Problem& problem);
 
+    RobotId n_robots() const { return problem_->n_robots(); }
     const BookingTable& bookings() const { return bookings_; }
     const TimedTrack& track(RobotId robot) const {
         return tracks_[static_cast<std::size_t>(robot)];
@@ -40,6 +41,9 @@ class FleetPlan {
     // Keeps the home of a robot without a track free until then; 0 ends that.
     void hold_home(RobotId robot, Tick until);
 
+    // Makes all robots as early as the order of visits at every vertex allows; each has a track.
+    void retime();
+
     // What visit k of a track books.
     Booking booking(const TimedTrack& track, std::size_t k) const;
 
@@ -47,7 +51,7 @@ class FleetPlan {
     template <class Found>
     void meet(RobotId robot, const TimedTrack& track, const Found& found) const;
 
-    const Problem* fleet_;
+    const Problem* problem_;
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;

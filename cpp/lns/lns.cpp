@@ -14,11 +14,11 @@ constexpr std::size_t most_in_round = 32;
 }  // namespace
 
 struct Lns::Worker {
-    Worker(const Problem& fleet, FleetPlan& own, std::span<const Tick> alone)
+    Worker(SharedDistances& distances, FleetPlan& own, std::span<const Tick> alone)
         : plan(own),
-          search(fleet.roads(), fleet.rules()),
-          reader(fleet),
-          neighbourhoods(fleet, own, alone) {}
+          search(distances.problem().roads(), distances.problem().rules()),
+          reader(distances),
+          neighbourhoods(distances, own, alone) {}
 
     FleetPlan& plan;
     SafeIntervalSearch search;
@@ -27,20 +27,19 @@ struct Lns::Worker {
     TimedTrack found;
 };
 
-Lns::Lns(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone, std::uint64_t seed,
-         std::size_t n_threads)
-    : fleet_(fleet),
-      plan_(plan),
+Lns::Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
+         std::uint64_t seed, std::size_t n_threads)
+    : plan_(plan),
       alone_(alone),
       seed_(seed),
-      is_touched_(static_cast<std::size_t>(fleet.n_robots()), 0),
+      is_touched_(alone.size(), 0),
       neighbourhood_(n_neighbourhood_kinds * sizes.size()),
       crew_(n_threads) {
-    workers_.push_back(std::make_unique<Worker>(fleet, plan_, alone));
+    workers_.push_back(std::make_unique<Worker>(distances, plan_, alone));
     replicas_.reserve(n_threads);
     while (workers_.size() < n_threads) {
         replicas_.push_back(plan);
-        workers_.push_back(std::make_unique<Worker>(fleet, replicas_.back(), alone));
+        workers_.push_back(std::make_unique<Worker>(distances, replicas_.back(), alone));
     }
     tasks_.resize(std::clamp(is_touched_.size() / robots_per_task, least_in_round, most_in_round));
 }

@@ -14,11 +14,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "core/search_end.hpp"
 #include "core/task_crew.hpp"
 #include "lns/adaptive_choice.hpp"
 #include "lns/fleet_plan.hpp"
@@ -30,8 +30,8 @@ namespace rightofway {
 class Lns {
   public:
     // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
-    Lns(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone, std::uint64_t seed,
-        std::size_t n_threads);
+    Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
+        std::uint64_t seed, std::size_t n_threads);
     ~Lns();
 
     // Does that many tasks; less after `patience` of them in a row without a gain, if `is_over`
@@ -63,7 +63,6 @@ class Lns {
     bool adopt(Task& task, bool may_clash);
     void learn(const Task& task, bool is_adopted);
 
-    const Problem& fleet_;
     FleetPlan& plan_;
     std::span<const Tick> alone_;
     std::uint64_t seed_;

@@ -11,13 +11,13 @@ constexpr std::size_t visits_around = 12;
 
 }  // namespace
 
-Neighbourhoods::Neighbourhoods(const Problem& fleet, const FleetPlan& plan,
+Neighbourhoods::Neighbourhoods(SharedDistances& distances, const FleetPlan& plan,
                                std::span<const Tick> alone)
-    : fleet_(fleet),
+    : problem_(distances.problem()),
       plan_(plan),
       alone_(alone),
-      reader_(fleet),
-      is_chosen_(static_cast<std::size_t>(fleet.n_robots()), 0) {}
+      reader_(distances),
+      is_chosen_(alone.size(), 0) {}
 
 const std::vector<RobotId>& Neighbourhoods::choose(NeighbourhoodKind kind, std::size_t size,
                                                    Random& random) {
@@ -96,9 +96,9 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
     const RobotId robot = late_robot(random);
     add(robot);
     const auto& visits = plan_.track(robot).visits;
-    reader_.completion(robot, visits, &stage_of_);
     const Trip& trip = reader_.read(robot);
-    const auto roads = fleet_.roads();
+    completion(trip, visits, &stage_of_);
+    const Roads& roads = problem_.roads();
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(visits.size());
         VertexId place = visits[first].vertex;
@@ -132,7 +132,7 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
                     drive = ticks;
                 }
             }
-            add_all(next, now + (fleet_.rules().books_ahead ? 0 : drive), now + drive + 1, size);
+            add_all(next, now + (problem_.rules().books_ahead ? 0 : drive), now + drive + 1, size);
             now += drive;
             place = next;
         }
@@ -145,9 +145,9 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
     const RobotId robot = late_robot(random);
     add(robot);
     const auto& track = plan_.track(robot);
-    reader_.completion(robot, track.visits, &stage_of_);
     const Trip& trip = reader_.read(robot);
-    const auto roads = fleet_.roads();
+    completion(trip, track.visits, &stage_of_);
+    const Roads& roads = problem_.roads();
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(track.visits.size());
         VertexId place = track.visits[first].vertex;
@@ -189,9 +189,9 @@ void Neighbourhoods::congestion(std::size_t size, Random& random) {
     add(robot);
     const auto& visits = plan_.track(robot).visits;
     const Visit& middle = visits[random.below(visits.size())];
-    const auto pace = fleet_.pace(robot);
+    const auto pace = problem_.pace(robot);
     const Tick around = pace.empty() ? 1 : 3 * *std::max_element(pace.begin(), pace.end());
-    const auto graph = fleet_.roads().graph;
+    const Graph& graph = problem_.graph();
     ring_.assign(1, middle.vertex);
     for (std::size_t k = 0; k < ring_.size() && k < places_around && chosen_.size() < size; ++k) {
         add_all(ring_[k], middle.enter - around, middle.enter + around, size);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "distances/trip.hpp"
 #include "lns/fleet_plan.hpp"
 
 namespace rightofway {
@@ -25,7 +26,7 @@ inline constexpr std::size_t n_neighbourhood_kinds = 5;
 class Neighbourhoods {
   public:
     // Borrows all. `alone` is the least completion of each robot.
-    Neighbourhoods(const Problem& fleet, const FleetPlan& plan, std::span<const Tick> alone);
+    Neighbourhoods(SharedDistances& distances, const FleetPlan& plan, std::span<const Tick> alone);
 
     // Chooses at most `size` robots, each once.
     const std::vector<RobotId>& choose(NeighbourhoodKind kind, std::size_t size, Random& random);
@@ -40,7 +41,7 @@ class Neighbourhoods {
     void add(RobotId robot);
     void add_all(VertexId vertex, Tick start, Tick end, std::size_t size);
 
-    const Problem& fleet_;
+    const Problem& problem_;
     const FleetPlan& plan_;
     std::span<const Tick> alone_;
     TripReader reader_;

@@ -30,10 +30,9 @@ bool is_same(const TimedTrack& left, const TimedTrack& right) {
                       });
 }
 
-std::vector<RobotId> all_that_differ(const Problem& fleet, const FleetPlan& left,
-                                     const FleetPlan& right) {
+std::vector<RobotId> all_that_differ(const FleetPlan& left, const FleetPlan& right) {
     std::vector<RobotId> robots;
-    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+    for (RobotId robot = 0; robot < left.n_robots(); ++robot) {
         if (!is_same(left.track(robot), right.track(robot))) {
             robots.push_back(robot);
         }
@@ -43,11 +42,11 @@ std::vector<RobotId> all_that_differ(const Problem& fleet, const FleetPlan& left
 
 // Grows a group around a robot, by those who are in the way of somebody in it if one of the two
 // changes sides and the other does not. It may end before it has that many.
-std::vector<RobotId> grow(const Problem& fleet, const FleetPlan& plan, const FleetPlan& mate,
-                          RobotId first, std::size_t size, Random& random) {
+std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId first,
+                          std::size_t size, Random& random) {
     std::vector<RobotId> group{first};
     std::vector<RobotId> open{first};
-    std::vector<std::uint8_t> is_known(static_cast<std::size_t>(fleet.n_robots()), 0);
+    std::vector<std::uint8_t> is_known(static_cast<std::size_t>(plan.n_robots()), 0);
     is_known[static_cast<std::size_t>(first)] = 1;
     std::vector<RobotId> met;
     const auto add_all = [&] {
@@ -82,21 +81,21 @@ std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random)
 
 void take_away_all(FleetPlan& plan, std::span<const RobotId> robots) {
     for (const RobotId robot : robots) {
-        TimedTrack none;
-        plan.exchange(robot, none);
+        TimedTrack no_track;
+        plan.exchange(robot, no_track);
     }
 }
 
 }  // namespace
 
-Population::Population(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone,
+Population::Population(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                        std::uint64_t seed, std::size_t n_threads, std::int64_t n_idle)
-    : fleet_(fleet),
+    : distances_(distances),
       plan_(plan),
       alone_(alone),
       seed_(seed),
       members_{plan},
-      children_(n_members, Child{FleetPlan(fleet)}),
+      children_(n_members, Child{FleetPlan(distances.problem())}),
       crew_(std::min(n_threads, n_members)),
       n_idle_(n_idle) {}
 
@@ -121,7 +120,7 @@ void Population::run(std::int64_t n_tasks, std::int64_t patience, const StopCond
 // Shares out tasks to the next children; returns how many of those there are.
 std::size_t Population::begin_generation(std::int64_t n_tasks) {
     const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
-    const std::int64_t each = tasks_per_robot * fleet_.n_robots();
+    const std::int64_t each = tasks_per_robot * plan_.n_robots();
     std::size_t n = 0;
     for (; n < most && n_tasks > 0; ++n) {
         children_[n].most_tasks = std::min(each, n_tasks);
@@ -142,7 +141,7 @@ void Population::bring_up(std::size_t k, const StopCondition& is_over) {
         child.n_tasks = is_over() ? 0 : child.most_tasks;  // in vain
         return;
     }
-    Lns improver(fleet_, child.plan, alone_, random.next(), 1);
+    Lns improver(distances_, child.plan, alone_, random.next(), 1);
     improver.run(child.most_tasks, any_number, is_over, [] { return false; });
     child.n_tasks = improver.n_tasks();
     child.n_expanded += improver.n_expanded();
@@ -154,19 +153,19 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
                       const StopCondition& is_over) {
     child.plan = members_[parent];
     const FleetPlan& mate = members_[(parent + 1 + random.below(n_members - 1)) % members_.size()];
-    const std::vector<RobotId> differing = all_that_differ(fleet_, child.plan, mate);
+    const std::vector<RobotId> differing = all_that_differ(child.plan, mate);
     std::vector<RobotId> out;
     if (differing.empty()) {
-        out = some(fleet_.n_robots(), most_share, random);
+        out = some(plan_.n_robots(), most_share, random);
         take_away_all(child.plan, out);
     } else {
         out = take_over(child.plan, mate, differing, random);
     }
     random.shuffle(out);
-    Prioritized planner(fleet_, child.plan);
+    Prioritized planner(distances_, child.plan);
     planner.start(out);
     const bool is_found =
-        planner.run(searches_per_robot * fleet_.n_robots(), is_over) == SearchEnd::found;
+        planner.run(searches_per_robot * plan_.n_robots(), is_over) == SearchEnd::found;
     child.n_expanded = planner.n_expanded();
     return is_found;
 }
@@ -178,7 +177,7 @@ std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mat
     const std::size_t share = least_share + random.below(most_share - least_share + 1);
     const RobotId first = differing[random.below(differing.size())];
     const std::size_t size = std::max<std::size_t>(1, differing.size() * share / 100);
-    const std::vector<RobotId> group = grow(fleet_, plan, mate, first, size, random);
+    const std::vector<RobotId> group = grow(plan, mate, first, size, random);
     take_away_all(plan, group);
     std::vector<RobotId> out;
     std::vector<RobotId> met;

@@ -18,12 +18,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/random.hpp"
-#include "core/search_end.hpp"
 #include "core/task_crew.hpp"
+#include "distances/shared_distances.hpp"
 #include "lns/fleet_plan.hpp"
 
 namespace rightofway {
@@ -32,7 +33,7 @@ class Population {
   public:
     // Borrows all; every robot of the plan has a track. `alone` is the least completion of each,
     // `n_idle` after how many tasks without a gain this begins.
-    Population(const Problem& fleet, FleetPlan& plan, std::span<const Tick> alone,
+    Population(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                std::uint64_t seed, std::size_t n_threads, std::int64_t n_idle);
 
     // Brings up children with that many tasks of an `Lns` in all; with less after `patience`
@@ -62,7 +63,7 @@ class Population {
                                    std::span<const RobotId> differing, Random& random) const;
     void take_up(std::size_t n_children);
 
-    const Problem& fleet_;
+    SharedDistances& distances_;
     FleetPlan& plan_;  // the best
     std::span<const Tick> alone_;
     std::uint64_t seed_;

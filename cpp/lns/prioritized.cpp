@@ -17,23 +17,24 @@ constexpr Tick greed = 1;
 
 }  // namespace
 
-Prioritized::Prioritized(const Problem& fleet, FleetPlan& plan, const TrackPrices& prices)
-    : fleet_(fleet),
+Prioritized::Prioritized(SharedDistances& distances, FleetPlan& plan, const TrackPrices& prices)
+    : distances_(distances),
+      problem_(distances.problem()),
       plan_(plan),
       track_prices_(prices),
-      search_(fleet.roads(), fleet.rules()),
-      reader_(fleet),
-      prices_(static_cast<std::size_t>(fleet.n_robots())),
+      search_(problem_.roads(), problem_.rules()),
+      reader_(distances),
+      prices_(static_cast<std::size_t>(problem_.n_robots())),
       n_lost_(prices_.size(), 0),
       expected_(prices_.size()),
       next_raise_(prices.states_between_raises) {
-    for (RobotId robot = 0; robot < fleet.n_robots(); ++robot) {
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
         prices_[static_cast<std::size_t>(robot)] = prices.first * first_hold(robot);
     }
 }
 
 Tick Prioritized::first_hold(RobotId robot) const {
-    const auto pace = fleet_.pace(robot);
+    const auto pace = problem_.pace(robot);
     return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
 }
 
@@ -47,7 +48,7 @@ void Prioritized::start(std::span<const RobotId> order) {
     for (const RobotId robot : order) {
         keep_home(robot);
         Tick& expected = expected_[static_cast<std::size_t>(robot)];
-        expected = fleet_.alone(robot);
+        expected = distances_.alone(robot);
         outlook_ += expected;
     }
     highest_outlook_ = outlook_;

@@ -45,7 +45,7 @@ constexpr TrackPrices hasty{12, 6, 300'000};
 class Prioritized {
   public:
     // Borrows both. The robots that are to get tracks have none yet.
-    Prioritized(const Problem& fleet, FleetPlan& plan, const TrackPrices& prices = patient);
+    Prioritized(SharedDistances& distances, FleetPlan& plan, const TrackPrices& prices = patient);
 
     // Robots are to get tracks in that order.
     void start(std::span<const RobotId> order);
@@ -70,7 +70,8 @@ class Prioritized {
     Tick first_hold(RobotId robot) const;
     bool has_lost(RobotId robot) const { return n_lost_[static_cast<std::size_t>(robot)] > 0; }
 
-    const Problem& fleet_;
+    SharedDistances& distances_;
+    const Problem& problem_;
     FleetPlan& plan_;
     TrackPrices track_prices_;
     SafeIntervalSearch search_;

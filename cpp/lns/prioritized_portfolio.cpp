@@ -48,12 +48,12 @@ class PrioritizedPortfolio::Beside {
     std::thread thread_;  // last, as it uses the others
 };
 
-PrioritizedPortfolio::PrioritizedPortfolio(const Problem& fleet, FleetPlan& plan,
+PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
                                            std::span<const RobotId> order)
     : plan_(plan),
-      plan_in_haste_(fleet),
-      patient_{plan_, Prioritized(fleet, plan_, patient)},
-      hasty_{plan_in_haste_, Prioritized(fleet, plan_in_haste_, hasty)} {
+      plan_in_haste_(distances.problem()),
+      patient_{plan_, Prioritized(distances, plan_, patient)},
+      hasty_{plan_in_haste_, Prioritized(distances, plan_in_haste_, hasty)} {
     patient_.planner.start(order);
     hasty_.planner.start(order);
 }

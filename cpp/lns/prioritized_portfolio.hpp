@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/search_end.hpp"
 #include "lns/fleet_plan.hpp"
 #include "lns/prioritized.hpp"
 
@@ -20,7 +19,8 @@ namespace rightofway {
 class PrioritizedPortfolio {
   public:
     // Borrows both. The plan is without tracks.
-    PrioritizedPortfolio(const Problem& fleet, FleetPlan& plan, std::span<const RobotId> order);
+    PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
+                         std::span<const RobotId> order);
 
     // Gives all robots a track each, in at most so many searches since the beginning. False if that
     // does not work out, with the plan in an unknown state; it can go on from there. Once there is

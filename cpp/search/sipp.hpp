@@ -31,7 +31,7 @@
 #include "core/open_list.hpp"
 #include "core/search_end.hpp"
 #include "core/types.hpp"
-#include "problem/trip.hpp"
+#include "distances/trip.hpp"
 #include "search/booking_table.hpp"
 
 namespace rightofway {

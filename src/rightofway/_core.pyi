@@ -433,30 +433,14 @@ def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shap
         If the arrays do not fit together, or times may become too large.
     """
 
-def plan_by_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Plan a whole fleet with clocks, instant by instant.
 
     Parameters
     ----------
-    indptr, indices, edge_class : int32[V + 1], int32[E], int32[E]
-        The directed graph in compressed rows, and which length each edge has.
-    home : int32[R]
-        Where each robot is at first.
-    first_stage : int32[R + 1]
-        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
-    stage_vertex, stage_dwell : int32[S], int64[S]
-        The vertices to go to, one after the other, and the ticks of work and turning there; a robot
-        stays at its last one.
-    class_ticks : int32[R * L]
-        For each robot, the ticks of an edge of each length.
-    headway : int
-        A vertex stays booked so many ticks after it was left.
-    books_ahead : bool
-        Whether a robot books a vertex from when it starts to drive there.
-    may_rotate : bool
-        Whether three or more robots may move round a circle at one instant; not with a headway or
-        booking ahead.
+    problem : Problem
+        What the fleet has to do.
     spreads : bool
         Whether robots prefer paths that were spread before the search.
     seed : int
@@ -472,75 +456,23 @@ def plan_by_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), or
         How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
         and where and when each visit begins.
 
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together.
-
     Notes
     -----
     Deterministic for a seed as long as there is time, not optimal. A stage out of reach
     is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
     """
 
-class Instants:
+class Problem:
     """
-    A fleet with clocks whose free robots choose where to go, one instant after another.
+    A scenario in ticks: roads, robots and booking rules.
 
-    `plan_by_events` does this by itself; here a test can look at each instant.
-
-    Parameters
-    ----------
-    indptr, indices, edge_class, home, first_stage, stage_vertex, stage_dwell, class_ticks, headway, \\
-    books_ahead, may_rotate, seed
-        As for `plan_by_events`.
-    """
-
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], class_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, may_rotate: bool, seed: int) -> None: ...
-
-    @property
-    def now(self) -> int:
-        """The time on the clock. [ticks]"""
-
-    def undecided(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """Return the robots that may choose."""
-
-    def choose(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], fixed: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))] | None:
-        """
-        Let robots choose in an order.
-
-        Parameters
-        ----------
-        order : int32[N]
-            Robots that are neither busy nor at the end of their trips.
-        fixed : int32[F, 2]
-            Robots that are told where to go, each with the vertex.
-
-        Returns
-        -------
-        int64[M, 3] or None
-            The moves: robot, vertex, arrival [ticks]; None where that does not work out.
-
-        Raises
-        ------
-        ValueError
-            If a robot is busy, or told to go where no edge leads.
-        """
-
-    def go_on(self) -> bool:
-        """
-        Take the moves chosen last, and go on to the next instant at which a robot finishes
-        something; False if nobody is busy.
-        """
-
-class FleetSearch:
-    """
-    The tracks of a whole fleet: finding first ones, and better ones.
+    Immutable; every kernel is given one. The arrays are not copied: they must not change.
 
     Parameters
     ----------
     indptr, heads : int32[V + 1], int32[E]
-        The directed graph in compressed rows.
+        The directed graph in compressed rows: the edges that leave vertex ``v`` are
+        ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at ``heads[e]``.
     length_class : int32[E]
         The length class of each edge.
     paces : int32[P * C]
@@ -550,24 +482,47 @@ class FleetSearch:
     home : int32[R]
         Where each robot is at tick 0.
     first_stage : int32[R + 1]
-        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
+        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one; it stays at
+        the last one.
     stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
         Where each stage is, and how long it takes to work and then to turn. [ticks]
     n_classes : int
         C.
     headway : int
-        Ticks that a vertex stays booked after it was left.
+        How long a vertex stays booked after it was left. [ticks]
     books_ahead : bool
         Whether a vertex is booked from when a robot starts to drive there.
-    seed : int
-        For all that is drawn.
-    n_threads : int
-        For `improve`; what it finds does not depend on it.
+    rotations : bool
+        Whether three or more robots may move round a circle at one instant, where bookings allow it.
 
     Raises
     ------
     ValueError
         If the arrays do not fit together; names the array, the index and the value.
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, rotations: bool) -> None: ...
+
+    @property
+    def n_robots(self) -> int:
+        """The number of robots, R."""
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices, V."""
+
+class FleetSearch:
+    """
+    The tracks of a whole fleet: finding first ones, and better ones.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do.
+    seed : int
+        For all that is drawn.
+    n_threads : int
+        For `improve`; what it finds does not depend on it.
 
     Notes
     -----
@@ -575,7 +530,7 @@ class FleetSearch:
     long calls; Ctrl-C is obeyed, and leaves a plan as good as before.
     """
 
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, seed: int, n_threads: int) -> None: ...
+    def __init__(self, problem: Problem, seed: int, n_threads: int) -> None: ...
 
     def alone(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
         """
@@ -798,7 +753,7 @@ class ActionDependencyGraph:
         Return the robots that can never complete because they wait for each other.
         """
 
-def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], may_rotate: bool, seed: int, time_limit: float | None, most_steps: int | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
     """
     Find steps for the whole fleet that bring every robot through its stages.
 
@@ -807,35 +762,22 @@ def untimed_lacam(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), or
 
     Parameters
     ----------
-    indptr, indices : int32[V + 1], int32[E]
-        The directed graph in compressed rows.
-    home : int32[R]
-        Where each robot is at first.
-    first_stage : int32[R + 1]
-        Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one.
-    stage_vertex : int32[S]
-        The vertices to go to, one after the other; a robot stays at its last one.
-    may_rotate : bool
-        Whether three or more robots may move round a circle in one step.
+    problem : Problem
+        What the fleet has to do.
     ends_anywhere : uint8[R], or empty
         Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
     seed : int
         For ties.
-    time_limit : float or None
-        After so many seconds the search stops.
     most_steps : int or None
         After about so many steps of the fleet the search stops.
+    time_limit : float or None
+        After so many seconds the search stops.
 
     Returns
     -------
     tuple of (int, int32[T, R])
         How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
         after each step, the start included.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together.
 
     Notes
     -----
@@ -1094,25 +1036,6 @@ class BookingTable:
             If there is no such vertex, the booking is empty, or it overlaps another robot's.
         """
 
-    def insert(self, vertex: int, start: int, end: int, robot: int) -> None:
-        """
-        Book a vertex, whoever else has booked it.
-
-        Parameters
-        ----------
-        vertex : int
-            The vertex.
-        start, end : int
-            It is booked for ``[start, end)``. [ticks]
-        robot : int
-            By whom.
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex or robot, or the booking is empty.
-        """
-
     def erase(self, vertex: int, start: int, robot: int) -> None:
         """
         Take back a booking.
@@ -1152,42 +1075,28 @@ class BookingTable:
             If there is no such vertex.
         """
 
-def earliest_track(indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bookings: BookingTable, headway: int, books_ahead: bool, home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], prices: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], int]:
+def earliest_track(problem: Problem, robot: int, bookings: BookingTable, stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
-    Find the best track of one robot among the bookings of others.
+    Find the earliest track of one robot among the bookings of others.
 
     Parameters
     ----------
-    indptr, indices : int32[V + 1], int32[E]
-        The directed graph in compressed rows.
-    length_class : int32[E]
-        The length class of each edge.
-    pace : int32[C]
-        What an edge of each length class takes. [ticks]
+    problem : Problem
+        The roads, the robots and the booking rules.
+    robot : int
+        Which robot.
     bookings : BookingTable
         What the other robots have booked.
-    headway : int
-        How long a vertex stays booked after it was left. [ticks]
-    books_ahead : bool
-        Whether a vertex is booked from when the robot starts to drive there.
-    home : int
-        Where the robot is at tick 0.
-    stage_vertex : int32[S]
-        Where it has something to do, in order; it stays at the last one for ever.
-    stage_work, stage_turn : int64[S], int64[S]
-        How long it works there, and then turns if it drives on. [ticks]
     stage_tables : list of int32[V]
         For each stage, the least ticks from each vertex to its vertex.
-    prices : int64[R]
-        For each other robot, what it costs to overlap one of its bookings; empty: never. [ticks]
     time_limit : float or None
         After so many seconds the search stops.
 
     Returns
     -------
-    tuple of (int, int32[n], int64[n], int)
+    tuple of (int, int32[n], int64[n])
         How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices,
-        when each is entered, and the completion with all prices. [ticks]
+        and when each is entered. [ticks]
 
     Raises
     ------
@@ -1209,10 +1118,8 @@ class Congestion:
 
     Parameters
     ----------
-    indptr : int32[V + 1]
-        Where each vertex's edges begin.
-    indices : int32[E]
-        The vertex at which each edge ends.
+    problem : Problem
+        The roads, and how fast robots drive.
     shares : int
         In how many shares a tick is counted.
     station : int64[V]
@@ -1224,18 +1131,18 @@ class Congestion:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, problem: Problem, shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
-    def path(self, start: int, target: int, edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    def path(self, robot: int, start: int, target: int, to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
         Return a cheapest path.
 
         Parameters
         ----------
+        robot : int
+            Which robot.
         start, target : int
             The vertices from and to which it leads.
-        edge_ticks : int32[E]
-            What each edge takes, above 0. [ticks]
         to_go : int32[V]
             Least time from each vertex to the target, -1 where no way leads there. [ticks]
 

@@ -127,6 +127,21 @@ def test_plans_with_faults_are_refused(plan: Plan) -> None:
         rightofway.simulate(wrong)
 
 
+def test_a_time_limit_ends_replanning_and_one_run_is_made() -> None:
+    """The run that is shown is the one that was counted, although replanning was cut short."""
+    plan = rightofway.solve(random_fleet(1, size=8, robots=8), "two-level")
+    outcome = rightofway.simulate(plan, "stop:R1@5", runs=5, replan=True, time_limit=0)
+    assert outcome.runs == 1
+    ticks = [-1 if tick is None else tick for tick in outcome.trace(0).completion]
+    assert ticks == outcome.completion[0].tolist()
+
+
+@pytest.mark.parametrize("limit", [-5, float("nan")])
+def test_a_time_limit_that_is_no_duration_is_refused(plan: Plan, limit: float) -> None:
+    with pytest.raises(rightofway.InputError, match="time_limit"):
+        rightofway.simulate(plan, runs=1, time_limit=limit)
+
+
 def test_no_run_at_all_is_refused(plan: Plan) -> None:
     with pytest.raises(rightofway.InputError, match="runs: 0 is less than one run"):
         rightofway.simulate(plan, runs=0)

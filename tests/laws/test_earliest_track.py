@@ -7,7 +7,7 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.model import NEVER, Rules, Scenario, Tick
+from rightofway.model import NEVER, Rules, Scenario, Tick, route_of
 from rightofway.search import Booking, Bookings, Distances, earliest_track
 from tests.builders.fleets import grid_fleet
 from tests.oracles.sipp import Booked, earliest_completion
@@ -45,10 +45,10 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     scenario, booked = drawn
     problem, both = scenario.problem, scenario.rules.occupancy == "both"
     itinerary = problem.itineraries[0]
-    bookings = Bookings(scenario.roadmap, headway=problem.headway, books_ahead=both)
+    bookings = Bookings(problem)
     for one in booked:
         bookings.book(one.vertex, Booking(Tick(one.start), Tick(one.end), one.robot))
-    track = earliest_track(itinerary, bookings, Distances(scenario.roadmap))
+    track = earliest_track(0, bookings, Distances(scenario.roadmap))
     best = earliest_completion(
         scenario.roadmap,
         itinerary,
@@ -60,4 +60,5 @@ def test_the_search_finds_the_earliest_completion(drawn: tuple[Scenario, list[Bo
     if track is None or len(track) == 1:  # a trip that stays at home needs no time to get there
         assert (track is None) == (best is None)
     else:
-        assert int(track.enter[-1]) + itinerary.stages[-1].work == best
+        last_visit = route_of(scenario.roadmap, itinerary, track).dwell[-1]
+        assert int(track.enter[-1]) + last_visit == best

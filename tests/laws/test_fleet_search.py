@@ -43,7 +43,7 @@ FLEETS = st.builds(
 
 
 def search_of(scenario: Scenario, *, seed: int = 0, threads: int = 1) -> FleetSearch:
-    return FleetSearch(scenario, headway=scenario.problem.headway, seed=seed, threads=threads)
+    return FleetSearch(scenario.problem, seed=seed, threads=threads)
 
 
 def judged(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:

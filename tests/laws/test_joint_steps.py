@@ -36,7 +36,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
 def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: int) -> None:
     may_rotate = scenario.rules.occupancy == "one"
     try:
-        steps = untimed_lacam(scenario, seed=seed)
+        steps = untimed_lacam(scenario.problem, seed=seed)
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=may_rotate)
         return
@@ -49,7 +49,7 @@ def test_steps_are_found_exactly_where_there_are_any(scenario: Scenario, seed: i
 @given(fleets())
 def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> None:
     try:
-        steps = untimed_lacam(scenario)
+        steps = untimed_lacam(scenario.problem)
     except NoPlanExists:
         return
     tracks = tuple(timetable_of(scenario, steps))
@@ -64,7 +64,7 @@ def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, ro
     free = robot % len(scenario.robots)
     stages = [one.stages for one in scenario.problem.itineraries]
     try:
-        steps = untimed_lacam(scenario, ends_anywhere={free})
+        steps = untimed_lacam(scenario.problem, ends_anywhere={free})
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=scenario.rules.occupancy == "one")
         return
@@ -78,6 +78,6 @@ def test_a_search_that_ends_after_some_steps_proves_nothing() -> None:
     """Two robots change places in a corridor: impossible, but not proven before all is tried."""
     scenario = grid_fleet(["." * 9], [("N0", "N8"), ("N8", "N0")])
     with pytest.raises(NoPlanExists):
-        untimed_lacam(scenario)
+        untimed_lacam(scenario.problem)
     with pytest.raises(GaveUp):
-        untimed_lacam(scenario, most_steps=1)
+        untimed_lacam(scenario.problem, most_steps=1)

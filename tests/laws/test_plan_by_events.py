@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from rightofway.planners import planning_headway
+from rightofway.planners import planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
@@ -51,8 +51,7 @@ def fleets(draw: st.DrawFn, *, own_speeds: bool = True) -> Scenario:
 
 
 def tracks_of(scenario: Scenario, seed: int = 0) -> list[Track] | None:
-    headway = planning_headway(scenario)
-    return plan_by_lacam(scenario, headway=headway, seed=seed, most_effort=PATIENCE)
+    return plan_by_lacam(planning_problem(scenario), seed=seed, most_effort=PATIENCE)
 
 
 def may_rotate(scenario: Scenario) -> bool:

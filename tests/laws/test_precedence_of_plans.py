@@ -27,16 +27,15 @@ def fleets(draw: st.DrawFn) -> Scenario:
 
 def late(scenario: Scenario, delays: list[int]) -> list[Track]:
     """Return tracks found one after the other, each then started later by its delay if it can."""
-    problem, both = scenario.problem, scenario.rules.occupancy == "both"
-    bookings = Bookings(scenario.roadmap, headway=problem.headway, books_ahead=both)
+    bookings = Bookings(scenario.problem)
     tracks: list[Track] = []
-    for robot, itinerary in enumerate(problem.itineraries):
-        track = earliest_track(itinerary, bookings, Distances(scenario.roadmap))
+    for robot in range(len(scenario.robots)):
+        track = earliest_track(robot, bookings, Distances(scenario.roadmap))
         if track is None:
             return []
         later = Track.of(track.vertices.tolist(), [0, *(track.enter[1:] + delays[robot]).tolist()])
-        track = track if bookings.in_the_way(robot, later, itinerary) else later
-        bookings.add(robot, track, itinerary)
+        track = track if bookings.in_the_way(robot, later) else later
+        bookings.add(robot, track)
         tracks.append(track)
     return tracks
 

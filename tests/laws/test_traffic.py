@@ -35,13 +35,26 @@ def floors(draw: st.DrawFn) -> Congestion:
 
 
 def kernel_of(floor: Congestion) -> _core.Congestion:
+    """Return the kernel for one robot and a length class for each edge."""
     starts = [edge.start for edge in floor.edges]
-    return _core.Congestion(
-        np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
-        np.array([edge.end for edge in floor.edges], np.int32),
-        floor.shares,
-        np.array(floor.station, np.int64),
+    zero = np.zeros(1, np.int32)
+    problem = _core.Problem(
+        indptr=np.searchsorted(starts, np.arange(floor.n_vertices + 1)).astype(np.int32),
+        heads=np.array([edge.end for edge in floor.edges], np.int32),
+        length_class=np.arange(len(floor.edges), dtype=np.int32),
+        paces=np.array([edge.ticks for edge in floor.edges], np.int32),
+        pace_of=zero,
+        home=zero,
+        first_stage=np.array([0, 1], np.int32),
+        stage_vertex=zero,
+        stage_work=np.zeros(1, np.int64),
+        stage_turn=np.zeros(1, np.int64),
+        n_classes=len(floor.edges),
+        headway=0,
+        books_ahead=False,
+        rotations=True,
     )
+    return _core.Congestion(problem, floor.shares, np.array(floor.station, np.int64))
 
 
 @law
@@ -50,13 +63,12 @@ def test_each_robots_path_is_the_cheapest_among_those_before(
     floor: Congestion, data: st.DataObject
 ) -> None:
     kernel = kernel_of(floor)
-    ticks = np.array([edge.ticks for edge in floor.edges], np.int32)
     for start in range(floor.n_vertices):
         for target in range(floor.n_vertices):
             to_go = distances_to(target, floor.n_vertices, floor.edges)
             if to_go[start] < 0:
                 continue
-            path = kernel.path(start, target, ticks, np.array(to_go, np.int32))
+            path = kernel.path(0, start, target, np.array(to_go, np.int32))
             assert path.tolist() == floor.path(start, target)
             oncoming = data.draw(st.sampled_from([0, 4, 100]))
             kernel.add(path, oncoming)
@@ -65,10 +77,10 @@ def test_each_robots_path_is_the_cheapest_among_those_before(
 
 def test_a_target_out_of_reach_and_a_path_with_a_gap_are_refused() -> None:
     floor = Congestion(n_vertices=3, edges=[Edge(0, 1, 1)], shares=16, station=[0, 0, 0])
-    kernel, ticks = kernel_of(floor), np.array([1], np.int32)
+    kernel = kernel_of(floor)
     with pytest.raises(ValueError, match="target: 2 cannot be reached from 0"):
-        kernel.path(0, 2, ticks, np.array([-1, -1, 0], np.int32))
+        kernel.path(0, 0, 2, np.array([-1, -1, 0], np.int32))
     with pytest.raises(ValueError, match=r"path\[1\]: 2 is no neighbour of 0"):
         kernel.add(np.array([0, 2], np.int32), 4)
     with pytest.raises(ValueError, match=r"start: 3 is not in 0\.\.2"):
-        kernel.path(3, 1, ticks, np.array([1, 0, -1], np.int32))
+        kernel.path(0, 3, 1, np.array([1, 0, -1], np.int32))

@@ -87,8 +87,7 @@ class _Ticks:
             return None
         if not self.free(state.vertex, tick, 10**9):
             return None
-        turns = sum(stage.turn for stage in rest[:-1])
-        return max(tick, state.busy_until) + sum(stage.work for stage in rest) + turns
+        return max(tick, state.busy_until) + sum(stage.work for stage in rest)
 
     def moves(self, state: _State, tick: int) -> Iterator[tuple[int, _State]]:
         yield from self._wait(state, tick)

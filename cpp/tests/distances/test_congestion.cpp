@@ -3,54 +3,53 @@
 #include <vector>
 
 #include "distances/congestion.hpp"
+#include "fleets.hpp"
 
 namespace rightofway {
 namespace {
 
 using Path = std::vector<VertexId>;
 
-// A ring of four: 0 1 2 3, each edge both ways, one tick each.
+// A ring of four: 0 1 2 3, each edge both ways, one tick each, and a robot.
 struct Ring {
-    std::vector<EdgeId> indptr{0, 2, 4, 6, 8};
-    std::vector<VertexId> indices{1, 3, 0, 2, 1, 3, 0, 2};
-    std::vector<std::int32_t> ticks = std::vector<std::int32_t>(8, 1);
+    test::Fleet fleet{test::Roads(4, {{0, 1}, {0, 3}, {1, 2}, {2, 3}}), {{0, {{2}}}}};
+    Problem problem = fleet.problem();
     std::vector<std::int32_t> to_2{2, 1, 0, 1};
 
-    Congestion traffic(const std::vector<std::int64_t>& station) const {
-        return Congestion({indptr, indices}, 16, station);
+    Congestion traffic(const std::vector<std::int64_t>& station, std::int64_t shares = 16) const {
+        return Congestion(problem, shares, station);
     }
 };
 
 TEST_CASE("of two ways round, the one by the first edge is taken, or the one that is clear") {
     const Ring ring;
     Congestion free = ring.traffic({0, 0, 0, 0});
-    CHECK(free.path(0, 2, ring.ticks, ring.to_2) == Path{0, 1, 2});
+    CHECK(free.path(0, 0, 2, ring.to_2) == Path{0, 1, 2});
     Congestion blocked = ring.traffic({0, 16, 0, 0});
-    CHECK(blocked.path(0, 2, ring.ticks, ring.to_2) == Path{0, 3, 2});
+    CHECK(blocked.path(0, 0, 2, ring.to_2) == Path{0, 3, 2});
 }
 
 TEST_CASE("who is oncoming is kept clear of, who goes the same way is not") {
     const Ring ring;
     Congestion traffic = ring.traffic({0, 0, 0, 0});
     traffic.add(Path{0, 1, 2}, 4);
-    CHECK(traffic.path(0, 2, ring.ticks, ring.to_2) == Path{0, 1, 2});
+    CHECK(traffic.path(0, 0, 2, ring.to_2) == Path{0, 1, 2});
     traffic.add(Path{2, 1, 0}, 4);
-    CHECK(traffic.path(0, 2, ring.ticks, ring.to_2) == Path{0, 3, 2});
+    CHECK(traffic.path(0, 0, 2, ring.to_2) == Path{0, 3, 2});
 }
 
 TEST_CASE("the target may be a station, and a path of one vertex is one") {
     const Ring ring;
     Congestion traffic = ring.traffic({16, 16, 16, 16});
-    CHECK(traffic.path(1, 2, ring.ticks, ring.to_2) == Path{1, 2});
-    CHECK(traffic.path(2, 2, ring.ticks, ring.to_2) == Path{2});
+    CHECK(traffic.path(0, 1, 2, ring.to_2) == Path{1, 2});
+    CHECK(traffic.path(0, 2, 2, ring.to_2) == Path{2});
 }
 
 TEST_CASE("what does not fit together is refused") {
     const Ring ring;
     CHECK_THROWS_WITH(ring.traffic({0, 0}), "station: its length is 2, but must be 4");
     CHECK_THROWS_WITH(ring.traffic({0, -1, 0, 0}), "station[1]: -1 is negative");
-    CHECK_THROWS_WITH(Congestion({ring.indptr, ring.indices}, 0, std::vector<std::int64_t>(4)),
-                      "shares: 0 is not above 0");
+    CHECK_THROWS_WITH(ring.traffic({0, 0, 0, 0}, 0), "shares: 0 is not above 0");
     Congestion traffic = ring.traffic({0, 0, 0, 0});
     CHECK_THROWS_WITH(traffic.add(Path{0, 1}, -1), "oncoming: -1 is negative");
 }

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "distances/space_utilization.hpp"
-#include "trips_of.hpp"
+#include "fleets.hpp"
 
 namespace rightofway {
 namespace {
@@ -10,10 +10,10 @@ namespace {
 test::Roads two_ways() { return {5, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}}}; }
 
 TEST_CASE("who comes the other way takes the other one") {
-    test::ClockedFleet fleet{two_ways(), {{0, {{2}}}, {2, {{0}}}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+    test::Fleet fleet{two_ways(), {{0, {{2}}}, {2, {{0}}}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     REQUIRE(paths.choose(test::no_deadline));
     const VertexId first_by = paths.next(0, 0);
     const VertexId second_by = paths.next(1, 2);
@@ -24,19 +24,19 @@ TEST_CASE("who comes the other way takes the other one") {
 
 TEST_CASE("nobody drives over a robot at the end of its trip if there is another way") {
     // Robot 0 ends at 1 at tick 1; a slow robot would pass there later.
-    test::ClockedFleet fleet{two_ways(), {{4, {{1}}}, {0, {{2}}, 5}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+    test::Fleet fleet{two_ways(), {{4, {{1}}}, {0, {{2}}, 5}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(1, 0) == 3);
 }
 
 TEST_CASE("each leg of a trip has its own path") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{3}, {0}}}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+    test::Fleet fleet{test::corridor(), {{0, {{3}, {0}}}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     CHECK(paths.next(0, 1) == -1);  // none is chosen yet
     REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(0, 1) == 2);
@@ -49,19 +49,19 @@ TEST_CASE("so many legs that there is no time for any have no paths") {
         stages.push_back({3});
         stages.push_back({0});
     }
-    test::ClockedFleet fleet{test::corridor(), {{0, stages}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+    test::Fleet fleet{test::corridor(), {{0, stages}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     REQUIRE(paths.choose(test::no_deadline));
     CHECK(paths.next(0, 1) == -1);
 }
 
 TEST_CASE("choosing paths can be stopped") {
-    test::ClockedFleet fleet{test::corridor(), {{0, std::vector<test::Stage>(100, {3})}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+    test::Fleet fleet{test::corridor(), {{0, std::vector<test::Stage>(100, {3})}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     CHECK_FALSE(paths.choose([] { return true; }));
 }
 

@@ -1,15 +1,15 @@
 #include <doctest/doctest.h>
 
+#include "fleets.hpp"
 #include "lacam/fleet_state.hpp"
-#include "trips_of.hpp"
 
 namespace rightofway {
 namespace {
 
 TEST_CASE("a robot on the move holds both ends until it arrives") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{3}}, 4}}};
-    const Trips trips = fleet.trips();
-    FleetState state(trips);
+    test::Fleet fleet{test::corridor(), {{0, {{3}}, 4}}};
+    const Problem problem = fleet.problem();
+    FleetState state(problem);
     state.decide({0, 1, 4});
     CHECK(state.here(0) == 0);
     CHECK(state.comes(1) == 0);
@@ -24,9 +24,9 @@ TEST_CASE("a robot on the move holds both ends until it arrives") {
 }
 
 TEST_CASE("a robot works where it has to, and goes on to its next stage") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{1, 5}, {0}}}}};
-    const Trips trips = fleet.trips();
-    FleetState state(trips);
+    test::Fleet fleet{test::corridor(), {{0, {{1, 5}, {0}}}}};
+    const Problem problem = fleet.problem();
+    FleetState state(problem);
     state.decide({0, 1, 1});
     REQUIRE(state.advance());
     CHECK(state.is_busy(0));
@@ -43,9 +43,9 @@ TEST_CASE("a robot works where it has to, and goes on to its next stage") {
 }
 
 TEST_CASE("who follows at one instant finds the vertex free") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{1}}}, {1, {{2}}}}};
-    const Trips trips = fleet.trips();
-    FleetState state(trips);
+    test::Fleet fleet{test::corridor(), {{0, {{1}}}, {1, {{2}}}}};
+    const Problem problem = fleet.problem();
+    FleetState state(problem);
     state.decide({0, 1, 1});
     state.decide({1, 2, 1});
     REQUIRE(state.advance());
@@ -56,9 +56,9 @@ TEST_CASE("who follows at one instant finds the vertex free") {
 }
 
 TEST_CASE("fingerprints tell states apart, but not by the clock") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{3}}, 2}, {3, {{2}}}}};
-    const Trips trips = fleet.trips();
-    FleetState state(trips);
+    test::Fleet fleet{test::corridor(), {{0, {{3}}, 2}, {3, {{2}}}}};
+    const Problem problem = fleet.problem();
+    FleetState state(problem);
     const std::uint64_t at_home = state.fingerprint();
     state.decide({0, 1, 2});
     state.decide({1, 2, 1});
@@ -66,7 +66,7 @@ TEST_CASE("fingerprints tell states apart, but not by the clock") {
     const std::uint64_t on_the_way = state.fingerprint();
     CHECK(on_the_way != at_home);
 
-    FleetState later(trips);
+    FleetState later(problem);
     later.decide({1, 2, 1});
     REQUIRE(later.advance());
     later.decide({1, 3, 2});
@@ -78,7 +78,7 @@ TEST_CASE("fingerprints tell states apart, but not by the clock") {
     CHECK(later.now() == 3);
     CHECK(later.fingerprint() == on_the_way);
 
-    FleetState slower(trips);
+    FleetState slower(problem);
     slower.decide({0, 1, 3});
     slower.decide({1, 2, 1});
     REQUIRE(slower.advance());  // as on_the_way, but robot 0 needs two more ticks

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "fleets.hpp"
 #include "lacam/lacam.hpp"
-#include "trips_of.hpp"
 
 namespace rightofway {
 namespace {
@@ -13,79 +13,79 @@ using Ticks = std::vector<Tick>;
 
 constexpr std::int64_t patience = 100'000;
 
-Tracks plan(test::ClockedFleet& fleet, SearchEnd expected = SearchEnd::found) {
-    const Trips trips = fleet.trips();
-    check(trips);
-    StepTables tables(trips.graph);
-    SpaceUtilization paths(trips, tables);
+Tracks plan(test::Fleet& fleet, SearchEnd expected = SearchEnd::found) {
+    const Problem problem = fleet.problem();
+
+    StepTables tables(problem.graph());
+    SpaceUtilization paths(problem, tables);
     REQUIRE(paths.choose(test::no_deadline));
-    Lacam search(trips, tables, paths, 0);
+    Lacam search(problem, tables, paths, 0);
     CHECK(search.run(test::no_deadline, patience) == expected);
     return search.tracks();
 }
 
 TEST_CASE("a robot alone drives without a wait, works and comes home") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{2, 7}, {0}}, 3}}};
+    test::Fleet fleet{test::corridor(), {{0, {{2, 7}, {0}}, 3}}};
     const Tracks tracks = plan(fleet);
     CHECK(tracks.vertex == Vertices{0, 1, 2, 1, 0});
     CHECK(tracks.enter == Ticks{0, 3, 6, 16, 19});  // 7 ticks of work at vertex 2
 }
 
 TEST_CASE("who follows a slow robot enters as it leaves") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{2}}}, {1, {{3}}, 5}}};
+    test::Fleet fleet{test::corridor(), {{0, {{2}}}, {1, {{3}}, 5}}};
     const Tracks tracks = plan(fleet);
     CHECK(tracks.first_visit == std::vector<VisitId>{0, 3, 6});
     CHECK(tracks.enter == Ticks{0, 5, 10, 0, 5, 10});
 }
 
 TEST_CASE("who books ahead starts to drive when the robot in front has left") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{1}}, 2}, {1, {{2}}, 5}}, 1, true, false};
+    test::Fleet fleet{test::corridor(), {{0, {{1}}, 2}, {1, {{2}}, 5}}, {1, true}};
     const Tracks tracks = plan(fleet);
     CHECK(tracks.enter == Ticks{0, 8, 0, 5});  // left at 5, headway 1, two ticks to drive
 }
 
 TEST_CASE("two robots change places where there is a bay") {
-    test::ClockedFleet fleet{test::corridor_with_bay(), {{0, {{2}}, 2}, {2, {{0}}, 3}}};
+    test::Fleet fleet{test::corridor_with_bay(), {{0, {{2}}, 2}, {2, {{0}}, 3}}};
     const Tracks tracks = plan(fleet);
     CHECK(tracks.vertex[tracks.first_visit[1] - 1] == 2);
     CHECK(tracks.vertex.back() == 0);
 }
 
 TEST_CASE("without a bay the search ends without a plan") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{3}}, 2}, {3, {{0}}, 3}}};
+    test::Fleet fleet{test::corridor(), {{0, {{3}}, 2}, {3, {{0}}, 3}}};
     CHECK(plan(fleet, SearchEnd::stopped).vertex.empty());
 }
 
 TEST_CASE("a full ring turns at one instant, that of its slowest, if it may") {
     const test::Roads ring{3, {{0, 1}, {1, 2}, {2, 0}}};
     const std::vector<test::Robot> robots{{0, {{1}}, 1}, {1, {{2}}, 4}, {2, {{0}}, 2}};
-    test::ClockedFleet may{ring, robots};
+    test::Fleet may{ring, robots};
     CHECK(plan(may).enter == Ticks{0, 4, 0, 4, 0, 4});
-    test::ClockedFleet may_not{ring, robots, 0, false, false};
+    test::Fleet may_not{ring, robots, {0, false, false}};
     CHECK(plan(may_not, SearchEnd::stopped).vertex.empty());
 }
 
 TEST_CASE("a robot at the end of its trip makes room and comes back") {
-    test::ClockedFleet fleet{test::corridor_with_bay(), {{0, {{2}}}, {1, {{1}}}}};
+    test::Fleet fleet{test::corridor_with_bay(), {{0, {{2}}}, {1, {{1}}}}};
     const Tracks tracks = plan(fleet);
     CHECK(tracks.vertex == Vertices{0, 1, 2, 1, 3, 1});
 }
 
 TEST_CASE("a search that is told to stop stops") {
     const test::Roads ring{5, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}};
-    test::ClockedFleet fleet{ring, {{0, {{2}}}, {1, {{1}}}, {2, {{2}}}}};  // two for one place
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    const SpaceUtilization paths(trips, tables);
-    Lacam search(trips, tables, paths, 0);
+    test::Fleet fleet{ring, {{0, {{2}}}, {1, {{1}}}, {2, {{2}}}}};  // two for one place
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    const SpaceUtilization paths(problem, tables);
+    Lacam search(problem, tables, paths, 0);
     CHECK(search.run([] { return true; }, patience) == SearchEnd::stopped);
 }
 
 TEST_CASE("a stage out of reach is noticed") {
-    test::ClockedFleet fleet{test::Roads{3, {{0, 1}}}, {{0, {{1}, {2}}}}};
-    const Trips trips = fleet.trips();
-    StepTables tables(trips.graph);
-    CHECK(reach_all(trips.goals(), tables, test::no_deadline) == SearchEnd::proven_none);
+    test::Fleet fleet{test::Roads{3, {{0, 1}}}, {{0, {{1}, {2}}}}};
+    const Problem problem = fleet.problem();
+    StepTables tables(problem.graph());
+    CHECK(reach_all(problem, tables, test::no_deadline) == SearchEnd::proven_none);
 }
 
 }  // namespace

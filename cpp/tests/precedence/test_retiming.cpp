@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "fleets.hpp"
 #include "precedence/retiming.hpp"
-#include "trips_of.hpp"
 
 namespace rightofway {
 namespace {
@@ -9,32 +9,32 @@ namespace {
 using Ticks = std::vector<Tick>;
 
 TEST_CASE("waits that nothing asks for are left out, and work is kept") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{1, 5}, {2}}, 2}}};
+    test::Fleet fleet{test::corridor(), {{0, {{1, 5}, {2}}, 2}}};
     Tracks tracks{{0, 3}, {0, 1, 2}, {0, 10, 20}};
-    retime(fleet.trips(), tracks);
+    retime(fleet.problem(), tracks);
     CHECK(tracks.enter == Ticks{0, 2, 9});
 }
 
 TEST_CASE("the order at each vertex is kept, with headway and booking ahead") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{2}}, 2}, {1, {{3}}}}, 1, true, false};
+    test::Fleet fleet{test::corridor(), {{0, {{2}}, 2}, {1, {{3}}}}, {1, true}};
     Tracks tracks{{0, 3, 6}, {0, 1, 2, 1, 2, 3}, {0, 20, 30, 0, 5, 9}};
-    retime(fleet.trips(), tracks);
+    retime(fleet.problem(), tracks);
     // Robot 1 leaves vertex 1 at 1; then headway 1, and two ticks to drive.
     CHECK(tracks.enter == Ticks{0, 4, 6, 0, 1, 2});
 }
 
 TEST_CASE("a rotation is brought forward as a whole") {
     const test::Roads ring{3, {{0, 1}, {1, 2}, {2, 0}}};
-    test::ClockedFleet fleet{ring, {{0, {{1}}}, {1, {{2}}, 4}, {2, {{0}}, 2}}};
+    test::Fleet fleet{ring, {{0, {{1}}}, {1, {{2}}, 4}, {2, {{0}}, 2}}};
     Tracks tracks{{0, 2, 4, 6}, {0, 1, 1, 2, 2, 0}, {0, 9, 0, 9, 0, 9}};
-    retime(fleet.trips(), tracks);
+    retime(fleet.problem(), tracks);
     CHECK(tracks.enter == Ticks{0, 4, 0, 4, 0, 4});
 }
 
 TEST_CASE("a robot that comes back to a vertex does not wait for itself") {
-    test::ClockedFleet fleet{test::corridor(), {{0, {{1}, {0}}}}};
+    test::Fleet fleet{test::corridor(), {{0, {{1}, {0}}}}};
     Tracks tracks{{0, 3}, {0, 1, 0}, {0, 3, 8}};
-    retime(fleet.trips(), tracks);
+    retime(fleet.problem(), tracks);
     CHECK(tracks.enter == Ticks{0, 1, 2});
 }
 

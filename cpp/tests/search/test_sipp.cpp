@@ -1,7 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <set>
+#include <span>
 #include <stdexcept>
+#include <tuple>
 
+#include "core/random.hpp"
 #include "corridors.hpp"
 #include "search/sipp.hpp"
 
@@ -23,8 +28,8 @@ struct Case {
     BookingTable table{4};
     BookingRules rules{0, false};
     VertexId home = 0;
-    Vertices stages;
-    Ticks work;
+    Vertices stages{};
+    Ticks work{};
     Ticks prices{};
     Tick limit = never;
 
@@ -55,6 +60,146 @@ struct Case {
         return end;
     }
 };
+
+struct Booked {
+    VertexId vertex;
+    Tick start;
+    Tick end;
+    RobotId robot;
+};
+
+// The least completion with prices, found by trying every tick: Dijkstra's algorithm over tick,
+// vertex, stages done, since when the robot is free to go, and bookings of the vertex it has paid.
+class EveryTick {
+  public:
+    EveryTick(const Case& one, std::span<const Booked> booked) : one_(one), booked_(booked) {}
+
+    Tick least_cost(Tick horizon) {
+        const std::uint32_t met = overlaps(one_.home, 0, 1 + one_.rules.headway);
+        add(price(met), {0, one_.home, 0, 0, met});
+        Tick best = never;
+        while (!open_.empty()) {
+            const auto [cost, state] = *open_.begin();
+            open_.erase(open_.begin());
+            if (known_.insert(state).second && std::get<0>(state) <= horizon) {
+                best = std::min(best, cost + to_completion(state));
+                expand(cost, state);
+            }
+        }
+        return best;
+    }
+
+  private:
+    using State = std::tuple<Tick, VertexId, std::size_t, Tick, std::uint32_t>;
+
+    std::uint32_t overlaps(VertexId vertex, Tick start, Tick end) const {
+        std::uint32_t found = 0;
+        for (std::size_t k = 0; k < booked_.size(); ++k) {
+            const Booked& b = booked_[k];
+            found |= b.vertex == vertex && b.start < end && start < b.end ? 1U << k : 0U;
+        }
+        return found;
+    }
+
+    Tick price(std::uint32_t bookings) const {
+        Tick sum = 0;
+        for (std::size_t k = 0; k < booked_.size(); ++k) {
+            sum += (bookings >> k & 1U) != 0 ? one_.prices[booked_[k].robot] : 0;
+        }
+        return sum;
+    }
+
+    // The prices of robots that leave the head for the tail at this very tick.
+    Tick swaps(VertexId tail, VertexId head, Tick tick) const {
+        std::set<RobotId> robots;
+        for (const Booked& out : booked_) {
+            for (const Booked& in : booked_) {
+                if (out.vertex == head && out.end == tick && in.vertex == tail &&
+                    in.start == tick && in.robot == out.robot) {
+                    robots.insert(in.robot);
+                }
+            }
+        }
+        Tick sum = 0;
+        for (const RobotId robot : robots) {
+            sum += one_.prices[robot];
+        }
+        return sum;
+    }
+
+    Tick to_completion(const State& state) const {
+        const auto& [tick, vertex, stage, busy_until, paid] = state;
+        Tick work = 0;
+        for (std::size_t k = stage; k < one_.stages.size(); ++k) {
+            if (one_.stages[k] != vertex) {
+                return never / 2;
+            }
+            work += one_.work[k];
+        }
+        return std::max(tick, busy_until) + work + price(overlaps(vertex, tick, never) & ~paid);
+    }
+
+    void expand(Tick cost, const State& state) {
+        const auto& [tick, vertex, stage, busy_until, paid] = state;
+        const auto& [headway, books_ahead, rotations] = one_.rules;
+        const std::uint32_t met = overlaps(vertex, tick, tick + 2 + headway);
+        add(cost + price(met & ~paid), {tick + 1, vertex, stage, busy_until, paid | met});
+        if (stage + 1 < one_.stages.size() && one_.stages[stage] == vertex) {
+            const Tick until = std::max(tick, busy_until) + one_.work[stage];
+            add(cost, {tick, vertex, stage + 1, until, paid});
+        }
+        if (tick < busy_until) {
+            return;
+        }
+        for (const VertexId head : one_.roads.graph().heads(vertex)) {
+            const Tick enter = tick + 1;
+            const std::uint32_t here = overlaps(vertex, tick, enter + headway) & ~paid;
+            const std::uint32_t there =
+                overlaps(head, enter - (books_ahead ? 1 : 0), enter + 1 + headway);
+            const bool may_swap = here == 0 && headway == 0 && !books_ahead;
+            const Tick paid_swaps = may_swap ? swaps(vertex, head, enter) : 0;
+            add(cost + price(here) + price(there) + paid_swaps, {enter, head, stage, 0, there});
+        }
+    }
+
+    void add(Tick cost, const State& state) {
+        if (!known_.contains(state)) {
+            open_.insert({cost, state});
+        }
+    }
+
+    const Case& one_;
+    std::span<const Booked> booked_;
+    std::set<std::pair<Tick, State>> open_;
+    std::set<State> known_;
+};
+
+TEST_CASE("with prices for overlaps, the search finds the cheapest track there is") {
+    Random random(0);
+    const auto at_most = [&](std::size_t most) {
+        return static_cast<Tick>(random.below(most + 1));
+    };
+    for (int round = 0; round < 400; ++round) {
+        const bool has_bay = random.below(2) == 0;
+        Case one{has_bay ? test::corridor_with_bay() : test::corridor()};
+        one.rules.books_ahead = random.below(2) == 0;
+        one.home = static_cast<VertexId>(random.below(4));
+        one.stages = {static_cast<VertexId>(random.below(4)), one.home};
+        one.work = {at_most(2), 0};
+        std::vector<Booked> booked;
+        for (RobotId robot = 0; robot < static_cast<RobotId>(1 + random.below(5)); ++robot) {
+            const Tick start = at_most(12);
+            booked.push_back(
+                {static_cast<VertexId>(random.below(4)), start, start + 1 + at_most(5), robot});
+            const Booked& last = booked.back();
+            one.table.insert(last.vertex, {last.start, last.end}, robot);
+            one.prices.push_back(at_most(9));
+        }
+        FoundTrack found;
+        REQUIRE(one.run(found) == SearchEnd::found);
+        CHECK(found.cost == EveryTick(one, booked).least_cost(40));
+    }
+}
 
 TEST_CASE("alone, a robot works at its stop and comes home") {
     FoundTrack found;

@@ -30,7 +30,7 @@ class VisitTimes(Sequence[int]):
     The robot waited before each visit in ``late``, until then for ``waited`` ticks in all.
     """
 
-    __slots__ = ("_begun", "_first", "_late", "_route", "_waited")
+    __slots__ = ("_begun", "_late", "_route", "_waited")
 
     def __init__(
         self, route: CyclicRoute, begun: int, late: NDArray[np.int32], waited: NDArray[np.int64]
@@ -39,7 +39,6 @@ class VisitTimes(Sequence[int]):
         self._begun = begun
         self._late = late
         self._waited = np.concatenate(([0], waited))
-        self._first = self.enters(range(0))
 
     def __len__(self) -> int:
         return self._begun
@@ -52,11 +51,7 @@ class VisitTimes(Sequence[int]):
         visits = range(self._begun)[index]
         if isinstance(visits, range):
             return tuple(self.enters(visits).tolist())
-        if visits == self._begun - 1:
-            return int(self.enters(range(visits, visits + 1))[0])
-        if visits >= len(self._first):  # single visits are read in order: compute more of them
-            self._first = self.enters(range(min(2 * visits + len(self._route), self._begun)))
-        return int(self._first[visits])
+        return int(self.enters(range(visits, visits + 1))[0])
 
     def __iter__(self) -> Iterator[int]:
         return iter(self.enters(range(self._begun)).tolist())

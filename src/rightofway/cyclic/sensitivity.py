@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Itinerary, Lap, Scenario, Stage
+from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
@@ -147,15 +147,10 @@ def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
     stages = itinerary.stages
     n = len(stages)  # the stages of one lap come first, and may be repeated
     n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
-    at: list[list[tuple[int, Stage]]] = [[] for _ in range(len(lap))]
-    number = 0
-    for visit in [*range(1, len(lap)), 0]:
-        spare = lap.dwell[visit]
-        while number < n and stages[number].vertex == lap.vertices[visit]:
-            needs = stages[number].work + stages[number].turn
-            if needs > spare:
-                break
-            spare -= needs
-            at[visit].append((number, stages[number]))
-            number += 1
+    order = [*range(1, len(lap)), 0]
+    vertices = np.array(lap.vertices, np.int32)[order]
+    spare = np.array(lap.dwell, np.int64)[order]
+    at: list[list[tuple[int, Stage]]] = [[] for _ in order]
+    for number, place in enumerate(serving_visits(stages[:n], vertices, spare)):
+        at[order[place]].append((number, stages[number]))
     return at

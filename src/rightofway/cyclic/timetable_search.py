@@ -118,9 +118,10 @@ def best_timetable(
             raise InputError.at(f"weights[{index}]", f"{weight} is not above 0")
     if not 0 <= least_fairness <= 1:
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
+    time_limit = checked_time_limit(time_limit)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
-    deadline, params = Deadline.after(checked_time_limit(time_limit)), ChoiceParams()
+    deadline, params = Deadline.after(time_limit), ChoiceParams()
     if n_robots > params.large:
         usual, others = clear_and_direct(scenario)
     else:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from math import ceil
+
+import numpy as np
 
 from rightofway.check import check
 from rightofway.cyclic.pattern import Pattern
@@ -60,19 +62,18 @@ def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     ends = [max(past[-1] for past in group.history) for group in result.groups if not group.pattern]
     if patterns:
         ends.append(max(pattern.transient + 2 * pattern.period for pattern in patterns))
-    until, n_laps, tracks = min(ends), {}, {}
-    for group in result.groups:
-        rows = zip(group.robots, group.context.names, group.laps_made(), strict=True)
-        for index, (robot, name, made) in enumerate(rows):
-            moves = _moves(group, index)
-            own = laps or max(_laps_until(group, index, until, None if moves else made), 1)
-            if not group.pattern and own > made:
-                raise GaveUp(f"{name} was not followed for {own} laps")
-            if group.pattern and not moves:
-                raise GaveUp(f"{name} waits for ever (choose another rule)")
-            n_laps[robot] = own
-            tracks[robot] = _track(group, index, own * len(group.context.routes[index]) + 1)
-    return _plan(result, n_laps, tracks, "whole laps")
+    until = min(ends)
+
+    def laps_and_visits(group: GroupResult, index: int, made: int) -> tuple[int, int]:
+        name, moves = group.context.names[index], _moves(group, index)
+        own = laps or max(_laps_until(group, index, until, None if moves else made), 1)
+        if not group.pattern and own > made:
+            raise GaveUp(f"{name} was not followed for {own} laps")
+        if group.pattern and not moves:
+            raise GaveUp(f"{name} waits for ever (choose another rule)")
+        return own, own * len(group.context.routes[index]) + 1
+
+    return _plan(result, "whole laps", laps_and_visits)
 
 
 def excerpt(
@@ -109,21 +110,18 @@ def excerpt(
         until = max(until, ceil(end))
         visits_per_tick += sum(map(Fraction, map(len, group.context.routes), means))
     until = min(until, int(most_visits / visits_per_tick))
-    n_laps, tracks = {}, {}
-    for group in result.groups:
-        rows = zip(group.robots, group.context.names, group.laps_made(), strict=True)
-        for index, (robot, name, made) in enumerate(rows):
-            if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):
-                n_visits = len(group.history[index])
-                n_laps[robot], tracks[robot] = made + 1, _track(group, index, n_visits)
-                continue
-            if not group.pattern and not made:
-                raise GaveUp(f"{name} was not followed for a whole lap (allow more time)")
-            most = None if group.pattern else made - 1
-            n_laps[robot] = _laps_until(group, index, until, most) + 1
-            n_visits = n_laps[robot] * len(group.context.routes[index]) + 1
-            tracks[robot] = _track(group, index, n_visits)
-    plan = _plan(result, n_laps, tracks, result.rule)
+
+    def laps_and_visits(group: GroupResult, index: int, made: int) -> tuple[int, int]:
+        if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):
+            return made + 1, len(group.history[index])
+        if not group.pattern and not made:
+            name = group.context.names[index]
+            raise GaveUp(f"{name} was not followed for a whole lap (allow more time)")
+        most = None if group.pattern else made - 1
+        own = _laps_until(group, index, until, most) + 1
+        return own, own * len(group.context.routes[index]) + 1
+
+    plan = _plan(result, result.rule, laps_and_visits)
     return plan, tuple(
         _steady_state(group, group.pattern, plan) for group in result.groups if group.pattern
     )
@@ -134,38 +132,41 @@ def _moves(group: GroupResult, index: int) -> bool:
     return group.pattern is not None and group.pattern.counts[index] > 0
 
 
-def _enter(group: GroupResult, index: int) -> Callable[[int], int]:
-    """Return the function from a robot's visits to their enters."""
-    pattern = group.pattern
-    if pattern is not None and pattern.counts[index]:
-        return lambda visit: pattern.enter(index, visit)
-    return group.history[index].__getitem__
-
-
 def _laps_until(group: GroupResult, index: int, until: int, most: int | None) -> int:
     """Return how many laps a robot completes by a tick, and at most."""
-    enter, length, laps = _enter(group, index), len(group.context.routes[index]), 0
-    while (most is None or laps < most) and enter((laps + 1) * length) <= until:
+    pattern, past = group.pattern, group.history[index]
+    length, laps = len(group.context.routes[index]), 0
+    while most is None or laps < most:
+        visit = (laps + 1) * length
+        if (pattern.enter(index, visit) if pattern and most is None else past[visit]) > until:
+            break
         laps += 1
     return laps
 
 
-def _track(group: GroupResult, index: int, n_visits: int) -> Track:
-    route, enter, visits = group.context.routes[index], _enter(group, index), range(n_visits)
-    return Track.of([route.vertex(visit) for visit in visits], [enter(visit) for visit in visits])
-
-
 def _plan(
-    result: CyclicResult, n_laps: Mapping[int, int], tracks: Mapping[int, Track], status: str
+    result: CyclicResult,
+    status: str,
+    laps_and_visits: Callable[[GroupResult, int, int], tuple[int, int]],
 ) -> Plan:
-    robots = tuple(
-        replace(robot, laps=n_laps[index]) for index, robot in enumerate(result.scenario.robots)
-    )
-    options = {"rule": result.rule, "routes": result.routes}
+    """Return a plan with some laps and visits of each robot, by group, index and laps made."""
+    robots, tracks = list(result.scenario.robots), dict[int, Track]()
+    for group in result.groups:
+        for index, (robot, made) in enumerate(zip(group.robots, group.laps_made(), strict=True)):
+            laps, n_visits = laps_and_visits(group, index, made)
+            robots[robot] = replace(robots[robot], laps=laps)
+            if group.pattern and _moves(group, index):
+                enter = group.pattern.enters(index, range(n_visits))
+            else:
+                enter = np.array(group.history[index][:n_visits], np.int64)
+            vertices = np.array(group.context.laps[index].vertices, np.int32)
+            tracks[robot] = Track(vertices=np.resize(vertices, n_visits), enter=enter)
     return Plan(
-        scenario=replace(result.scenario, robots=robots),
+        scenario=replace(result.scenario, robots=tuple(robots)),
         tracks=tuple(tracks[robot] for robot in range(len(robots))),
-        run=PlannerRun(name="laps", options=options, status=status),
+        run=PlannerRun(
+            name="laps", options={"rule": result.rule, "routes": result.routes}, status=status
+        ),
     )
 
 

@@ -234,7 +234,7 @@ def _another_way(
             return None
         try:
             steps = untimed_lacam(
-                _rest(rest, rest.roadmap, tried),
+                _rest(rest, rest.roadmap, tried).problem,
                 seed=seed,
                 time_limit=deadline.seconds_left(),
                 most_steps=MOST_STEPS,

@@ -3,7 +3,7 @@
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.lap import Lap, lap_of
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
-from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
+from rightofway.model.problem import Itinerary, Problem, ProblemArrays, Stage, least_dwell
 from rightofway.model.roadmap import (
     Edge,
     Grid,
@@ -42,6 +42,7 @@ __all__ = [
     "Plan",
     "PlannerRun",
     "Problem",
+    "ProblemArrays",
     "Reroute",
     "Roadmap",
     "Robot",

@@ -1,18 +1,23 @@
-"""What one robot has to do, in ticks: the stages of its trip and how fast it crosses edges."""
+"""A scenario in ticks: what each robot has to do, how fast it crosses edges, how it books."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import chain
+from functools import cached_property
+from itertools import accumulate, chain
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot
 from rightofway.model.rules import Rules
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
-__all__ = ["Itinerary", "Problem", "Stage", "least_dwell", "problem_of"]
+__all__ = ["Itinerary", "Problem", "ProblemArrays", "Stage", "least_dwell", "problem_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,23 +63,95 @@ class Itinerary:
         return self.stages[-1].vertex
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Problem:
-    """A scenario in ticks.
+class ProblemArrays(NamedTuple):
+    """The robots of a problem as kernels read them: R robots, S stages, P paces, C length classes.
+
+    Robots of one pace need the same ticks for every edge. All arrays are read-only.
 
     Attributes
     ----------
+    paces
+        Ticks for an edge of each length class, one row for each pace; int32, shape (P * C,).
+    pace_of
+        The pace of each robot; int32, shape (R,).
+    home
+        Where each robot is at tick 0; int32, shape (R,).
+    first_stage
+        Robot ``r`` owns stages ``first_stage[r]`` to ``first_stage[r + 1]`` (exclusive); int32,
+        shape (R + 1,).
+    stage_vertex
+        Where each stage is; int32, shape (S,).
+    stage_work, stage_turn
+        How long a robot works at each stage, and then turns; int64, shape (S,) [ticks].
+    """
+
+    paces: NDArray[np.int32]
+    pace_of: NDArray[np.int32]
+    home: NDArray[np.int32]
+    first_stage: NDArray[np.int32]
+    stage_vertex: NDArray[np.int32]
+    stage_work: NDArray[np.int64]
+    stage_turn: NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """A scenario in ticks, bound once; two problems are equal only if they are the same object.
+
+    Attributes
+    ----------
+    roadmap
+        The graph that robots drive on.
     clock
         How long a tick is.
     headway
         Least ticks between one robot leaving a vertex and the next entering it.
+    books_ahead
+        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rotations
+        Whether three or more robots may move round a circle at one instant, where bookings allow
+        it.
     itineraries
         One for each robot.
     """
 
+    roadmap: Roadmap
     clock: Clock
     headway: Tick
+    books_ahead: bool
+    rotations: bool
     itineraries: tuple[Itinerary, ...]
+
+    def with_headway(self, headway: Tick) -> Problem:
+        """Return the same problem with another headway [ticks]."""
+        return self if headway == self.headway else replace(self, headway=headway)
+
+    @cached_property
+    def arrays(self) -> ProblemArrays:
+        """The robots as kernels read them, made when first asked for.
+
+        Raises
+        ------
+        OverflowError
+            If the ticks for an edge do not fit int32.
+        """
+        robots = self.itineraries
+        number: dict[tuple[Tick, ...], int] = {}
+        pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
+        stages = [stage for robot in robots for stage in robot.stages]
+        stage_count = [len(robot.stages) for robot in robots]
+        arrays = ProblemArrays(
+            paces=np.array(list(chain.from_iterable(number)), np.int32),
+            pace_of=np.array(pace_of, np.int32),
+            home=np.array([robot.home for robot in robots], np.int32),
+            first_stage=np.array([0, *accumulate(stage_count)], np.int32),
+            stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
+            stage_work=np.array([stage.work for stage in stages], np.int64),
+            stage_turn=np.array([stage.turn for stage in stages], np.int64),
+        )
+        for array in arrays:
+            array.flags.writeable = False
+        return arrays
 
 
 def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
@@ -93,8 +170,11 @@ def problem_of(
         each = (_durations(roadmap, robot, rules) for robot in robots)
         clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
     return Problem(
+        roadmap=roadmap,
         clock=clock,
         headway=clock.ticks(rules.headway),
+        books_ahead=rules.books_ahead,
+        rotations=rules.rotations,
         itineraries=tuple(_itinerary(roadmap, robot, rules, clock) for robot in robots),
     )
 

@@ -15,7 +15,14 @@ from rightofway.planners.options import (
     TwoLevelOptions,
 )
 from rightofway.planners.registry import DEFAULT, IMPROVER, PlannerSpec, find, registered
-from rightofway.planners.task import Deadline, Draft, Planner, Task, planning_headway
+from rightofway.planners.task import (
+    Deadline,
+    Draft,
+    Planner,
+    Task,
+    planning_headway,
+    planning_problem,
+)
 
 __all__ = [
     "DEFAULT",
@@ -39,5 +46,6 @@ __all__ = [
     "TwoLevelOptions",
     "find",
     "planning_headway",
+    "planning_problem",
     "registered",
 ]

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Track, VertexId, route_through
 from rightofway.planners.routing import refuse_shared_ends, refuse_the_impossible
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Distances, plan_by_lacam, untimed_lacam
 
@@ -82,8 +82,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
     robots, share = len(scenario.robots), SHARE_OF_TIME
     try:
         tracks = plan_by_lacam(
-            scenario,
-            headway=planning_headway(scenario),
+            planning_problem(scenario),
             seed=task.seed,
             most_effort=max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices),
             time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
@@ -96,7 +95,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
         task.has_plan()
         return tracks, "instant by instant"
     task.report("no end by instants: planning the order of moves without clocks")
-    steps = untimed_lacam(scenario, seed=task.seed, time_limit=task.deadline.seconds_left())
+    steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=task.deadline.seconds_left())
     tracks = timetable_of(scenario, steps)
     task.has_plan()
     return tracks, "order of moves first"

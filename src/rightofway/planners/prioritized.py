@@ -22,7 +22,7 @@ import numpy as np
 from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
-from rightofway.planners.task import Deadline, Draft, Task, planning_headway
+from rightofway.planners.task import Deadline, Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 
 __all__ = ["MOST_ROBOTS", "ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
@@ -84,7 +84,7 @@ def fleet_search(task: Task) -> FleetSearch:
     """
     scenario = task.scenario
     refuse_shared_ends(scenario)
-    search = FleetSearch(scenario, headway=planning_headway(scenario), seed=task.seed)
+    search = FleetSearch(planning_problem(scenario), seed=task.seed)
     for robot in np.flatnonzero(search.alone() < 0).tolist():
         name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
         refuse_unreachable(name, itinerary, Distances(scenario.roadmap))
@@ -131,7 +131,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
         return None
     paced = _paced(task.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
-    search = FleetSearch(paced, headway=paced.problem.headway, seed=task.seed, threads=1)
+    search = FleetSearch(paced.problem, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):

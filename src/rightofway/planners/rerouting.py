@@ -9,7 +9,7 @@ from itertools import accumulate
 
 from rightofway.model import Tick, Track
 from rightofway.planners.routing import shortest_route
-from rightofway.planners.task import Task, planning_headway
+from rightofway.planners.task import Task, planning_problem
 from rightofway.search import Booking, Bookings, Distances, earliest_track
 
 __all__ = ["reroute"]
@@ -30,13 +30,9 @@ class _Reservations:
         self.distances = distances
         self.itineraries = scenario.problem.itineraries
         self.tracks = tracks
-        self.bookings = Bookings(
-            scenario.roadmap,
-            headway=planning_headway(scenario),
-            books_ahead=scenario.rules.books_ahead,
-        )
+        self.bookings = Bookings(planning_problem(scenario))
         for robot, track in tracks.items():
-            self.bookings.add(robot, track, self.itineraries[robot])
+            self.bookings.add(robot, track)
 
     def hold_home(self, robot: int) -> None:
         """Book the home of a robot without a track for a while, so that it can leave."""
@@ -50,14 +46,13 @@ class _Reservations:
     def place(self, robot: int) -> bool:
         """Give a robot its earliest track among the others, if there is one."""
         self.bookings.release(robot)
-        itinerary = self.itineraries[robot]
         left = self.task.deadline.seconds_left()
-        track = earliest_track(itinerary, self.bookings, self.distances, time_limit=left)
+        track = earliest_track(robot, self.bookings, self.distances, time_limit=left)
         if track is None:
             self.hold_home(robot)
             return False
         self.tracks[robot] = track
-        self.bookings.add(robot, track, itinerary)
+        self.bookings.add(robot, track)
         return True
 
     def evict(self, robots: Iterable[int]) -> list[int]:
@@ -74,7 +69,7 @@ class _Reservations:
         route = shortest_route(itinerary, self.distances)
         enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
         track = Track.of(route.vertices, list(enter))
-        return self.bookings.in_the_way(robot, track, itinerary)
+        return self.bookings.in_the_way(robot, track)
 
 
 def reroute(

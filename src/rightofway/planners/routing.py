@@ -64,7 +64,9 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """
     refuse_the_impossible(scenario, distances)
     itineraries = scenario.problem.itineraries
-    traffic = Congestion(distances, CongestionCosts.single_trip(distances, itineraries))
+    traffic = Congestion(
+        scenario.problem, distances, CongestionCosts.single_trip(distances, itineraries)
+    )
     return [_clear(scenario, traffic, robot) for robot in range(len(itineraries))]
 
 
@@ -84,7 +86,9 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
         One for each robot.
     """
     itineraries, found = scenario.problem.itineraries, list(routes)
-    traffic = Congestion(distances, CongestionCosts.per_lap(distances, itineraries))
+    traffic = Congestion(
+        scenario.problem, distances, CongestionCosts.per_lap(distances, itineraries)
+    )
     detours = []
     for robot, (itinerary, route) in enumerate(zip(itineraries, routes, strict=True)):
         trips = _trips(itinerary)
@@ -102,7 +106,7 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
     """Return a robot's route through the traffic, and add the route to the traffic."""
     itinerary = scenario.problem.itineraries[robot]
     trips = _trips(itinerary)
-    legs = [traffic.path(place, stage, itinerary.edge_ticks) for place, stage in trips]
+    legs = [traffic.path(robot, place, stage) for place, stage in trips]
     for leg in legs:
         traffic.add(robot, leg)
     return route_along(scenario.roadmap, itinerary, legs)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Reroute, Scenario, Tick, Track
+from rightofway.model import Decision, Problem, Reroute, Scenario, Tick, Track
 
-__all__ = ["Deadline", "Draft", "Planner", "Task", "planning_headway"]
+__all__ = ["Deadline", "Draft", "Planner", "Task", "planning_headway", "planning_problem"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,3 +131,8 @@ def planning_headway(scenario: Scenario) -> Tick:
     instant at which it is left cannot be part of a rotation.
     """
     return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))
+
+
+def planning_problem(scenario: Scenario) -> Problem:
+    """Return the problem with the headway to plan with."""
+    return scenario.problem.with_headway(planning_headway(scenario))

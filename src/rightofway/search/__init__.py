@@ -5,7 +5,7 @@ from rightofway.search.congestion import Congestion, CongestionCosts
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, alone_completions
 from rightofway.search.lacam import plan_by_lacam
-from rightofway.search.native import compiler
+from rightofway.search.native import bound, compiler
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip
 from rightofway.search.sipp import earliest_track
 from rightofway.search.untimed_lacam import untimed_lacam
@@ -21,6 +21,7 @@ __all__ = [
     "PeriodicBookings",
     "RoundTrip",
     "alone_completions",
+    "bound",
     "compiler",
     "earliest_track",
     "plan_by_lacam",

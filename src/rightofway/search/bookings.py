@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from rightofway import _core
-from rightofway.model import NEVER, Itinerary, Roadmap, Tick, Track, edge_ticks
+from rightofway.model import NEVER, Problem, Tick, Track, edge_ticks
 
 __all__ = ["Booking", "Bookings"]
 
@@ -25,28 +25,22 @@ class Bookings:
 
     Parameters
     ----------
-    roadmap
-        The graph that robots drive on.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    problem
+        The roads, the robots and the booking rules.
     """
 
-    def __init__(self, roadmap: Roadmap, *, headway: Tick, books_ahead: bool) -> None:
-        self.roadmap = roadmap
-        self.headway = headway
-        self.books_ahead = books_ahead
-        self.table = _core.BookingTable(roadmap.n_vertices)
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.table = _core.BookingTable(problem.roadmap.n_vertices)
         self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
 
     def at(self, vertex: int) -> list[Booking]:
         """Return the bookings of a vertex in order of time."""
         return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(vertex)]
 
-    def add(self, robot: int, track: Track, itinerary: Itinerary) -> None:
+    def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
-        for vertex, booking in self.of_track(robot, track, itinerary):
+        for vertex, booking in self.of_track(robot, track):
             self.book(vertex, booking)
 
     def book(self, vertex: int, booking: Booking) -> None:
@@ -59,27 +53,27 @@ class Bookings:
         for vertex, start in self._of.pop(robot, ()):
             self.table.erase(vertex, start, robot)
 
-    def of_track(
-        self, robot: int, track: Track, itinerary: Itinerary
-    ) -> Iterator[tuple[int, Booking]]:
+    def of_track(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
         """Yield what a track would book, visit by visit."""
         vertices, enter = track.vertices.tolist(), track.enter.tolist()
         for visit, vertex in enumerate(vertices):
             last = visit == len(vertices) - 1
-            end = NEVER if last else Tick(enter[visit + 1] + self.headway)
-            approach = self._approach(vertices, visit, itinerary)
+            end = NEVER if last else Tick(enter[visit + 1] + self.problem.headway)
+            approach = self._approach(robot, vertices, visit)
             yield vertex, Booking(Tick(enter[visit] - approach), end, robot)
 
-    def _approach(self, vertices: list[int], visit: int, itinerary: Itinerary) -> Tick:
-        if visit == 0 or not self.books_ahead:
+    def _approach(self, robot: int, vertices: list[int], visit: int) -> Tick:
+        problem = self.problem
+        if visit == 0 or not problem.books_ahead:
             return Tick(0)
-        return edge_ticks(self.roadmap, itinerary, vertices[visit - 1], vertices[visit])
+        tail, head = vertices[visit - 1 : visit + 1]
+        return edge_ticks(problem.roadmap, problem.itineraries[robot], tail, head)
 
-    def in_the_way(self, robot: int, track: Track, itinerary: Itinerary) -> set[int]:
+    def in_the_way(self, robot: int, track: Track) -> set[int]:
         """Return the other robots whose bookings a track would overlap."""
         return {
             other.robot
-            for vertex, own in self.of_track(robot, track, itinerary)
+            for vertex, own in self.of_track(robot, track)
             for other in self.at(vertex)
             if other.robot != robot and other.start < own.end and own.start < other.end
         }

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Itinerary, Tick, VertexId
+from rightofway.model import Itinerary, Problem, VertexId
 from rightofway.search.distances import Distances, Path
+from rightofway.search.native import bound
 
 __all__ = ["Congestion", "CongestionCosts"]
 
@@ -89,31 +90,28 @@ class Congestion:
 
     Parameters
     ----------
+    problem
+        The roads, and how fast robots drive.
     distances
         Tables of the roadmap; they guide the search.
     surcharges
         What it costs to have to do with others.
     """
 
-    def __init__(self, distances: Distances, surcharges: CongestionCosts) -> None:
+    def __init__(self, problem: Problem, distances: Distances, surcharges: CongestionCosts) -> None:
+        self.problem = problem
         self.distances = distances
         self._oncoming = surcharges.oncoming
-        self._kernel = _core.Congestion(
-            distances.roadmap.indptr,
-            distances.roadmap.heads,
-            surcharges.shares,
-            surcharges.station,
-        )
+        self._kernel = _core.Congestion(bound(problem), surcharges.shares, surcharges.station)
 
-    def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
+    def path(self, robot: int, start: VertexId, target: VertexId) -> Path:
         """Return a cheapest path; the target can be reached.
 
         Of several, it takes the one that leaves each vertex by the first edge; where nobody is in
         the way that is the path of `Distances`.
         """
-        to_go = self.distances.to(target, edge_ticks)
-        ticks = self.distances.ticks_of_edges(edge_ticks)
-        found = self._kernel.path(start, target, ticks, to_go)
+        to_go = self.distances.to(target, self.problem.itineraries[robot].edge_ticks)
+        found = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())
 
     def add(self, robot: int, path: Path) -> None:

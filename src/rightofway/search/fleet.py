@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from itertools import accumulate, chain, pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Scenario, Tick, Track
+from rightofway.model import Problem, Scenario, Tick, Track
+from rightofway.search.native import bound
 
 __all__ = ["FleetSearch", "alone_completions"]
 
 
 def alone_completions(scenario: Scenario) -> NDArray[np.int64]:
     """Return each robot's least completion without the others [ticks], -1 for no way; (R,)."""
-    return FleetSearch(scenario, headway=Tick(0)).alone()
+    return FleetSearch(scenario.problem).alone()
 
 
 class FleetSearch:
@@ -25,41 +26,16 @@ class FleetSearch:
 
     Parameters
     ----------
-    scenario
-        The problem.
-    headway
-        Headway to plan with [ticks].
+    problem
+        What the fleet has to do.
     seed
         For all that is drawn.
     threads
         How many threads improve the plan; the plan does not depend on it. None: all cores.
     """
 
-    def __init__(
-        self, scenario: Scenario, *, headway: Tick, seed: int = 0, threads: int | None = None
-    ) -> None:
-        roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
-        paces = list(dict.fromkeys(itinerary.edge_ticks for itinerary in itineraries))
-        number = {pace: index for index, pace in enumerate(paces)}
-        stages = [itinerary.stages for itinerary in itineraries]
-        every_stage = list(chain.from_iterable(stages))
-        self._core = _core.FleetSearch(
-            roadmap.indptr,
-            roadmap.heads,
-            roadmap.length_class,
-            np.array(list(chain.from_iterable(paces)), np.int32),
-            np.array([number[itinerary.edge_ticks] for itinerary in itineraries], np.int32),
-            np.array([itinerary.home for itinerary in itineraries], np.int32),
-            np.array([0, *accumulate(map(len, stages))], np.int32),
-            np.array([stage.vertex for stage in every_stage], np.int32),
-            np.array([stage.work for stage in every_stage], np.int64),
-            np.array([stage.turn for stage in every_stage], np.int64),
-            n_classes=len(roadmap.lengths),
-            headway=int(headway),
-            books_ahead=scenario.rules.books_ahead,
-            seed=seed,
-            n_threads=threads or _cores(),
-        )
+    def __init__(self, problem: Problem, *, seed: int = 0, threads: int | None = None) -> None:
+        self._core = _core.FleetSearch(bound(problem), seed=seed, n_threads=threads or _cores())
 
     def alone(self) -> NDArray[np.int64]:
         """Return each robot's least completion without the others [ticks], -1 for no way."""

@@ -7,24 +7,20 @@ Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environment
 
 from __future__ import annotations
 
-import numpy as np
-
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Track
+from rightofway.model import Track
 from rightofway.search.bookings import Bookings
 from rightofway.search.distances import Distances
+from rightofway.search.native import bound
 
 __all__ = ["earliest_track"]
 
 STOPPED = 2
 
-NO_PRICES = np.zeros(0, np.int64)
-"""No prices: bookings of others are never overlapped."""
-
 
 def earliest_track(
-    itinerary: Itinerary,
+    robot: int,
     bookings: Bookings,
     distances: Distances,
     *,
@@ -34,8 +30,8 @@ def earliest_track(
 
     Parameters
     ----------
-    itinerary
-        What the robot has to do; every stage can be reached.
+    robot
+        Which robot; it can reach every stage.
     bookings
         What the other robots have booked.
     distances
@@ -57,22 +53,10 @@ def earliest_track(
     -----
     Complete and optimal for one robot among fixed bookings, and deterministic.
     """
-    stages, ticks = itinerary.stages, itinerary.edge_ticks
-    end, vertices, enter, _ = _core.earliest_track(
-        distances.roadmap.indptr,
-        distances.roadmap.heads,
-        distances.roadmap.length_class,
-        np.array(ticks, np.int32),
-        bookings.table,
-        int(bookings.headway),
-        bookings.books_ahead,
-        int(itinerary.home),
-        np.array([stage.vertex for stage in stages], np.int32),
-        np.array([stage.work for stage in stages], np.int64),
-        np.array([stage.turn for stage in stages], np.int64),
-        [distances.to(stage.vertex, ticks) for stage in stages],
-        NO_PRICES,
-        time_limit,
+    problem, itinerary = bookings.problem, bookings.problem.itineraries[robot]
+    tables = [distances.to(stage.vertex, itinerary.edge_ticks) for stage in itinerary.stages]
+    end, vertices, enter = _core.earliest_track(
+        bound(problem), robot, bookings.table, tables, time_limit
     )
     if end == STOPPED:
         raise GaveUp("time ran out in the search for one robot (give a longer time limit)")

@@ -8,14 +8,14 @@ Okumura, *LaCAM: Search-based algorithm for quick multi-agent pathfinding*, AAAI
 from __future__ import annotations
 
 from collections.abc import Collection
-from itertools import accumulate, chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario
+from rightofway.model import Problem
+from rightofway.search.native import bound
 
 __all__ = ["untimed_lacam"]
 
@@ -23,7 +23,7 @@ FOUND, PROVEN_NONE = 0, 1
 
 
 def untimed_lacam(
-    scenario: Scenario,
+    problem: Problem,
     *,
     seed: int = 0,
     time_limit: float | None = None,
@@ -38,8 +38,8 @@ def untimed_lacam(
 
     Parameters
     ----------
-    scenario
-        The problem.
+    problem
+        What the fleet has to do.
     seed
         For ties.
     time_limit
@@ -65,28 +65,11 @@ def untimed_lacam(
     -----
     Complete; deterministic for a seed; not optimal.
     """
-    itineraries = scenario.problem.itineraries
-    stages = [itinerary.stages for itinerary in itineraries]
-    end, steps = _core.untimed_lacam(
-        scenario.roadmap.indptr,
-        scenario.roadmap.heads,
-        np.array([itinerary.home for itinerary in itineraries], np.int32),
-        np.array([0, *accumulate(map(len, stages))], np.int32),
-        np.array([stage.vertex for stage in chain.from_iterable(stages)], np.int32),
-        np.array([robot in ends_anywhere for robot in range(len(stages))], np.uint8),
-        _may_rotate(scenario),
-        seed,
-        time_limit,
-        most_steps,
-    )
+    robots = range(len(problem.itineraries))
+    anywhere = np.array([robot in ends_anywhere for robot in robots], np.uint8)
+    end, steps = _core.untimed_lacam(bound(problem), anywhere, seed, most_steps, time_limit)
     if end == PROVEN_NONE:
         raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")
     if end != FOUND:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     return steps
-
-
-def _may_rotate(scenario: Scenario) -> bool:
-    """Tell whether robots may all move round a circle, each booking what another leaves then."""
-    rules = scenario.rules
-    return rules.rotations and not rules.books_ahead and rules.headway == 0

@@ -1,19 +1,21 @@
-"""One instant of a fleet with clocks: who goes where, told as plainly as it can be.
+"""A plan for a fleet with clocks, instant by instant: PIBT and LaCAM, as plainly as they can be.
 
 Robots choose one after another. Each looks at its neighbours and its own place, the one from where
 it would be at its target soonest first, and takes the first that nobody else takes and whose robot,
-if one is there and free, finds another place.
+if one is there and free, finds another place. Where that fails, or leads to a known state, a search
+tells one robot more where to go.
 """
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from rightofway.model import Scenario
 from tests.oracles.distances import Edge, distances_to
 
-__all__ = ["Fleet", "Move"]
+__all__ = ["Fleet", "tracks_by_lacam"]
 
 UNREACHABLE = 1 << 24
 Move = tuple[int, int, int]
@@ -42,6 +44,7 @@ class Robot:
     to: int
     busy_until: int | None = None
     stage: int = 0
+    since: int = 0
 
 
 @dataclass
@@ -73,12 +76,13 @@ class Fleet:
         self.next: dict[int, int] = {}
         for robot in range(len(self.robots)):
             self._begin_stage(robot)
+        self.first_way = [self.way(r, robot.at) for r, robot in enumerate(self.robots)]
 
     # What is the case
 
     def undecided(self) -> set[int]:
         """Return who is neither busy nor at the end of its trip."""
-        return {r for r in range(len(self.robots)) if not self.busy(r) and not self._is_done(r)}
+        return {r for r in range(len(self.robots)) if not self.busy(r) and not self.has_arrived(r)}
 
     def busy(self, robot: int) -> bool:
         return self.robots[robot].busy_until is not None
@@ -100,7 +104,7 @@ class Fleet:
     def gap(self, robot: int) -> int:
         return self.headway + (self.drive(robot) if self.scenario.rules.books_ahead else 0)
 
-    def _is_done(self, robot: int) -> bool:
+    def has_arrived(self, robot: int) -> bool:
         is_last = self.robots[robot].stage == len(self.trips[robot].stages) - 1
         return is_last and self.robots[robot].at == self.target(robot)
 
@@ -109,6 +113,8 @@ class Fleet:
     def go_on(self, moves: Sequence[Move]) -> bool:
         """Take moves, and go on to when a robot finishes something; False if nobody is busy."""
         for r, vertex, arrival in moves:
+            if self.has_arrived(r):
+                self.robots[r].since = self.now
             self.robots[r].to, self.robots[r].busy_until = vertex, arrival
         busy = [robot.busy_until for robot in self.robots if robot.busy_until is not None]
         if not busy:
@@ -120,6 +126,7 @@ class Fleet:
             robot.busy_until = None
             if robot.at == robot.to:
                 robot.stage += 1
+                robot.since = self.now
             else:
                 self.left[robot.at] = self.now
         for r in finished:
@@ -135,6 +142,7 @@ class Fleet:
                 state.busy_until = self.now + stage.work + stage.turn
                 return
             state.stage += 1
+            state.since = self.now
 
     # The choice
 
@@ -311,3 +319,86 @@ class Fleet:
             until = self.robots[ahead].busy_until
             left = self._arrival(ahead) if until is None else until
         return max(self.now + self.drive(robot), left + self.gap(robot))
+
+    # The search
+
+    def by_urgency(self) -> list[int]:
+        """Return the undecided, the longest on its way first, then the longer first way."""
+        urgency = {r: self.drive(r) * (self.now - self.robots[r].since) for r in self.undecided()}
+        return sorted(urgency, key=lambda r: (-urgency[r], -self.first_way[r], r))
+
+    def is_goal(self) -> bool:
+        return all(map(self.has_arrived, range(len(self.robots))))
+
+    def state(self) -> tuple[object, ...]:
+        """Return what tells states apart: all but the clock, and who was where before."""
+        return tuple(
+            (r.at, r.to, r.stage, None if r.busy_until is None else r.busy_until - self.now)
+            for r in self.robots
+        )
+
+
+@dataclass
+class _Constraint:
+    """Where some robots have to go: one, and those of the parent."""
+
+    fixed: tuple[tuple[int, int], ...] = ()
+
+
+@dataclass
+class _Node:
+    fleet: Fleet
+    moves: list[list[Move]]
+    constraints: list[_Constraint] = field(default_factory=lambda: [_Constraint()])
+    order: list[int] | None = None
+    n_asked: int = 0
+
+    def next_constraint(self) -> _Constraint | None:
+        """Return where robots have to go next; the constraint before has its successors first."""
+        if self.n_asked > 0:
+            self._branch(self.constraints[self.n_asked - 1])
+        if self.n_asked == len(self.constraints):
+            return None
+        self.n_asked += 1
+        return self.constraints[self.n_asked - 1]
+
+    def _branch(self, constraint: _Constraint) -> None:
+        if self.order is None:
+            fleet, urgent = self.fleet, self.fleet.by_urgency()
+            free = [r for r in range(len(fleet.robots)) if not fleet.busy(r)]
+            self.order = [*urgent, *(r for r in free if fleet.has_arrived(r))]
+        if len(constraint.fixed) < len(self.order):
+            robot = self.order[len(constraint.fixed)]
+            here = self.fleet.robots[robot].at
+            for place in [*self.fleet.heads[here], here]:
+                self.constraints.append(_Constraint(((robot, place), *constraint.fixed)))
+
+
+def tracks_by_lacam(fleet: Fleet, most_expanded: int) -> list[tuple[list[int], list[int]]] | None:
+    """Return where each robot is, when; None if there is no plan after so many expansions."""
+    known = {fleet.state(): _Node(fleet, [])}
+    stack = [*known.values()]
+    for _ in range(most_expanded):
+        if not stack:
+            return None
+        node = stack[-1]
+        if node.fleet.is_goal():
+            return _tracks(fleet, node.moves)
+        constraint = node.next_constraint()
+        if constraint is None:
+            stack.pop()
+            continue
+        moves = node.fleet.choose(node.fleet.by_urgency(), constraint.fixed)
+        after = copy.copy(node.fleet)
+        after.robots, after.left = copy.deepcopy(after.robots), dict(after.left)
+        if moves is not None and after.go_on(moves):
+            stack.append(known.setdefault(after.state(), _Node(after, [*node.moves, moves])))
+    return None
+
+
+def _tracks(fleet: Fleet, moves: list[list[Move]]) -> list[tuple[list[int], list[int]]]:
+    tracks: list[tuple[list[int], list[int]]] = [([trip.home], [0]) for trip in fleet.trips]
+    for robot, vertex, arrival in (move for some in moves for move in some):
+        tracks[robot][0].append(vertex)
+        tracks[robot][1].append(arrival)
+    return tracks

@@ -1,0 +1,76 @@
+#include "problem/problem.hpp"
+
+#include "bindings.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto class_doc = R"(A scenario in ticks: roads, robots and booking rules.
+
+Immutable; every kernel is given one. The arrays are not copied: they must not change.
+
+Parameters
+----------
+indptr, heads : int32[V + 1], int32[E]
+    The directed graph in compressed rows: the edges that leave vertex ``v`` are
+    ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at ``heads[e]``.
+length_class : int32[E]
+    The length class of each edge.
+paces : int32[P * C]
+    Ticks for an edge of each of the C length classes, one row for each pace.
+pace_of : int32[R]
+    The pace of each robot.
+home : int32[R]
+    Where each robot is at tick 0.
+first_stage : int32[R + 1]
+    Robot ``r`` owns stages ``first_stage[r] .. first_stage[r + 1] - 1``, at least one; it stays at
+    the last one.
+stage_vertex, stage_work, stage_turn : int32[S], int64[S], int64[S]
+    Where each stage is, and how long it takes to work and then to turn. [ticks]
+n_classes : int
+    C.
+headway : int
+    How long a vertex stays booked after it was left. [ticks]
+books_ahead : bool
+    Whether a vertex is booked from when a robot starts to drive there.
+rotations : bool
+    Whether three or more robots may move round a circle at one instant, where bookings allow it.
+
+Raises
+------
+ValueError
+    If the arrays do not fit together; names the array, the index and the value.)";
+
+using Ints = ArrayIn<std::int32_t>;
+using Ticks = ArrayIn<Tick>;
+
+void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& length_class,
+          const Ints& paces, const Ints& pace_of, const Ints& home, const Ints& first_stage,
+          const Ints& stage_vertex, const Ticks& stage_work, const Ticks& stage_turn,
+          std::int32_t n_classes, Tick headway, bool books_ahead, bool rotations) {
+    const ProblemArrays arrays{view(indptr),      view(heads),        view(length_class),
+                               view(paces),       view(pace_of),      view(home),
+                               view(first_stage), view(stage_vertex), view(stage_work),
+                               view(stage_turn),  n_classes};
+    new (self) Problem(arrays, {headway, books_ahead, rotations});
+}
+
+}  // namespace
+
+void bind_problem(nb::module_& module) {
+    nb::class_<Problem>(module, "Problem", class_doc)
+        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("heads").noconvert(),
+             nb::arg("length_class").noconvert(), nb::arg("paces").noconvert(),
+             nb::arg("pace_of").noconvert(), nb::arg("home").noconvert(),
+             nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
+             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
+             nb::arg("n_classes"), nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
+             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
+             nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(),
+             nb::keep_alive<1, 11>())
+        .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
+        .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.");
+}
+
+}  // namespace rightofway::bind
