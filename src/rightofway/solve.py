@@ -118,8 +118,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report, keep_best, seconds_per_visit,
-    named
+    time_limit, seed, options, report, keep_best, seconds_per_visit, named
         As for `solve`.
 
     Returns
