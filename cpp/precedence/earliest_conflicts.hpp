@@ -1,9 +1,9 @@
-// The earliest conflict of the whole fleet, without looking at the whole fleet each time.
+// The earliest conflict of the fleet, kept up to date.
 //
-// Each robot's earliest conflict is remembered, the earliest of all on top of a heap. When a
-// robot's times change, its memory is void; when only the partner of a remembered conflict changes,
-// that memory is looked at again should it come out on top. New conflicts need no more care than
-// that: at least one robot of a new conflict has changed, and finds it.
+// A heap holds the earliest conflict known of each robot. When a robot's times change, its entry is
+// void and looked up again; when only the partner of a conflict changes, the entry is looked up
+// again once it reaches the top. A new conflict needs no more: one of its robots has changed, and
+// finds it.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ class EarliestConflicts {
     // All three are borrowed and must outlive this.
     EarliestConflicts(const Routes& routes, const Timetable& timetable, const ConflictIndex& index);
 
-    // Must be told of every robot whose times have changed.
+    // The caller reports every robot whose times have changed.
     void forget(RobotId robot);
 
     std::optional<Conflict> next();
 
-    // Asked seldom, so nothing of it is remembered.
+    // Rarely called, so its answers are not kept.
     std::optional<Conflict> between(RobotId robot, RobotId other) const;
 
   private:
@@ -47,7 +47,7 @@ class EarliestConflicts {
     const Routes& routes_;
     const Timetable& timetable_;
     const ConflictIndex& index_;
-    std::vector<Known> known_;             // a heap; what was known before is still in it
+    std::vector<Known> known_;             // a heap; void entries are still in it
     std::vector<std::int64_t> looked_up_;  // when each robot was last
     std::vector<std::int64_t> changed_;    // when the robot's times last did
     std::vector<RobotId> to_look_up_;

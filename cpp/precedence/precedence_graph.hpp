@@ -1,9 +1,8 @@
 // Routes, the right of way between them, the timetable that follows, and the conflicts still left.
 //
-// This is the object that planners work on: they read the next conflict, give one of its visits
-// the right of way over the other, look at what that does to times and conflicts, and take it back
-// if another choice is better. Every answer is kept up to date from what has changed, and undone at
-// the same cost.
+// Planners work on this object: they read the next conflict, give one of its visits the right of
+// way over the other, compare times and conflicts, and take it back if another choice is better.
+// Every answer is kept up to date incrementally, and undone at the same cost.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +40,7 @@ class PrecedenceGraph {
     // The rights of way that a robot has, or that others have over it.
     std::vector<RightOfWay> rights_of(RobotId robot) const;
 
-    // The rights of way that a robot's completion is due to, the latest first; see Timetable.
+    // The rights of way on a longest path to a robot's last visit, the latest first.
     std::vector<RightOfWay> critical_rights(RobotId robot) const;
 
     // The weight of the conflicts left: of all, or of one robot's with those whose mask is not 0.
@@ -70,8 +69,8 @@ class PrecedenceGraph {
     std::int64_t checkpoint() const { return static_cast<std::int64_t>(timetable_.n_changes()); }
     void rollback(std::int64_t mark);
 
-    // Sets a robot aside: it meets nobody any more, its rights of way and those over it are taken
-    // back. That stays so: a rollback below this is refused.
+    // Makes a robot inactive: it has no conflicts, its rights of way and those over it are taken
+    // back. A rollback below this is refused.
     void withdraw(RobotId robot);
 
   private:

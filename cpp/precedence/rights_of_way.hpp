@@ -1,7 +1,7 @@
-// Who goes before whom: the rights of way given so far, found from either of their two visits.
+// The rights of way given so far, found from either of their two visits.
 //
-// A right of way keeps its number for as long as it lives, also while it is taken back for a trial:
-// numbers are in the order of giving, and what was given last can be forgotten first.
+// A right of way keeps its number until it is forgotten, also while it is taken back for a trial.
+// Numbers are in the order of giving; the one given last is forgotten first.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ class RightsOfWay {
     void take_back(std::int32_t right) { unlink(right); }
     void restore(std::int32_t right) { link(right); }
 
-    // Those that hold, in the order they were given.
+    // The rights of way that hold, in the order of giving.
     std::vector<RightOfWay> list() const;
 
     // Calls use(visit) for each visit that goes after this one at its vertex, or before it.

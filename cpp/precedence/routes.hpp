@@ -1,8 +1,7 @@
 // Where each robot goes: one fixed list of visits per robot, one after the other in flat arrays.
 //
-// Routes never change once they are made. What does change, the right of way and the times, is
-// kept elsewhere and refers to visits by their position here. All input is checked here, so that
-// whatever is built on routes can rely on them.
+// Routes never change. Rights of way and times, which do, are kept elsewhere and refer to visits by
+// their position here. All input is checked here.
 #pragma once
 
 #include <cstdint>

@@ -75,7 +75,7 @@ class PolicyIteration {
     }
 
   private:
-    // What an arc is worth when a period takes as long as the best circuit's mean.
+    // The value of an arc when the period is the ratio of the best circuit.
     Tick worth(Tick length, std::int32_t height) const {
         return length * best_.height - best_.length * height;
     }
@@ -84,8 +84,8 @@ class PolicyIteration {
                      arcs_.height[static_cast<std::size_t>(arc)]);
     }
 
-    // Every node takes a better arc if it has one. From the last node to the first: a robot's own
-    // visits follow each other, so a change goes far in one sweep.
+    // Every node takes a better arc if it has one. From the last node to the first: a robot's
+    // visits follow each other, so one sweep carries a change far.
     bool improve() {
         bool is_changed = false;
         for (std::int32_t node = arcs_.n_nodes; node-- > 0;) {
@@ -108,7 +108,7 @@ class PolicyIteration {
         return arc == none ? none : arcs_.head[static_cast<std::size_t>(arc)];
     }
 
-    // Walks along the policy from every node; a node met twice on one walk is on a circuit.
+    // Walks along the policy from every node; a node reached twice on one walk is on a circuit.
     bool find_longer_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
         bool is_found = false;
@@ -154,8 +154,8 @@ class PolicyIteration {
         return true;
     }
 
-    // All that has a way to the best circuit follows it there: along its own policy if that leads
-    // there, else by the fewest arcs. The rest follows nothing, until that is worth more.
+    // Every node with a path to the best circuit follows it there: along its own policy if that
+    // leads there, else by the fewest arcs. The other nodes follow nothing.
     void hang_on_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
         order_.assign(1, arcs_.head[static_cast<std::size_t>(best_.arcs.back())]);
@@ -188,7 +188,7 @@ class PolicyIteration {
         }
     }
 
-    // The policy's values, from the nodes that others follow on.
+    // The values of the policy, from the followed nodes to the following ones.
     void value_policy() {
         std::fill(seen_.begin(), seen_.end(), 0);
         for (const std::int32_t arc : best_.arcs) {
@@ -219,7 +219,7 @@ class PolicyIteration {
     Rows entering_;
     CriticalCircuit best_;
     std::vector<Tick> value_;            // of each node, in parts of a tick: 1 / best_.height
-    std::vector<std::int32_t> follows_;  // the arc that matters most to it
+    std::vector<std::int32_t> follows_;  // the arc of its policy
     std::vector<std::int32_t> seen_;
     std::vector<std::int32_t> order_;
 };

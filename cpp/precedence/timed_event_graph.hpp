@@ -1,15 +1,17 @@
-// Work that repeats: events that come again every period, and what each has to wait for.
+// Timed event graphs: events that repeat, and the cycle time of a fleet.
 //
-// A node is an event of one period. An arc from u to v of a length and a height says that v, so
-// many periods later as the height, comes no earlier than the length after u. Whoever waits for
-// nothing but that comes again, in the long run, every *cycle time*: the largest ratio of length to
-// height of any circuit. A circuit that reaches it is *critical*: the bottleneck.
+// F. Baccelli, G. Cohen, G. J. Olsder and J.-P. Quadrat, Synchronization and Linearity, 1992.
 //
-// The circuit is found by policy iteration: each node follows the arc that matters most to it. A
-// circuit of such arcs that is longer than the cycle time known so far raises it; then all is
-// valued anew. Ratios are fractions of integers, and values are whole numbers of their denominator,
-// so the answer is exact. A node changes its arc for a strictly better one only; that is why no
-// circuit of length and height zero (a rotation of robots) is ever walked into.
+// A node is an event of one period. An arc from u to v with a length and a height (its tokens) says
+// that v takes place, `height` periods later, no earlier than `length` ticks after u. If events
+// wait for nothing else, each repeats on average after the *cycle time*: the largest ratio of
+// length to height over all circuits. A circuit with that ratio is *critical*: the bottleneck.
+//
+// The circuit is found by policy iteration: each node follows its best arc. A circuit of such arcs
+// with a larger ratio than the best known one replaces it, and the values of all nodes are computed
+// again. Ratios are fractions of integers, and values are whole multiples of 1 / denominator, so
+// the answer is exact. A node changes its arc only for a strictly better one, so no circuit of
+// length and height zero (a rotation of robots) is ever followed.
 //
 // Cochet-Terrasson, Cohen, Gaubert, Mc Gettrick & Quadrat, "Numerical computation of spectral
 // elements in max-plus algebra", IFAC Conference on System Structure and Control, 1998.

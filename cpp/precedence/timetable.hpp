@@ -6,8 +6,9 @@
 //
 // A new arc raises visits (raise_search.hpp); times change only when the arc is accepted.
 //
-// When an arc is taken back, the visits that it held fall to what else holds them, in the order of
-// their old times: no arc leads back in time, so whatever holds a visit has fallen before.
+// When an arc is taken back, the visits that it held fall to the times that their other arcs allow,
+// in the order of their old times: no arc leads back in time, so the tails of the arcs into a visit
+// have fallen before it.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +33,7 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::span<const Tick> enters() const { return enter_; }
     std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
 
-    // Lets visit a go before visit b of another robot at the same vertex (the caller checks that).
+    // Lets visit a go before visit b of another robot at the same vertex (not checked here).
     // False, with nothing changed, if a never leaves, b was there from the start, or the fleet
     // would be deadlocked or swap; cycle() then explains. Giving a right of way again does nothing.
     bool precede(VisitId a, VisitId b);
@@ -60,11 +61,11 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
         }
     }
 
-    // The rights of way that a visit's time is due to: from it back along what each visit follows
-    // from without slack, until a robot ran freely. The latest comes first.
+    // The rights of way on a longest path to a visit: backwards along arcs without slack, until a
+    // robot ran freely. The latest comes first.
     std::vector<RightOfWay> critical_rights(VisitId visit) const;
 
-    // How many changes there were: rights of way given or taken back, and not undone since.
+    // The number of changes: rights of way given or taken back, and not undone since.
     std::size_t n_changes() const { return journal_.size(); }
     // Undoes changes, the latest first, until so many are left.
     void rollback(std::size_t n_changes);

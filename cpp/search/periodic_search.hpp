@@ -1,15 +1,12 @@
-// A robot's round trip on a circle where it may take any way.
+// A round trip on any route among periodic bookings.
 //
-// A state is (vertex, gap, stage): in one gap between the bookings of a vertex, being there earlier
-// is never worse than later, for whoever is early can wait. Time is unrolled; the bookings of the
-// circle come again every period. What has to be done on the way is a list of stages, of which any
-// visit to the vertex of the next one may serve it.
+// A* on safe intervals (Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic
+// environments", ICRA 2011). A state is (vertex, gap, stage); an earlier enter into a gap is never
+// worse than a later one. Time is unrolled. Any visit to the vertex of the next stage may serve it.
 //
-// The trip closes as in circle.hpp: home again, in the gap it started from, no later than a period
-// after it entered it; else it starts as much later. The search from one start is A*, and the
-// earliest return from a later start is never earlier, so that too is complete: among all ways.
-//
-// Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
+// The trip closes as in periodic_bookings.hpp: it is home again in the gap that it started from, at
+// most a period later; otherwise its start is moved by as much. The earliest return from a later
+// start is never earlier, so the search is complete among all routes.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +30,11 @@ struct PeriodicRoundTrip {
 
 class PeriodicSearch {
   public:
-    // Borrows both. The last stage of a trip is at its home; vertices from which a stage's table
-    // leads nowhere are not entered on the way to it.
+    // Borrows both. The last stage of a trip is at its home; a vertex without an entry in a stage's
+    // table is not entered on the way to that stage.
     PeriodicSearch(const Roads& roads, const PeriodicBookings& circle);
 
-    // Finds a way and when to take it; false as `PeriodicBookings::search`. Among gaps of its home
+    // Finds a route and its enters; false as `PeriodicBookings::search`. Among gaps of its home
     // those that begin after the phase come first; in the first that is possible it is home again
     // as early as it can be. Throws std::invalid_argument if roads and circle do not fit together.
     bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over);
