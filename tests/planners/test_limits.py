@@ -14,7 +14,9 @@ from rightofway import search
 from rightofway.errors import GaveUp, InputError
 from rightofway.metrics import alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick, VertexId, roadmap_of_grid
-from rightofway.planners import Deadline
+from rightofway.planners import Deadline, Task
+from rightofway.planners.priorities import fixed_priority
+from rightofway.planners.two_level import two_level
 from tests.builders.fleets import random_fleet
 
 NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
@@ -63,6 +65,13 @@ def test_distances_are_not_measured_beyond_the_time_limit(scenario: Scenario) ->
     assert search.alone_completions(scenario, time_limit=0) is None
     with pytest.raises(GaveUp, match="time ran out while measuring distances"):
         rightofway.solve(scenario, time_limit=0)
+
+
+def test_routes_are_not_chosen_beyond_the_time_limit(crowd: Scenario) -> None:
+    for planner in (two_level, fixed_priority):
+        task = Task(scenario=crowd, options={"routes": "clear"}, deadline=Deadline.after(0))
+        with pytest.raises(GaveUp, match="time ran out while choosing routes"):
+            planner(task)
 
 
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:
