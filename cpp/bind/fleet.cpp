@@ -2,6 +2,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <thread>
 #include <tuple>
@@ -34,10 +35,15 @@ long calls; Ctrl-C is obeyed, and leaves a plan as good as before.)";
 
 constexpr auto alone_doc = R"(Return the least completion of each robot without the others.
 
+Parameters
+----------
+time_limit : float or None
+    After so many seconds it gives up.
+
 Returns
 -------
-int64[R]
-    Ticks; -1 for a robot that cannot get to a stage.)";
+int64[R] or None
+    Ticks; -1 for a robot that cannot get to a stage. None if it gave up.)";
 
 constexpr auto start_doc = R"(Take over tracks.
 
@@ -122,23 +128,23 @@ class FleetSearch {
           seed_(seed),
           n_threads_(n_threads) {}
 
+    // Empty if there was no time.
     const std::vector<Tick>& alone(const StopCondition& deadline) {
         if (alone_.empty()) {
             std::vector<Tick> alone(static_cast<std::size_t>(problem_.n_robots()));
             for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-                alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
-                if (robot % 64 == 0) {
-                    deadline();
+                if (robot % 64 == 0 && deadline()) {
+                    return alone_;
                 }
+                alone[static_cast<std::size_t>(robot)] = distances_.alone(robot);
             }
             alone_ = std::move(alone);
-            bound_ = 0;
-            for (const Tick one : alone_) {
-                bound_ += one;
-            }
+            bound_ = std::accumulate(alone_.begin(), alone_.end(), Tick{0});
         }
         return alone_;
     }
+
+    void take_alone(std::span<const Tick> alone) { distances_.take_alone(alone); }
 
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
                     const StopCondition& deadline, const StopCondition& with_net) {
@@ -183,7 +189,9 @@ class FleetSearch {
 
     std::int64_t improve(std::int64_t n_tasks, std::int64_t patience, const StopCondition& deadline,
                          const StopCondition& pause) {
-        alone(deadline);
+        if (alone(deadline).empty()) {
+            return 0;
+        }
         if (!improvement_) {
             improvement_.emplace(distances_, plan_, alone_, seed_, n_threads_);
         }
@@ -226,23 +234,36 @@ class FleetSearch {
     std::optional<AnytimeLns> improvement_;
 };
 
+void init(FleetSearch* self, const Problem& problem, std::uint64_t seed, std::size_t n_threads,
+          const std::optional<ArrayIn<Tick>>& alone) {
+    new (self) FleetSearch(problem, seed, n_threads);
+    if (alone) {
+        self->take_alone(view(*alone));
+    }
+}
+
 }  // namespace
 
 void bind_fleet(nb::module_& module) {
     nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
-        .def(nb::init<const Problem&, std::uint64_t, std::size_t>(), nb::arg("problem"),
-             nb::arg("seed"), nb::arg("n_threads"), nb::keep_alive<1, 2>())
+        .def("__init__", &init, nb::arg("problem"), nb::arg("seed"), nb::arg("n_threads"),
+             nb::arg("alone").none() = nb::none(), nb::keep_alive<1, 2>())
         .def(
             "alone",
-            [](FleetSearch& self) {
-                const Deadline deadline(std::nullopt);
+            [](FleetSearch& self,
+               std::optional<double> time_limit) -> std::optional<ArrayOut<Tick>> {
+                const Deadline deadline(time_limit);
+                const std::vector<Tick>* alone = nullptr;
                 {
                     const nb::gil_scoped_release released;
-                    self.alone(deadline);
+                    alone = &self.alone(deadline);
                 }
-                return to_numpy(std::span<const Tick>(self.alone(deadline)));
+                if (alone->empty()) {
+                    return std::nullopt;
+                }
+                return to_numpy(std::span<const Tick>(*alone));
             },
-            alone_doc)
+            nb::arg("time_limit").none() = nb::none(), alone_doc)
         .def(
             "start",
             [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,

@@ -2,7 +2,14 @@
 
 #include <algorithm>
 
+#include "core/reject.hpp"
+
 namespace rightofway {
+namespace {
+
+constexpr Tick alone_offset = 2;  // see alone_
+
+}  // namespace
 
 SharedDistances::SharedDistances(const Problem& problem, std::size_t budget)
     : problem_(problem),
@@ -49,12 +56,18 @@ Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
 }
 
 Tick SharedDistances::alone(RobotId robot) {
-    constexpr Tick offset = 2;
     std::atomic<Tick>& known = alone_[static_cast<std::size_t>(robot)];
     if (known == 0) {
-        known = least_completion(robot) + offset;
+        known = least_completion(robot) + alone_offset;
     }
-    return known - offset;
+    return known - alone_offset;
+}
+
+void SharedDistances::take_alone(std::span<const Tick> alone) {
+    require_length("alone", alone.size(), alone_.size());
+    for (std::size_t robot = 0; robot < alone.size(); ++robot) {
+        alone_[robot] = alone[robot] + alone_offset;
+    }
 }
 
 Tick SharedDistances::least_completion(RobotId robot) {

@@ -52,6 +52,8 @@ class SharedDistances {
     // The least completion of a robot without the others, -1 if it cannot get to a stage.
     // Remembered, and may be asked by several threads at once.
     Tick alone(RobotId robot);
+    // The same of all robots, found by other distances of a problem with the same trips.
+    void take_alone(std::span<const Tick> alone);
 
     // The ticks that one unit of the tables takes a robot.
     Tick scale(RobotId robot) const {

@@ -530,16 +530,21 @@ class FleetSearch:
     long calls; Ctrl-C is obeyed, and leaves a plan as good as before.
     """
 
-    def __init__(self, problem: Problem, seed: int, n_threads: int) -> None: ...
+    def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
-    def alone(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    def alone(self, time_limit: float | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
         Return the least completion of each robot without the others.
 
+        Parameters
+        ----------
+        time_limit : float or None
+            After so many seconds it gives up.
+
         Returns
         -------
-        int64[R]
-            Ticks; -1 for a robot that cannot get to a stage.
+        int64[R] or None
+            Ticks; -1 for a robot that cannot get to a stage. None if it gave up.
         """
 
     def start(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:

@@ -9,7 +9,7 @@ from numbers import Integral
 from typing import Any
 
 from rightofway.check import check
-from rightofway.errors import InputError, InvalidPlan, kernel_limits, shown
+from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
 from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
 from rightofway.planners import (
     DEFAULT,
@@ -194,11 +194,19 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
 
     clock, deadline = _Clock(), Deadline.after(time_limit)
     with kernel_limits():
-        alone = alone_completions(task.scenario).tolist()
-        deadline = deadline.earlier(seconds_per_visit * _least_visits(task.scenario, alone))
+        alone = alone_completions(task.scenario, time_limit=deadline.seconds_left())
+        if alone is None:
+            raise GaveUp("time ran out while measuring distances (give a longer time limit)")
+        least_visits = _least_visits(task.scenario, alone.tolist())
+        task = replace(
+            task,
+            alone=alone,
+            deadline=deadline.earlier(seconds_per_visit * least_visits),
+            has_plan=clock.keep,
+        )
         if task.start is not None:
             clock.keep()
-        draft = spec.load()(replace(task, deadline=deadline, has_plan=clock.keep))
+        draft = spec.load()(task)
     clock.keep()
     run = PlannerRun(
         name=spec.name,
@@ -209,7 +217,7 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
         first_plan_seconds=clock.kept,
         decisions=draft.decisions,
         reroutes=draft.reroutes,
-        alone=tuple(alone),
+        alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
     report = check(plan)

@@ -10,10 +10,13 @@ from dataclasses import replace
 import pytest
 
 import rightofway
-from rightofway.errors import InputError
+from rightofway import search
+from rightofway.errors import GaveUp, InputError
 from rightofway.metrics import alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick, VertexId, roadmap_of_grid
-from rightofway.planners import Deadline
+from rightofway.planners import Deadline, Task
+from rightofway.planners.priorities import fixed_priority
+from rightofway.planners.two_level import two_level
 from tests.builders.fleets import random_fleet
 
 NO_LIMITS = [-5, -0.001, math.nan, -math.inf, "10", True]
@@ -56,6 +59,19 @@ def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenar
     assert plan.run.seconds is not None
     assert plan.run.seconds < 16
     assert time.monotonic() - began < 20
+
+
+def test_distances_are_not_measured_beyond_the_time_limit(scenario: Scenario) -> None:
+    assert search.alone_completions(scenario, time_limit=0) is None
+    with pytest.raises(GaveUp, match="time ran out while measuring distances"):
+        rightofway.solve(scenario, time_limit=0)
+
+
+def test_routes_are_not_chosen_beyond_the_time_limit(crowd: Scenario) -> None:
+    for planner in (two_level, fixed_priority):
+        task = Task(scenario=crowd, options={"routes": "clear"}, deadline=Deadline.after(0))
+        with pytest.raises(GaveUp, match="time ran out while choosing routes"):
+            planner(task)
 
 
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:

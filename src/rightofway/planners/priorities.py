@@ -33,6 +33,7 @@ from __future__ import annotations
 import random
 from collections.abc import Generator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Literal
 
 from rightofway.errors import GaveUp
@@ -139,7 +140,8 @@ def _if_waits(
 
 def _plan(task: Task, order: Literal["listed", "random", "climbing"]) -> Draft:
     """Try orders until there are no more or time is over, and return the best plan."""
-    distances = Distances(task.scenario.roadmap)
+    checkpoint = partial(task.deadline.check, "choosing routes")
+    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
     choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
     routes = choose(task.scenario, distances)
     if order == "listed":

@@ -84,7 +84,7 @@ def fleet_search(task: Task) -> FleetSearch:
     """
     scenario = task.scenario
     refuse_shared_ends(scenario)
-    search = FleetSearch(planning_problem(scenario), seed=task.seed)
+    search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
     for robot in np.flatnonzero(search.alone() < 0).tolist():
         name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
         refuse_unreachable(name, itinerary, Distances(scenario.roadmap))

@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Problem, Reroute, Scenario, Tick, Track
 
@@ -71,6 +74,9 @@ class Task:
         counts.
     start
         A plan that keeps the rules, to improve; only for planners that can.
+    alone
+        The least completion of each robot without the others [ticks], -1 where no way leads to a
+        place, where that is known; int64, shape (R,).
     keep_best
         Whether an interrupt ends the planner with the best plan so far, where there is one.
     """
@@ -82,6 +88,7 @@ class Task:
     report: Callable[[str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
     start: tuple[Track, ...] | None = None
+    alone: NDArray[np.int64] | None = None
     keep_best: bool = False
 
 

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 from rightofway.model import Decision, Tick
@@ -81,7 +82,8 @@ def two_level(task: Task) -> Draft:
     GaveUp
         If time ran out; with ``swaps="leave"`` also where the published method is stuck.
     """
-    distances = Distances(task.scenario.roadmap)
+    checkpoint = partial(task.deadline.check, "choosing routes")
+    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
     if task.options.get("swaps") == "leave":
         plan = PartialPlan(task, shortest_routes(task.scenario, distances), sees_swaps=False)
         return plan_on_routes(task, distances, plan, by_two_levels)

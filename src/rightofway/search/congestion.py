@@ -110,6 +110,7 @@ class Congestion:
         Of several, it takes the one that leaves each vertex by the first edge; where nobody is in
         the way that is the path of `Distances`.
         """
+        self.distances.checkpoint()
         to_go = self.distances.to(target, self.problem.itineraries[robot].edge_ticks)
         found = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())

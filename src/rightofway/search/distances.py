@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from itertools import pairwise
@@ -26,14 +26,17 @@ class Distances:
     ----------
     roadmap
         The graph that robots drive on.
+    checkpoint
+        Called before each table and each path; what it raises ends the work.
 
     Notes
     -----
     Robots of one speed that go to one target share one table.
     """
 
-    def __init__(self, roadmap: Roadmap) -> None:
+    def __init__(self, roadmap: Roadmap, *, checkpoint: Callable[[], None] = lambda: None) -> None:
         self.roadmap = roadmap
+        self.checkpoint = checkpoint
         self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
         self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
 
@@ -58,6 +61,7 @@ class Distances:
         """
         key = (target, edge_ticks)
         if key not in self._tables:
+            self.checkpoint()
             self._tables[key] = self._kernel.to(target, self.ticks_of_edges(edge_ticks))
         return self._tables[key]
 
@@ -89,6 +93,7 @@ class Distances:
         At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
         the order east, south, west, north, which gives the routes of the paper.
         """
+        self.checkpoint()
         table = self.to(target, edge_ticks)
         assert table[start] >= 0, "unreachable places were refused"
         path = [start]

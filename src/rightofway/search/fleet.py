@@ -16,9 +16,25 @@ from rightofway.search.native import bound
 __all__ = ["FleetSearch", "alone_completions"]
 
 
-def alone_completions(scenario: Scenario) -> NDArray[np.int64]:
-    """Return each robot's least completion without the others [ticks], -1 for no way; (R,)."""
-    return FleetSearch(scenario.problem).alone()
+def alone_completions(
+    scenario: Scenario, *, time_limit: float | None = None
+) -> NDArray[np.int64] | None:
+    """Return each robot's least completion without the others; None if the time limit came first.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    time_limit
+        When to stop [s].
+
+    Returns
+    -------
+    ndarray of int64, shape (R,)
+        Ticks, -1 where no way leads to a place.
+    """
+    search = _core.FleetSearch(bound(scenario.problem), seed=0, n_threads=1)
+    return search.alone(time_limit)
 
 
 class FleetSearch:
@@ -32,14 +48,25 @@ class FleetSearch:
         For all that is drawn.
     threads
         How many threads improve the plan; the plan does not depend on it. None: all cores.
+    alone
+        What `alone_completions` returned for the same trips [ticks], where that is known.
     """
 
-    def __init__(self, problem: Problem, *, seed: int = 0, threads: int | None = None) -> None:
-        self._core = _core.FleetSearch(bound(problem), seed=seed, n_threads=threads or _cores())
+    def __init__(
+        self,
+        problem: Problem,
+        *,
+        seed: int = 0,
+        threads: int | None = None,
+        alone: NDArray[np.int64] | None = None,
+    ) -> None:
+        self._core = _core.FleetSearch(bound(problem), seed, threads or _cores(), alone)
 
     def alone(self) -> NDArray[np.int64]:
         """Return each robot's least completion without the others [ticks], -1 for no way."""
-        return self._core.alone()
+        alone = self._core.alone()
+        assert alone is not None, "there is no time limit"
+        return alone
 
     @property
     def flowtime(self) -> Tick:
