@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.execution.forecast import Forecast, Times
+from rightofway.execution.forecast import Forecast
 from rightofway.execution.reorder import reordered
 from rightofway.execution.replan import replan
-from rightofway.model import NEVER, ExecutionTrace, Tick
+from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
@@ -144,12 +144,13 @@ class ExecutionMonitor:
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
         ticks = (self.delay_sample.breakdown(robot) for robot in range(len(self.stages)))
         breakdown = np.array([tick if self.policy.replan else NEVER for tick in ticks])
-        patience = max(int(np.median(adg.dwell + adg.drive)), _last(adg.planned) // LOOKS, 1)
+        patience = max(int(np.median(adg.dwell + adg.drive)), int(adg.planned.max()) // LOOKS, 1)
         while True:
             overdue = self.expected + patience
             late = overdue[(self.execution.enter > overdue) & (overdue > now)]
             news = int(late.min(initial=NEVER))
-            if news > HORIZON * max(_last(self.adg.planned), _last(self.execution.enter)):
+            real = self.execution.enter[self.execution.enter < NEVER]
+            if news > HORIZON * max(int(self.adg.planned.max()), int(real.max())):
                 news = NEVER
             at_work = self.execution.completion == NEVER
             at_work[sorted(self.broken)] = False
@@ -191,7 +192,3 @@ class ExecutionMonitor:
             self.adg, self.delay_sample, self.execution = found.adg, sample, execution
             self.stages, self.cut_off = found.stages, self.cut_off | found.cut_off
             self.expected, self.last_tried = new.times(), flowtime
-
-
-def _last(enter: Times) -> Tick:
-    return Tick(int(enter[enter < NEVER].max()))

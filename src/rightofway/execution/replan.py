@@ -8,8 +8,6 @@ rest. Where closures block it, LaCAM finds another one; a robot that cannot reac
 more is *cut off*: it does what it can and ends wherever it is in no robot's way. Large
 neighbourhood search improves that first plan.
 
-Notes
------
 Deterministic for a seed: budgets are numbers of neighbourhoods and steps. The new order has no
 cycle: commitments wait for nothing that has not begun, and the rest follows the order of a plan.
 """
