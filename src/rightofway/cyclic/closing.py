@@ -304,6 +304,7 @@ class _SeamClosing:
         """Let robots wait at home, or make laps where they cannot; tell whether all do."""
         queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
         while queue and self._searches < self._params.searches * len(self._kept):
+            self._searches += 1  # counts even if there is nothing left to choose
             robot = queue.popleft()
             blocking = self._connect(robot, self._choices(robot))
             if blocking is None:
