@@ -43,7 +43,8 @@ def order_by(*columns: NDArray[Any]) -> NDArray[np.int64]:
     keys = np.zeros(n_rows, np.int64)
     for column, low, width in zip(columns, lows, widths, strict=True):
         keys <<= width
-        keys |= column.astype(np.int64) - low
+        exact = column if column.dtype == object else column.astype(np.int64)
+        keys |= (exact - low).astype(np.int64)  # Python integers may be too large before this
     keys <<= index_width
     keys |= np.arange(n_rows)
     keys.sort()
