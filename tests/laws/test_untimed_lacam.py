@@ -12,7 +12,7 @@ from rightofway.model import Plan, PlannerRun, Rules, Scenario
 from rightofway.planners.lacam import timetable_of
 from rightofway.search import untimed_lacam
 from tests.builders.fleets import grid_fleet
-from tests.oracles.joint import can_get_through, is_step
+from tests.oracles.untimed_lacam import can_get_through, is_step
 
 GRIDS = (["...", "@.@"], ["..", ".."], [".....", "@@.@@"], ["...", ".@.", "..."], ["...."])
 

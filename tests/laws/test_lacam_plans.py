@@ -16,7 +16,7 @@ from rightofway.planners import planning_problem
 from rightofway.precedence import graph_of
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
-from tests.oracles.joint import can_get_through, is_step
+from tests.oracles.untimed_lacam import can_get_through, is_step
 
 GRIDS = (["...", "@.@"], ["..", ".."], [".....", "@@.@@"], ["...", ".@.", "..."], ["...."])
 SPEEDS = [Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(2, 5)]

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway import _core
+from tests.oracles.congestion import Congestion
 from tests.oracles.distances import Edge, distances_to
-from tests.oracles.traffic import Congestion
 
 law = settings(max_examples=200, derandomize=True, deadline=None)
 
