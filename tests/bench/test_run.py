@@ -86,7 +86,9 @@ def laps_case(folder: Path, options: str) -> Case:
     return case
 
 
-@pytest.mark.parametrize("rule", ["first-come", "two-level", "timetable"])
+@pytest.mark.parametrize(
+    "rule", ["first-come", "two-level", pytest.param("timetable", marks=pytest.mark.slow)]
+)
 def test_a_case_of_laps_has_the_throughput_and_the_figures_of_each_group(
     tmp_path: Path, rule: str
 ) -> None:

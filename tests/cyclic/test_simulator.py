@@ -51,6 +51,7 @@ def outcome(simulation: Simulation) -> tuple[int, int] | Deadlock | None:
         return None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", NATIVE_RULES)
 @settings(max_examples=150, deadline=None)
 @given(seed=st.integers(0, 2**32), rules=some_rules)

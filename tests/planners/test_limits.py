@@ -52,6 +52,7 @@ def test_no_limit_has_no_earlier_one() -> None:
     assert Deadline.after(None).earlier(10).seconds_left() is None
 
 
+@pytest.mark.slow
 def test_planning_ends_early_enough_for_what_is_done_with_the_plan(crowd: Scenario) -> None:
     """A second for each visit is more than there is, so that half of the limit is left."""
     began = time.monotonic()
