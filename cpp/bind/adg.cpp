@@ -8,7 +8,6 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "deadline.hpp"
 #include "execution/runs.hpp"
 
 namespace rightofway::bind {
@@ -42,66 +41,36 @@ delay_a, delay_b : float64[D]
 first_stoppage : int32[R + 1]
     Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
 stoppage_tick, stoppage_ticks : int64[S]
-    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
-
-Raises
-------
-ValueError
-    If the arrays do not fit together; names the array, the index and the value.)";
+    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.)";
 
 constexpr auto runs_doc = R"(Run the plan many times by right of way, and by the clock.
 
-Parameters
-----------
-seed, first, count : int
-    Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
-time_limit : float or None
-    No run begins after this many seconds.
+Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
 
 Returns
 -------
-completion : int64[K, R]
-    When each robot completes by right of way, ``NEVER`` if it does not. [ticks]
-is_broken : uint8[K, R]
-    Not 0 where a robot stands still for ever.
+completion, is_broken : int64[K, R], uint8[K, R]
+    When each robot completes by right of way, ``NEVER`` if it does not; whether it stands still
+    for ever. [ticks]
 by_right_of_way, by_clock : int64[K, 4]
     Pairs of visits that overlap, pairs that overlap only by the headway, swaps, and the tick of the
     earliest of these, ``NEVER`` without any.
 own, of_others : int64[N]
     Ticks of lateness that began at each visit: of its own robot, of others.
 between : int64[P, 3]
-    Robot, another, and the ticks that the first is late because of the other.
+    Robot, another, and the ticks that the first is late because of the other.)";
 
-Notes
------
-The GIL is released; Ctrl-C is obeyed.)";
+constexpr auto sample_doc =
+    R"(Return the delays of one run: dwells and drives, and stoppages as the class takes them.)";
 
-constexpr auto sample_doc = R"(Return the delays of one run.
-
-Returns
--------
-tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
-    Actual dwells and drives, and the stoppages as the class takes them.)";
-
-constexpr auto execute_doc = R"(Run the plan once, with these delays.
-
-Parameters
-----------
-dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks
-    As `delay_sample` returns them.
-clock : bool
-    Whether by the clock; else by right of way.
+constexpr auto execute_doc =
+    R"(Run the plan once by the clock or by right of way, with delays as `delay_sample` returns them.
 
 Returns
 -------
 tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
     When each visit begins, when its booking begins, when robots complete, which stand still for
-    ever, and the conflicts as `runs` counts them.
-
-Raises
-------
-ValueError
-    If the arrays do not fit together.)";
+    ever, and the conflicts as `runs` counts them.)";
 
 DelaySample sample_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dwell,
                       const ArrayIn<Tick>& drive, const ArrayIn<std::int32_t>& first,
@@ -252,21 +221,16 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
 
 void bind_adg(nb::module_& module) {
     nb::class_<BoundAdg>(module, "ActionDependencyGraph", class_doc)
-        .def("__init__", &init, nb::arg("first_visit").noconvert(), nb::arg("vertex").noconvert(),
-             nb::arg("planned").noconvert(), nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("before").noconvert(),
-             nb::arg("since").noconvert(), nb::arg("headway"), nb::arg("books_ahead"),
-             nb::arg("pace").noconvert(), nb::arg("delay_kind").noconvert(),
-             nb::arg("delay_a").noconvert(), nb::arg("delay_b").noconvert(),
-             nb::arg("first_stoppage").noconvert(), nb::arg("stoppage_tick").noconvert(),
-             nb::arg("stoppage_ticks").noconvert())
+        .def("__init__", &init, array("first_visit"), array("vertex"), array("planned"),
+             array("dwell"), array("drive"), array("before"), array("since"), nb::arg("headway"),
+             nb::arg("books_ahead"), array("pace"), array("delay_kind"), array("delay_a"),
+             array("delay_b"), array("first_stoppage"), array("stoppage_tick"),
+             array("stoppage_ticks"))
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)
-        .def("execute", &BoundAdg::execute, nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("first_stoppage").noconvert(),
-             nb::arg("stoppage_tick").noconvert(), nb::arg("stoppage_ticks").noconvert(),
-             nb::arg("clock"), execute_doc)
+        .def("execute", &BoundAdg::execute, array("dwell"), array("drive"), array("first_stoppage"),
+             array("stoppage_tick"), array("stoppage_ticks"), nb::arg("clock"), execute_doc)
         .def("deadlocked", &BoundAdg::deadlocked,
              "Return the robots that can never complete because they wait for each other.");
 }

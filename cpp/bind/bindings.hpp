@@ -7,8 +7,10 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,6 +27,9 @@ template <class T>
 using PairsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, 2>>;
 template <class T>
 using TableOut = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
+
+// An argument that is an array and is not converted.
+inline auto array(const char* name) { return nb::arg(name).noconvert(); }
 
 template <class T>
 std::span<const T> view(const ArrayIn<T>& array) {
@@ -53,6 +58,31 @@ ArrayOut<T> to_numpy(std::span<const T> values) {
     return to_numpy(std::vector<T>(values.begin(), values.end()));
 }
 
+// What long searches are asked now and then: is the time over, has the user had enough?
+class Deadline {
+  public:
+    // So many seconds from now; never, without.
+    explicit Deadline(std::optional<double> seconds) {
+        if (seconds) {
+            at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(*seconds));
+        }
+    }
+
+    // Asked while the GIL is released: takes it to look for Ctrl-C.
+    bool operator()() const {
+        const nanobind::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0) {
+            throw nanobind::python_error();
+        }
+        return at_ && Clock::now() > *at_;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::optional<Clock::time_point> at_;
+};
+
 void bind_periodic_bookings(nb::module_& module);
 void bind_distances(nb::module_& module);
 void bind_simulator(nb::module_& module);
@@ -61,9 +91,7 @@ void bind_lacam(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_fleet(nb::module_& module);
 void bind_adg(nb::module_& module);
-void bind_untimed_lacam(nb::module_& module);
 void bind_graph(nb::module_& module);
 void bind_sipp(nb::module_& module);
-void bind_congestion(nb::module_& module);
 
 }  // namespace rightofway::bind

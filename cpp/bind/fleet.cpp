@@ -10,112 +10,46 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "deadline.hpp"
-#include "lns/anytime_lns.hpp"
-#include "lns/prioritized_portfolio.hpp"
+#include "lns/population.hpp"
+#include "lns/prioritized.hpp"
 
 namespace rightofway::bind {
 namespace {
 
 constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, and better ones.
 
-Parameters
-----------
-problem : Problem
-    What the fleet has to do.
-seed : int
-    For all that is drawn.
-n_threads : int
-    For `improve`; what it finds does not depend on it.
+The seed decides all that is drawn; what `improve` finds does not depend on ``n_threads``. Robots
+without a track are left where they are by `tracks`: an empty one. Ctrl-C leaves a plan as good as
+before.)";
 
-Notes
------
-Robots without a track are left where they are by `tracks`: an empty one. The GIL is released in all
-long calls; Ctrl-C is obeyed, and leaves a plan as good as before.)";
+constexpr auto alone_doc =
+    R"(Return the least completion of each robot without the others, int64[R]. [ticks]
 
-constexpr auto alone_doc = R"(Return the least completion of each robot without the others.
+-1 for a robot that cannot get to a stage; None if time ran out.)";
 
-Parameters
-----------
-time_limit : float or None
-    After so many seconds it gives up.
+constexpr auto start_doc =
+    R"(Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
 
-Returns
--------
-int64[R] or None
-    Ticks; -1 for a robot that cannot get to a stage. None if it gave up.)";
+ValueError if they are no tracks of these trips, or overlap.)";
 
-constexpr auto start_doc = R"(Take over tracks.
+constexpr auto prioritize_doc =
+    R"(Give the robots tracks one after another, in this order; return whether all have one now.
 
-Parameters
-----------
-first_visit : int32[R + 1]
-    Robot ``r`` has visits ``first_visit[r] .. first_visit[r + 1] - 1``.
-vertices, enter : int32[N], int64[N]
-    Where each visit is, and when it begins. [ticks]
+Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
+a plan made in haste. `go_on` may change a False.)";
 
-Raises
-------
-ValueError
-    If they are no tracks of these trips, or overlap.)";
+constexpr auto go_on_doc = R"(Continue `prioritize`; ``n_searches`` counts since its beginning.)";
 
-constexpr auto prioritize_doc = R"(Give the robots tracks one after another.
-
-Parameters
-----------
-order : int32[R]
-    Every robot once.
-n_searches : int
-    After so many searches it gives up.
-time_limit : float or None
-    After so many seconds as well.
-with_net : float or None
-    After so many seconds instead, once there is a plan made in haste.
-
-Returns
--------
-bool
-    Whether every robot has a track now; if not, `go_on` may change that.)";
-
-constexpr auto go_on_doc = R"(Go on with giving the robots tracks one after another.
-
-Parameters
-----------
-n_searches : int
-    After so many searches since the beginning it gives up.
-time_limit : float or None
-    After so many seconds as well.
-
-Returns
--------
-bool
-    Whether every robot has a track now; false as well where nothing was begun.)";
-
-constexpr auto improve_doc = R"(Replace tracks by better ones, a few robots at a time.
+constexpr auto improve_doc =
+    R"(Replace tracks by better ones, a few robots at a time; return how many times that was done.
 
 Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
-other. Ends when nothing can be better.
-
-Parameters
-----------
-n_tasks : int
-    How many times some robots are planned anew.
-patience : int
-    It ends after so many times in a row without a gain.
-time_limit : float or None
-    After so many seconds it stops at once.
-pause : float or None
-    After so many seconds it stops at the next point that does not depend on clocks.
-
-Returns
--------
-int
-    How many times that was done.)";
+other. Ends when nothing can be better, after ``n_tasks``, after ``patience`` tasks in a row without
+a gain, at once after the time limit, and after ``pause`` seconds at the next point that does not
+depend on clocks.)";
 
 constexpr auto retime_doc =
-    R"(Have all robots as early as the order of visits at every vertex allows.
-
-Every robot has a track. `improve` begins anew after that.)";
+    R"(Have all robots as early as the order of visits at every vertex allows; `improve` starts afresh.)";
 
 using TrackArrays = std::tuple<ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
@@ -271,8 +205,7 @@ void bind_fleet(nb::module_& module) {
                 const nb::gil_scoped_release released;
                 self.start(view(first_visit), view(vertices), view(enter));
             },
-            nb::arg("first_visit").noconvert(), nb::arg("vertices").noconvert(),
-            nb::arg("enter").noconvert(), start_doc)
+            array("first_visit"), array("vertices"), array("enter"), start_doc)
         .def(
             "prioritize",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
@@ -282,7 +215,7 @@ void bind_fleet(nb::module_& module) {
                 const nb::gil_scoped_release released;
                 return self.prioritize(view(order), n_searches, deadline, deadline_with_net);
             },
-            nb::arg("order").noconvert(), nb::arg("n_searches"), nb::arg("time_limit").none(),
+            array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(),
             nb::arg("with_net").none(), prioritize_doc)
         .def(
             "go_on",

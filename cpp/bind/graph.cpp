@@ -13,21 +13,10 @@ namespace {
 constexpr auto class_doc =
     R"(Routes, rights of way, the timetable they give, and the conflicts left.
 
-Routes are fixed lists of visits. A right of way says which of two visits to one vertex goes
-first. The timetable is the earliest times that keep both: ``enter`` is 0 on first visits, at
-least ``enter[x] + least[x]`` on the visit after ``x``, and at least
-``leave(a) + headway + approach[b]`` where ``a`` has the right of way over ``b``. ``leave(x)`` is
-``enter[x + 1]``; a last visit never leaves.
-
-A visit books its vertex for ``[enter - approach, leave + headway)``. Two bookings of one vertex by
-different robots that overlap are a *vertex conflict* (kind 0); its tick is the start of the
-overlap, and it counts the overlap's ticks, at most ``CONFLICT_CAP``. Two robots that exchange two
-vertices at the same tick, without such an overlap at either, are a *swap conflict* (kind 1) at
-that tick, which counts 1.
-
 A conflict is a tuple ``(tick, kind, visit_a, visit_b)`` where the robot of ``visit_a`` is below
-that of ``visit_b``; for a swap, these are the visits entered at that tick. Conflicts are ordered
-by tick, then robots, then visits.
+that of ``visit_b``. Kind 0: two bookings ``[enter - approach, leave + headway)`` of a vertex
+overlap, from that tick on; it counts the overlap's ticks, at most ``CONFLICT_CAP``. Kind 1: two
+robots exchange two vertices at that tick, without such an overlap; it counts 1.
 
 Parameters
 ----------
@@ -44,113 +33,31 @@ headway : int
 swaps_conflict : bool
     Whether swaps are conflicts.
 active : uint8[R]
-    Robots with 0 here have times, but no conflicts and no rights of way.
-
-Raises
-------
-ValueError
-    If the arrays do not describe routes; names the array, the index and the value. The methods
-    raise it for a robot or a visit that does not exist.
-
-Notes
------
-Deterministic. Every answer is kept up to date incrementally. Calls are short and keep the GIL.)";
+    Robots with 0 here have times, but no conflicts and no rights of way.)";
 
 constexpr auto keep_order_doc =
     R"(Give the rights of way of all visits to a vertex in an order, all at once.
 
-Parameters
-----------
-when : int64[N]
-    A number for each visit: of two visits to one vertex the one with the smaller number goes
-    first, of equal ones that with the smaller index. Numbers rise along each route, and no visit
-    has to wait for a leave with a greater number. The ticks of a plan, or steps.
+``when`` (int64[N]) rises along each route: of two visits to one vertex the one with the smaller
+number goes first, of equal ones that with the smaller index. Returns whether that is possible; if
+not, nothing has changed. If so, there is no rollback below this.)";
 
-Returns
--------
-bool
-    Whether that is possible. If not, nothing has changed. If so, there is no rollback below this.
+constexpr auto precede_doc =
+    R"(Give visit a the right of way over visit b, of two active robots at the same vertex.
 
-Raises
-------
-ValueError
-    If there is not one number for each visit, if numbers do not rise along a route, or if there
-    were changes before.)";
+Returns whether that is possible. If not, nothing has changed: ``a`` is a last visit, ``b`` is a
+first visit, or ``cycle()`` has the deadlock or swap that would follow.)";
 
-constexpr auto precede_doc = R"(Give visit a the right of way over visit b.
-
-Parameters
-----------
-a, b : int
-    Visits of two different active robots to the same vertex.
-
-Returns
--------
-bool
-    Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
-    leaves, ``b`` is a first visit, or ``cycle()`` has the deadlock or swap that would follow.
-    True if ``a`` has the right of way already.
-
-Raises
-------
-ValueError
-    If ``a`` and ``b`` are not two such visits.
-
-Notes
------
-Times never decrease. A cycle of positive length is always refused; of zero length only if
-``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
-Takes time in proportion (but for a logarithm) to the number of changed times.)";
-
-constexpr auto take_back_doc = R"(Take back one right of way, whenever it was given.
-
-Parameters
-----------
-a, b : int
-    As for ``precede``.
-
-Returns
--------
-bool
-    Whether ``a`` had the right of way over ``b``.
-
-Raises
-------
-ValueError
-    As for ``precede``.
-
-Notes
------
-All visits get the earliest times that keep the other rights of way. A rollback gives it again.)";
+constexpr auto take_back_doc =
+    R"(Take back the right of way of a over b, whenever it was given; return whether there was one.)";
 
 constexpr auto cycle_doc =
-    R"(Return the cycle that the last refused ``precede(a, b)`` would have closed.
+    R"(Return the cycle that the last refused ``precede(a, b)`` would have closed, int32[n].
 
-Returns
--------
-int32[n]
-    Visits in order, from ``b`` to the visit after ``a``. The enter of each follows from that of
-    the one before: the next visit of the same robot, or of a robot that waits for its leave.
-    Empty if there was another reason, or no refusal yet.)";
+Visits in order, from ``b`` to the visit after ``a``; empty if there was another reason.)";
 
-constexpr auto conflicts_of_doc = R"(Return the weight of one robot's conflicts with others.
-
-Parameters
-----------
-robot : int
-    The robot.
-others : uint8[R]
-    Conflicts count with the robots that do not have 0 here.
-
-Returns
--------
-int
-    Sum of what these conflicts count. [ticks]
-
-Raises
-------
-ValueError
-    If the robot does not exist or the mask has the wrong length.)";
+constexpr auto conflicts_of_doc =
+    R"(Return the weight of one robot's conflicts with the ``others`` (uint8[R], not 0). [ticks])";
 
 using ConflictTuple = std::tuple<Tick, std::int32_t, VisitId, VisitId>;
 
@@ -205,7 +112,7 @@ void bind_queries(nb::class_<PrecedenceGraph>& graph) {
             [](const Graph& self, RobotId robot, const ArrayIn<std::uint8_t>& others) {
                 return self.conflicts_of(robot, view(others));
             },
-            nb::arg("robot"), nb::arg("others").noconvert(), conflicts_of_doc)
+            nb::arg("robot"), array("others"), conflicts_of_doc)
         .def(
             "next_conflict", [](Graph& self) { return to_tuple(self.next_conflict()); },
             "Return the earliest conflict ``(tick, kind, visit_a, visit_b)``, None if none is "
@@ -227,7 +134,7 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
         .def(
             "keep_order",
             [](Graph& self, const ArrayIn<Tick>& when) { return self.keep_order(view(when)); },
-            nb::arg("when").noconvert(), keep_order_doc)
+            array("when"), keep_order_doc)
         .def("take_back", &Graph::take_back, nb::arg("a"), nb::arg("b"), take_back_doc)
         .def("checkpoint", &Graph::checkpoint,
              "Return a mark for ``rollback``: the number of rights of way given or taken back, and "
@@ -252,9 +159,8 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
 
 void bind_graph(nb::module_& module) {
     nb::class_<PrecedenceGraph> graph(module, "PrecedenceGraph", class_doc);
-    graph.def("__init__", &init, nb::arg("first_visit").noconvert(), nb::arg("vertex").noconvert(),
-              nb::arg("least").noconvert(), nb::arg("approach").noconvert(), nb::arg("headway"),
-              nb::arg("swaps_conflict"), nb::arg("active").noconvert());
+    graph.def("__init__", &init, array("first_visit"), array("vertex"), array("least"),
+              array("approach"), nb::arg("headway"), nb::arg("swaps_conflict"), array("active"));
     bind_queries(graph);
     bind_changes(graph);
 }

@@ -20,6 +20,8 @@ constexpr const char* compiler() {
 NB_MODULE(_core, module) {
     module.doc() =
         "The native kernels: arrays and integers in, arrays and integers out.\n\n"
+        "ValueError names the array, the index and the value that do not fit. ``time_limit`` [s]\n"
+        "stops a search; long calls release the GIL and obey Ctrl-C. All are deterministic.\n\n"
         "``CONFLICT_CAP`` is the most that one conflict counts, also if it never ends;\n"
         "``NEVER`` is the end of a booking that never ends. [ticks]";
     module.attr("CONFLICT_CAP") = rightofway::conflict_cap;
@@ -33,8 +35,6 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_problem(module);
     rightofway::bind::bind_fleet(module);
     rightofway::bind::bind_adg(module);
-    rightofway::bind::bind_untimed_lacam(module);
     rightofway::bind::bind_graph(module);
     rightofway::bind::bind_sipp(module);
-    rightofway::bind::bind_congestion(module);
 }

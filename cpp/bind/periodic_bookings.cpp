@@ -13,7 +13,6 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "deadline.hpp"
 #include "search/periodic_search.hpp"
 
 namespace rightofway::bind {
@@ -22,38 +21,18 @@ namespace {
 constexpr auto class_doc =
     R"(Bookings of vertices with a period or none, and when one more robot can make given visits.
 
-Parameters
-----------
-n_vertices : int
-    The number of vertices, V.
-period : int or None
-    All bookings come again after this many ticks; None for a line of time. [ticks]
-headway : int
-    How long a vertex stays booked after it was left. [ticks]
-books_ahead : bool
-    Whether a robot books a vertex from when it starts to drive there.
+All bookings come again after ``period`` ticks; None for a line of time.)";
 
-Raises
-------
-ValueError
-    If a number is out of its range.
-
-References
-----------
-Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environments*, ICRA 2011.)";
-
-constexpr auto add_doc = R"(Book consecutive visits of a robot.
+constexpr auto add_doc =
+    R"(Book consecutive visits of a robot, with a period all those of one period.
 
 Parameters
 ----------
 robot : int
     The robot.
-vertex : int32[N]
-    The vertex of each visit; with a period, all visits of one period.
-dwell : int64[N]
-    The least duration of each, without the drive that follows. [ticks]
-drive : int64[N]
-    The drive into each. [ticks]
+vertex, dwell, drive : int32[N], int64[N], int64[N]
+    Of each visit the vertex, the least duration without the drive that follows, and the drive into
+    it. [ticks]
 enter : int64[N]
     When each begins, rising; with a period, all within one. [ticks]
 leave : int or None
@@ -62,90 +41,24 @@ leave : int or None
 Returns
 -------
 bool
-    With a period, whether no booking overlaps another robot's; otherwise nothing is booked.
-
-Raises
-------
-ValueError
-    If the arrays do not fit together; with a period also if the robot has bookings already. Then
-    nothing is booked.
-
-Notes
------
-Without a period a robot may book more than once, and overlaps are not checked.)";
+    With a period, whether no booking overlaps another robot's; otherwise nothing is booked. Without
+    one, overlaps are not checked.)";
 
 constexpr auto users_doc =
-    R"(Return the robots whose bookings of any of these vertices overlap an interval.
+    R"(Return the robots that have booked any of these vertices in ``[begins, ends)``, rising, int32[K].
 
-Parameters
-----------
-vertices : int32[N]
-    The vertices.
-begins, ends : int
-    The half-open interval. With a period, bookings count in the period that they start in. [ticks]
+With a period, bookings count in the period that they start in.)";
 
-Returns
--------
-int32[K]
-    Each robot once, rising.
+constexpr auto search_doc =
+    R"(Return when a robot can repeat its visits among the bookings of others, int64[N], or None.
 
-Raises
-------
-ValueError
-    If there is no such vertex.)";
+Visits as for ``add``; needs a period; starts are tried from tick ``phase`` on. Complete for these
+visits, unless no other robot visits the first vertex: then only this phase is tried.)";
 
-constexpr auto search_doc = R"(Find when a robot can repeat its visits among the bookings of others.
+constexpr auto connect_doc =
+    R"(Return the earliest ticks for visits between two given ones, int64[N], or None.
 
-Parameters
-----------
-vertex, dwell, drive : int32[N], int64[N], int64[N]
-    As for ``add``; needs a period.
-phase : int
-    The tick from which on starts are tried. [ticks]
-time_limit : float or None
-    The search stops after this many seconds.
-
-Returns
--------
-int64[N] or None
-    When each visit begins; None if no way was found. [ticks]
-
-Raises
-------
-ValueError
-    If the arrays do not fit together, or there is no period.
-
-Notes
------
-Complete for these visits, unless no other robot visits the first vertex: then only this phase is
-tried. Deterministic. The GIL is released; Ctrl-C is obeyed.)";
-
-constexpr auto connect_doc = R"(Find the earliest ticks for visits between two given ones.
-
-Parameters
-----------
-vertex, dwell, drive : int32[N], int64[N], int64[N]
-    As for ``add``.
-begins : int
-    When the first visit begins. [ticks]
-until : int
-    By when the last visit begins. [ticks]
-leave : int
-    When the last visit ends. [ticks]
-
-Returns
--------
-int64[N] or None
-    When each visit begins; None if that is impossible. [ticks]
-
-Raises
-------
-ValueError
-    If the arrays do not fit together.
-
-Notes
------
-Complete for these visits; deterministic.)";
+The first visit begins at tick ``begins``, the last one by ``until``, and ends at ``leave``.)";
 
 constexpr auto find_route_doc =
     R"(Find a route for a round trip, and when to take it, among the bookings of others.
@@ -168,23 +81,12 @@ stage_tables : list of int32[V]
     For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
 phase : int
     The tick from which on starts are tried. [ticks]
-time_limit : float or None
-    The search stops after this many seconds.
 
 Returns
 -------
 tuple of (int32[N], int64[N], int64[N], int64[N]) or None
-    Vertices, dwells, drives and enters of all visits; None if no route was found. [ticks]
-
-Raises
-------
-ValueError
-    If the arrays do not fit together, a stage cannot be reached, or there is no period.
-
-Notes
------
-Complete among all routes, unless no other robot visits the home: then only this phase is tried. No
-trip from this phase is home again earlier. Deterministic. The GIL is released; Ctrl-C is obeyed.)";
+    Vertices, dwells, drives and enters of all visits; None if no route was found. Complete among
+    all routes, with the exception of ``search``. No trip from this phase is home again earlier.)";
 
 using Route = std::tuple<ArrayOut<VertexId>, ArrayOut<Tick>, ArrayOut<Tick>, ArrayOut<Tick>>;
 
@@ -260,8 +162,7 @@ void bind_periodic_bookings(nb::module_& module) {
                std::optional<Tick> leave) {
                 return self.add(robot, visits_of(vertex, dwell, drive), view(enter), leave);
             },
-            nb::arg("robot"), nb::arg("vertex").noconvert(), nb::arg("dwell").noconvert(),
-            nb::arg("drive").noconvert(), nb::arg("enter").noconvert(),
+            nb::arg("robot"), array("vertex"), array("dwell"), array("drive"), array("enter"),
             nb::arg("leave") = nb::none(), add_doc)
         .def("remove", &PeriodicBookings::remove, nb::arg("robot"),
              "Remove all bookings of a robot; nothing happens if it has none.")
@@ -269,20 +170,15 @@ void bind_periodic_bookings(nb::module_& module) {
             "users",
             [](const PeriodicBookings& self, const ArrayIn<VertexId>& vertices, Tick begins,
                Tick ends) { return to_numpy(self.users(view(vertices), begins, ends)); },
-            nb::arg("vertices").noconvert(), nb::arg("begins") = -never, nb::arg("ends") = never,
-            users_doc)
-        .def("search", &search, nb::arg("vertex").noconvert(), nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("phase"), nb::arg("time_limit").none(),
-             search_doc)
-        .def("connect", &connect, nb::arg("vertex").noconvert(), nb::arg("dwell").noconvert(),
-             nb::arg("drive").noconvert(), nb::arg("begins"), nb::arg("until"), nb::arg("leave"),
-             connect_doc)
-        .def("find_route", &find_route, nb::arg("indptr").noconvert(),
-             nb::arg("indices").noconvert(), nb::arg("length_class").noconvert(),
-             nb::arg("pace").noconvert(), nb::arg("home"), nb::arg("stage_vertex").noconvert(),
-             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
-             nb::arg("stage_tables"), nb::arg("phase"), nb::arg("time_limit").none(),
-             find_route_doc);
+            array("vertices"), nb::arg("begins") = -never, nb::arg("ends") = never, users_doc)
+        .def("search", &search, array("vertex"), array("dwell"), array("drive"), nb::arg("phase"),
+             nb::arg("time_limit").none(), search_doc)
+        .def("connect", &connect, array("vertex"), array("dwell"), array("drive"),
+             nb::arg("begins"), nb::arg("until"), nb::arg("leave"), connect_doc)
+        .def("find_route", &find_route, array("indptr"), array("indices"), array("length_class"),
+             array("pace"), nb::arg("home"), array("stage_vertex"), array("stage_work"),
+             array("stage_turn"), nb::arg("stage_tables"), nb::arg("phase"),
+             nb::arg("time_limit").none(), find_route_doc);
 }
 
 }  // namespace rightofway::bind

@@ -59,12 +59,10 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
 
 void bind_problem(nb::module_& module) {
     nb::class_<Problem>(module, "Problem", class_doc)
-        .def("__init__", &init, nb::arg("indptr").noconvert(), nb::arg("heads").noconvert(),
-             nb::arg("length_class").noconvert(), nb::arg("paces").noconvert(),
-             nb::arg("pace_of").noconvert(), nb::arg("home").noconvert(),
-             nb::arg("first_stage").noconvert(), nb::arg("stage_vertex").noconvert(),
-             nb::arg("stage_work").noconvert(), nb::arg("stage_turn").noconvert(),
-             nb::arg("n_classes"), nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
+        .def("__init__", &init, array("indptr"), array("heads"), array("length_class"),
+             array("paces"), array("pace_of"), array("home"), array("first_stage"),
+             array("stage_vertex"), array("stage_work"), array("stage_turn"), nb::arg("n_classes"),
+             nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
              nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
              nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
              nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(),

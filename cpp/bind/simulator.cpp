@@ -9,7 +9,6 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "deadline.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -55,36 +54,16 @@ Notes
 -----
 Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.)";
 
-constexpr auto advance_doc = R"(Simulate until a state recurs, a deadlock, or time is over.
+constexpr auto advance_doc =
+    R"(Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).)";
 
-Parameters
-----------
-time_limit : float or None
-    Stop after this many seconds; the next call continues.
+constexpr auto waits_doc =
+    R"(Return the numbers of the visits of a robot that had to wait, int32[K], and how long the robot had
+waited by then in all, int64[K]. [ticks])";
 
-Returns
--------
-int
-    0 if time ran out, 1 if a state has recurred, 2 in a deadlock.)";
-
-constexpr auto waits_doc = R"(Return the visits of a robot that had to wait.
-
-Returns
--------
-tuple of (int32[K], int64[K])
-    Their numbers, and how long the robot had waited by then in all. [ticks]
-
-Raises
-------
-ValueError
-    If there is no such robot.)";
-
-constexpr auto deadlock_doc = R"(Return the conflict that cannot be resolved.
-
-Returns
--------
-tuple of (int, int, int, int, int32[K])
-    The two robots, the vertex, the tick, and the robots that would each wait for the next.)";
+constexpr auto deadlock_doc =
+    R"(Return the conflict that cannot be resolved: the two robots, the vertex, the tick, and the robots
+that would each wait for the next, int32[K].)";
 
 void init(CyclicSimulator* self, const ArrayIn<std::int32_t>& first_place,
           const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
@@ -136,11 +115,10 @@ std::tuple<RobotId, RobotId, VertexId, Tick, ArrayOut<RobotId>> deadlock(
 
 void bind_simulator(nb::module_& module) {
     nb::class_<CyclicSimulator>(module, "CyclicSimulator", class_doc)
-        .def("__init__", &init, nb::arg("first_place").noconvert(), nb::arg("vertex").noconvert(),
-             nb::arg("least").noconvert(), nb::arg("approach").noconvert(),
-             nb::arg("first_least").noconvert(), nb::kw_only(), nb::arg("headway"),
+        .def("__init__", &init, array("first_place"), array("vertex"), array("least"),
+             array("approach"), array("first_least"), nb::kw_only(), nb::arg("headway"),
              nb::arg("pacemaker"), nb::arg("lag"), nb::arg("most_lag"), nb::arg("patience"),
-             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), nb::arg("loss").noconvert())
+             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), array("loss"))
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)
         .def("reset_states", &CyclicSimulator::reset_states,
              "Forget the states seen, to advance beyond one that has recurred.")

@@ -11,104 +11,31 @@
 
 #include "bindings.hpp"
 #include "core/reject.hpp"
-#include "deadline.hpp"
 #include "search/booking_table.hpp"
 
 namespace rightofway::bind {
 namespace {
 
-constexpr auto table_doc =
-    R"(Who has booked which vertex when.
+constexpr auto table_doc = R"(Who has booked which vertex when.)";
 
-Parameters
-----------
-n_vertices : int
-    The number of vertices, V.
+constexpr auto book_doc =
+    R"(Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.)";
 
-Raises
-------
-ValueError
-    If the number is negative.)";
+constexpr auto erase_doc =
+    R"(Take back the booking of a robot that starts at this tick; nothing happens if there is none.)";
 
-constexpr auto book_doc = R"(Book a vertex.
+constexpr auto at_doc =
+    R"(Return the bookings ``(start, end, robot)`` of a vertex in order of time. [ticks])";
 
-Parameters
-----------
-vertex : int
-    The vertex.
-start, end : int
-    It is booked for ``[start, end)``. [ticks]
-robot : int
-    By whom.
+constexpr auto search_doc = R"(Find the earliest track of one robot among the bookings of others.
 
-Raises
-------
-ValueError
-    If there is no such vertex, the booking is empty, or it overlaps another robot's.)";
-
-constexpr auto erase_doc = R"(Take back a booking.
-
-Parameters
-----------
-vertex : int
-    The vertex.
-start : int
-    When the booking starts; nothing happens if there is none. [ticks]
-robot : int
-    Whose it is.
-
-Raises
-------
-ValueError
-    If there is no such vertex.)";
-
-constexpr auto at_doc = R"(Return the bookings of a vertex in order of time.
-
-Parameters
-----------
-vertex : int
-    The vertex.
-
-Returns
--------
-list of tuple[int, int, int]
-    ``(start, end, robot)``. [ticks]
-
-Raises
-------
-ValueError
-    If there is no such vertex.)";
-
-constexpr auto search_doc =
-    R"(Find the earliest track of one robot among the bookings of others.
-
-Parameters
-----------
-problem : Problem
-    The roads, the robots and the booking rules.
-robot : int
-    Which robot.
-bookings : BookingTable
-    What the other robots have booked.
-stage_tables : list of int32[V]
-    For each stage, the least ticks from each vertex to its vertex.
-time_limit : float or None
-    After so many seconds the search stops.
+``stage_tables`` has for each stage the least ticks from each vertex to its vertex, int32[V].
 
 Returns
 -------
 tuple of (int, int32[n], int64[n])
     How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices,
-    and when each is entered. [ticks]
-
-Raises
-------
-ValueError
-    If the arrays do not fit together, or a stage cannot be reached.
-
-Notes
------
-Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.)";
+    and when each is entered. [ticks])";
 
 using Found = std::tuple<int, ArrayOut<VertexId>, ArrayOut<Tick>>;
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bindings.hpp"
-#include "deadline.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -26,46 +25,20 @@ length : int64[M]
     How long after its tail the head of each comes at least, not negative. [ticks]
 height : int32[M]
     How many periods later; may be negative.
-time_limit : float or None
-    After so many seconds the search stops.
 
 Returns
 -------
 tuple of (int, int, int32[n]) or None
     Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
     in order; 0, 1 and no arcs if every circuit has length 0. Height 0 if the events of the
-    circuit wait for each other for ever. None if time ran out.
+    circuit wait for each other for ever. None if time ran out. ValueError if all lengths times all
+    heights is beyond 2^58.)";
 
-Raises
-------
-ValueError
-    If the arrays do not fit together, or all lengths times all heights is beyond 2^58.
+constexpr auto times_doc =
+    R"(Return the least times that keep all arcs every ``period / parts`` ticks, int64[N].
 
-Notes
------
-Exact: integers only. Deterministic. The GIL is released; Ctrl-C is obeyed.)";
-
-constexpr auto times_doc = R"(Return the least times that keep all arcs, period after period.
-
-Parameters
-----------
-n_nodes, tail, head, length, height
-    As for ``critical_circuit``.
-period, parts : int
-    All comes again every ``period / parts`` ticks.
-time_limit : float or None
-    After so many seconds the search stops.
-
-Returns
--------
-int64[N] or None
-    When each event comes, at least 0. [1 / parts ticks] None if the period is less than the cycle
-    time, or time ran out.
-
-Raises
-------
-ValueError
-    If the arrays do not fit together, or times may become too large.)";
+Arcs as for ``critical_circuit``. At least 0. [1 / parts ticks] None if the period is less than the
+cycle time, or time ran out.)";
 
 using Circuit = std::tuple<Tick, std::int64_t, ArrayOut<std::int32_t>>;
 
@@ -116,14 +89,12 @@ std::optional<ArrayOut<Tick>> find_earliest_times(
 }  // namespace
 
 void bind_timed_event_graph(nb::module_& module) {
-    module.def("critical_circuit", &find_critical_circuit, nb::arg("n_nodes"),
-               nb::arg("tail").noconvert(), nb::arg("head").noconvert(),
-               nb::arg("length").noconvert(), nb::arg("height").noconvert(),
-               nb::arg("time_limit").none(), circuit_doc);
-    module.def("earliest_times", &find_earliest_times, nb::arg("n_nodes"),
-               nb::arg("tail").noconvert(), nb::arg("head").noconvert(),
-               nb::arg("length").noconvert(), nb::arg("height").noconvert(), nb::arg("period"),
-               nb::arg("parts"), nb::arg("time_limit").none(), times_doc);
+    module.def("critical_circuit", &find_critical_circuit, nb::arg("n_nodes"), array("tail"),
+               array("head"), array("length"), array("height"), nb::arg("time_limit").none(),
+               circuit_doc);
+    module.def("earliest_times", &find_earliest_times, nb::arg("n_nodes"), array("tail"),
+               array("head"), array("length"), array("height"), nb::arg("period"), nb::arg("parts"),
+               nb::arg("time_limit").none(), times_doc);
 }
 
 }  // namespace rightofway::bind

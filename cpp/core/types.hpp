@@ -26,4 +26,15 @@ inline constexpr Tick never = Tick{1} << 62;
 // vertex for ever overlap without end; the cap keeps every sum of conflicts finite.
 inline constexpr Tick conflict_cap = Tick{1} << 32;
 
+// One vertex for the half-open interval [start, end) of time.
+struct Booking {
+    Tick start = never;
+    Tick end = never;
+
+    bool is_empty() const { return start >= end; }
+};
+
+// A booking that overlaps nothing, not even one without end.
+inline constexpr Booking no_booking{};
+
 }  // namespace rightofway

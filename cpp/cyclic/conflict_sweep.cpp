@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/prefetch.hpp"
+#include "cyclic/rolling_timetable.hpp"
 
 namespace rightofway {
 
@@ -22,7 +22,6 @@ void ConflictSweep::restart() {
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
         sweeps_[r].number = timetable_.start(r);
         find_next(r);
-        push_upcoming(r);
     }
 }
 
@@ -32,7 +31,6 @@ void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
         unsweep(robot, timetable_.end(robot));
     } else if (swept == old_end || swept == timetable_.end(robot)) {
         find_next(robot);
-        push_upcoming(robot);
     }
 }
 
@@ -54,7 +52,6 @@ void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
         booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
     }
     find_next(robot);
-    push_upcoming(robot);
 }
 
 void ConflictSweep::find_next(RobotId robot) {
@@ -64,10 +61,6 @@ void ConflictSweep::find_next(RobotId robot) {
     sweep.start = visit.number < timetable_.end(robot)
                       ? timetable_.enter(visit) - routes_.approach(visit)
                       : never;
-}
-
-void ConflictSweep::push_upcoming(RobotId robot) {
-    const Sweep& sweep = sweeps_[robot];
     if (sweep.start < never) {
         upcoming_.push_back({sweep.start, {robot, sweep.number}});
         std::push_heap(upcoming_.begin(), upcoming_.end(), std::greater<>());

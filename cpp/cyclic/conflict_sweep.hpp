@@ -62,7 +62,6 @@ class ConflictSweep {
     void find_next(RobotId robot);
     void unsweep(RobotId robot, std::int32_t from);
     void sweep(RobotId robot);
-    void push_upcoming(RobotId robot);
     void replace_first_upcoming(RobotId robot);
     void prefetch_next(RobotId robot) const;
     void drop_past(std::vector<Booked>& booked) const;

@@ -12,11 +12,6 @@ namespace {
 // A lap takes no longer than this, so that no sum of laps overflows.
 constexpr Tick longest_lap = Tick{1} << 40;
 
-template <class T>
-std::vector<T> copy(std::span<const T> source) {
-    return std::vector<T>(source.begin(), source.end());
-}
-
 void check_lengths(const LapArrays& arrays) {
     const auto& first = arrays.first_place;
     if (first.empty() || first.front() != 0) {
@@ -41,11 +36,11 @@ void check_lengths(const LapArrays& arrays) {
 }  // namespace
 
 CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
-    : first_place_(copy(arrays.first_place)),
-      vertex_(copy(arrays.vertex)),
-      least_(copy(arrays.least)),
-      approach_(copy(arrays.approach)),
-      first_least_(copy(arrays.first_least)),
+    : first_place_(arrays.first_place.begin(), arrays.first_place.end()),
+      vertex_(arrays.vertex.begin(), arrays.vertex.end()),
+      least_(arrays.least.begin(), arrays.least.end()),
+      approach_(arrays.approach.begin(), arrays.approach.end()),
+      first_least_(arrays.first_least.begin(), arrays.first_least.end()),
       headway_(arrays.headway) {
     check_lengths(arrays);
     n_vertices_ = vertex_.empty() ? 0 : *std::max_element(vertex_.begin(), vertex_.end()) + 1;
@@ -101,6 +96,39 @@ std::int32_t CyclicRoutes::n_visits_in(CyclicVisit visit, Tick ticks) const {
     const Tick* end = within + length(r) + 1;
     const auto rest = std::lower_bound(within, end, until % within[length(r)]) - within;
     return static_cast<std::int32_t>(until / within[length(r)] * length(r) + rest) - place;
+}
+
+VisitTimes::VisitTimes(const CyclicRoutes& routes) : routes_(routes), lines_(routes.n_robots()) {
+    for (RobotId r = 0; r < routes.n_robots(); ++r) {
+        add(r, 0);
+    }
+}
+
+Tick VisitTimes::enter(CyclicVisit visit) const {
+    const Line& line = lines_[visit.robot];
+    const auto next = std::upper_bound(line.late.begin(), line.late.end(), visit.number);
+    const Tick waited = next == line.late.begin() ? 0 : line.waited[next - line.late.begin() - 1];
+    return routes_.unimpeded_enter(visit) + waited;
+}
+
+void VisitTimes::add(RobotId robot, Tick enter) {
+    Line& line = lines_[robot];
+    const CyclicVisit visit{robot, line.n_started++};
+    const Tick waited = enter - line.free;
+    if (waited > (line.waited.empty() ? 0 : line.waited.back())) {
+        line.late.push_back(visit.number);
+        line.waited.push_back(waited);
+    }
+    line.free += routes_.least(visit);
+}
+
+void VisitTimes::truncate(RobotId robot, std::int32_t n_started) {
+    Line& line = lines_[robot];
+    line.n_started = n_started;
+    line.free = routes_.unimpeded_enter({robot, n_started});
+    const auto kept = std::lower_bound(line.late.begin(), line.late.end(), n_started);
+    line.waited.resize(static_cast<std::size_t>(kept - line.late.begin()));
+    line.late.erase(kept, line.late.end());
 }
 
 }  // namespace rightofway

@@ -111,12 +111,6 @@ void RollingTimetable::link(CyclicVisit a, CyclicVisit b, DecisionId decision) {
     given_.push_back(a);
 }
 
-void RollingTimetable::unlink_latest(CyclicVisit a) {
-    const std::int32_t arc = node(a).rights;
-    node(a).rights = arcs_[arc].next;
-    free_arcs_.push_back(arc);
-}
-
 bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision) {
     cycle_.clear();
     cycle_decisions_.clear();
@@ -136,7 +130,11 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision
     const Tick delta = enter(source) + routes_.gap_before(b) - enter(b);
     if (delta > 0 && !spread(b, delta, source)) {
         explain(source);
-        explain_decisions();
+        for (std::size_t k = 1; k < cycle_.size(); ++k) {
+            if (cycle_[k - 1].robot != cycle_[k].robot) {
+                cycle_decisions_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].decision);
+            }
+        }
         forget_raises();
         return false;
     }
@@ -145,14 +143,6 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision
         accept();
     }
     return true;
-}
-
-void RollingTimetable::explain_decisions() {
-    for (std::size_t k = 1; k < cycle_.size(); ++k) {
-        if (cycle_[k - 1].robot != cycle_[k].robot) {
-            cycle_decisions_.push_back(arcs_[find(cycle_[k - 1].before(), cycle_[k])].decision);
-        }
-    }
 }
 
 // Applies the raises up to the source; later visits are raised now. None leads back.
@@ -233,7 +223,9 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
 
 void RollingTimetable::rollback(const Mark& mark) {
     while (given_.size() > mark.n_given) {
-        unlink_latest(given_.back());
+        std::int32_t& latest = node(given_.back()).rights;
+        free_arcs_.push_back(latest);
+        latest = arcs_[latest].next;
         given_.pop_back();
     }
     while (runs_.size() > mark.n_runs) {
@@ -280,10 +272,6 @@ void RollingTimetable::recompute(std::span<const CyclicRight> rights) {
     }
     runs_.clear();
     changed_.resize(n_changed);
-    note_changes();
-}
-
-void RollingTimetable::note_changes() {
     for (RobotId r = 0; r < routes_.n_robots(); ++r) {
         const Line& line = lines_[r];
         for (std::int32_t k = line.frozen; k <= line.end; ++k) {

@@ -15,12 +15,18 @@
 #include <span>
 #include <vector>
 
-#include "core/prefetch.hpp"
 #include "core/types.hpp"
 #include "cyclic/cyclic_routes.hpp"
 #include "precedence/raise_search.hpp"
 
 namespace rightofway {
+
+// Asks for memory that is soon needed. Nothing but the time it takes depends on it.
+inline void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__) || defined(__clang__)
+    __builtin_prefetch(address);
+#endif
+}
 
 // The decision for which a right of way was given; later decisions have larger numbers.
 using DecisionId = std::int64_t;
@@ -132,10 +138,8 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     }
     std::int32_t find(CyclicVisit a, CyclicVisit b) const;
     void link(CyclicVisit a, CyclicVisit b, DecisionId decision);
-    void unlink_latest(CyclicVisit a);
     void forget_rights(Line& line, std::int32_t below);
     void run_freely(RobotId robot, std::int32_t from);
-    void note_changes();
     Tick& raise(CyclicVisit visit) { return trial(visit).raise; }
     CyclicVisit& cause(CyclicVisit visit) { return trial(visit).cause; }
     template <class Use>
@@ -147,7 +151,6 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
             use(arcs_[k].second, routes_.gap_before(arcs_[k].second));
         }
     }
-    void explain_decisions();
     void accept();
     void push(Tick delta, CyclicVisit visit);
     void run_on();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "distances/distance_view.hpp"
+#include "distances/distance_tables.hpp"
 
 namespace rightofway {
 namespace {

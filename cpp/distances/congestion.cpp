@@ -6,7 +6,6 @@
 #include "core/reject.hpp"
 
 namespace rightofway {
-namespace {}  // namespace
 
 Congestion::Congestion(const Problem& problem, std::int64_t shares,
                        std::span<const std::int64_t> station)

@@ -10,7 +10,6 @@
 
 #include "core/graph.hpp"
 #include "core/reject.hpp"
-#include "distances/distance_view.hpp"
 
 namespace rightofway {
 namespace {
@@ -72,10 +71,18 @@ std::vector<std::int32_t> DistanceTables::to(VertexId target,
     check_request(target, edge_ticks);
     const bool uniform = std::adjacent_find(edge_ticks.begin(), edge_ticks.end(),
                                             std::not_equal_to<>{}) == edge_ticks.end();
-    if (uniform) {
-        return breadth_first(target, edge_ticks.empty() ? 1 : edge_ticks.front());
+    std::vector<std::uint16_t> counts;
+    if (!uniform || !steps_to(target, counts)) {
+        return dijkstra(target, edge_ticks);
     }
-    return dijkstra(target, edge_ticks);
+    const Tick ticks = edge_ticks.empty() ? 1 : edge_ticks.front();
+    std::vector<std::int32_t> distance(counts.size(), unreached);
+    for (VertexId v = 0; v < n_vertices(); ++v) {
+        if (counts[v] != DistanceView::no_way) {
+            distance[v] = narrow(ticks * counts[v], v, target);
+        }
+    }
+    return distance;
 }
 
 bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& counts) const {
@@ -100,25 +107,6 @@ bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& count
         }
     }
     return true;
-}
-
-std::vector<std::int32_t> DistanceTables::breadth_first(VertexId target, std::int32_t ticks) const {
-    std::vector<std::int32_t> distance(n_vertices(), unreached);
-    std::vector<VertexId> queue;
-    queue.reserve(distance.size());
-    distance[target] = 0;
-    queue.push_back(target);
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-        const VertexId v = queue[head];
-        for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
-            const VertexId from = source_[k];
-            if (distance[from] == unreached) {
-                distance[from] = narrow(Tick{distance[v]} + ticks, from, target);
-                queue.push_back(from);
-            }
-        }
-    }
-    return distance;
 }
 
 std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,

@@ -14,6 +14,34 @@
 
 namespace rightofway {
 
+// How far it is from everywhere to one vertex, read from a table that belongs to somebody else.
+// Where all edges are equally long, one table of edge counts serves robots of any speed.
+class DistanceView {
+  public:
+    static constexpr std::uint16_t no_way = UINT16_MAX;
+
+    DistanceView() = default;
+    // `no_way` marks where no way leads on.
+    DistanceView(const std::uint16_t* counts, Tick ticks) : narrow_(counts), scale_(ticks) {}
+    // -1 marks where no way leads on.
+    DistanceView(const std::int32_t* counts, Tick ticks) : wide_(counts), scale_(ticks) {}
+
+    // Ticks to the target, -1 where no way leads there.
+    Tick from(VertexId vertex) const {
+        if (narrow_ != nullptr) {
+            const std::uint16_t count = narrow_[vertex];
+            return count == no_way ? -1 : scale_ * count;
+        }
+        const std::int32_t count = wide_[vertex];
+        return count < 0 ? -1 : scale_ * count;
+    }
+
+  private:
+    const std::uint16_t* narrow_ = nullptr;
+    const std::int32_t* wide_ = nullptr;
+    Tick scale_ = 1;
+};
+
 class DistanceTables {
   public:
     // The edges that leave vertex v are indptr[v] .. indptr[v + 1] - 1; edge e ends at indices[e].
@@ -21,7 +49,6 @@ class DistanceTables {
     DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
 
     VertexId n_vertices() const { return static_cast<VertexId>(arriving_.size() - 1); }
-    EdgeId n_edges() const { return static_cast<EdgeId>(edge_.size()); }
 
     // The least ticks from each vertex to the target, -1 where no way leads there.
     // Throws std::invalid_argument on a bad target or an edge that takes no time, and
@@ -35,7 +62,6 @@ class DistanceTables {
   private:
     void reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
     void check_request(VertexId target, std::span<const std::int32_t> edge_ticks) const;
-    std::vector<std::int32_t> breadth_first(VertexId target, std::int32_t ticks) const;
     std::vector<std::int32_t> dijkstra(VertexId target,
                                        std::span<const std::int32_t> edge_ticks) const;
 

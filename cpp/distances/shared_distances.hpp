@@ -18,7 +18,6 @@
 
 #include "distances/alt_distance.hpp"
 #include "distances/distance_tables.hpp"
-#include "distances/distance_view.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {

@@ -5,10 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "distances/distance_view.hpp"
+#include "distances/distance_tables.hpp"
 #include "distances/shared_distances.hpp"
 #include "problem/problem.hpp"
-#include "problem/tracks.hpp"
 
 namespace rightofway {
 

@@ -7,11 +7,6 @@
 namespace rightofway {
 namespace {
 
-template <class T>
-std::vector<T> copy(std::span<const T> values) {
-    return {values.begin(), values.end()};
-}
-
 // A sum of this many ticks for each of 2^31 visits stays below `never`.
 constexpr Tick longest = Tick{1} << 31;
 
@@ -26,13 +21,13 @@ void check_ticks(const std::string& name, const std::vector<Tick>& ticks, Tick m
 }  // namespace
 
 ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
-    : first_visit_(copy(arrays.first_visit)),
-      vertex_(copy(arrays.vertex)),
-      planned_(copy(arrays.planned)),
-      dwell_(copy(arrays.dwell)),
-      drive_(copy(arrays.drive)),
-      before_(copy(arrays.before)),
-      since_(copy(arrays.since)),
+    : first_visit_(arrays.first_visit.begin(), arrays.first_visit.end()),
+      vertex_(arrays.vertex.begin(), arrays.vertex.end()),
+      planned_(arrays.planned.begin(), arrays.planned.end()),
+      dwell_(arrays.dwell.begin(), arrays.dwell.end()),
+      drive_(arrays.drive.begin(), arrays.drive.end()),
+      before_(arrays.before.begin(), arrays.before.end()),
+      since_(arrays.since.begin(), arrays.since.end()),
       headway_(arrays.headway),
       books_ahead_(arrays.books_ahead) {
     require_length("planned", planned_.size(), vertex_.size());

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/random.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -32,13 +34,7 @@ constexpr std::uint64_t power(std::uint64_t factor, Tick exponent) {
     return result;
 }
 
-// Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
-constexpr std::uint64_t mix(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-}
+std::uint64_t mix(std::uint64_t x) { return Random(x).next(); }
 
 }  // namespace
 

@@ -212,21 +212,16 @@ void Lacam::keep_snapshot(std::int32_t node) {
     }
 }
 
-std::vector<std::int32_t> Lacam::path_to(std::int32_t node) const {
-    std::vector<std::int32_t> path;
-    for (; node != none; node = nodes_[node].parent) {
-        path.push_back(node);
-    }
-    std::reverse(path.begin(), path.end());
-    return path;
-}
-
 Tracks Lacam::tracks() const {
     Tracks tracks;
     if (goal_ == none) {
         return tracks;
     }
-    const std::vector<std::int32_t> path = path_to(goal_);
+    std::vector<std::int32_t> path;
+    for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
+        path.push_back(node);
+    }
+    std::reverse(path.begin(), path.end());
     const auto for_each_decision = [&](auto&& use) {
         for (const std::int32_t step : path) {
             for (std::size_t k = nodes_[step].first_decision; k < nodes_[step].end_decision; ++k) {

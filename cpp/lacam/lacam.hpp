@@ -2,13 +2,13 @@
 //
 // Depth-first search over the states of the fleet at the instants at which somebody has finished
 // something. Each state asks for one successor at a time, and only when asked again is told a
-// little more of where which robot has to go, so a greedy choice (EventPibt) mostly does. A state
+// little more of where which robot has to go, so a greedy choice (Pibt) mostly does. A state
 // is kept as the decisions that lead to it, and made again by taking them again, from a snapshot
 // on the way.
 //
-// With one speed, no work and no booking ahead this is LaCAM (see lacam.hpp). States are told
-// apart by fingerprints of 64 bits, and robots at work cannot be pushed: to prove that there is no
-// plan, ask Lacam.
+// With one speed, no work and no booking ahead this is LaCAM (see untimed_lacam.hpp). States are
+// told apart by fingerprints of 64 bits, and robots at work cannot be pushed: to prove that there
+// is no plan, ask UntimedLacam.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,6 @@
 #include "lacam/fleet_state.hpp"
 #include "lacam/pibt.hpp"
 #include "problem/problem.hpp"
-#include "problem/tracks.hpp"
 
 namespace rightofway {
 
@@ -78,7 +77,6 @@ class Lacam {
     void take_again(std::int32_t node);
     const Snapshot* snapshot_of(std::int32_t node) const;
     void keep_snapshot(std::int32_t node);
-    std::vector<std::int32_t> path_to(std::int32_t node) const;
 
     const Problem& problem_;
     Pibt pibt_;

@@ -8,7 +8,8 @@
 // the front of each queue to its end; where robots may rotate, a circle arrives at one instant,
 // that of its slowest.
 //
-// With one speed, no work and no booking ahead this is PIBT (see pibt.hpp, for references too).
+// With one speed, no work and no booking ahead this is PIBT (see untimed_pibt.hpp, for references
+// too).
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 //
 // Depth-first search over configurations of the whole fleet. Each configuration asks for one
 // successor at a time, and only when asked again is told a little more of where which robot has to
-// go; so a greedy step for all robots (Pibt) mostly does, and yet in the end every possible step is
-// tried. The search is complete: it finds a sequence, or proves that there is none.
+// go; so a greedy step for all robots (UntimedPibt) mostly does, and yet in the end every possible
+// step is tried. The search is complete: it finds a sequence, or proves that there is none.
 //
 // Okumura, "LaCAM: Search-based algorithm for quick multi-agent pathfinding", AAAI 2023. Here a
 // configuration also says how far each robot is on its trip, so stops and the way home are part
@@ -17,7 +17,6 @@
 
 #include "core/search_end.hpp"
 #include "lacam/untimed_pibt.hpp"
-#include "lacam/untimed_state.hpp"
 
 namespace rightofway {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "distances/trip.hpp"
-#include "precedence/retiming.hpp"
+#include "precedence/timetable.hpp"
 
 namespace rightofway {
 

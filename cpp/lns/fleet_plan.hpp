@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "problem/problem.hpp"
-#include "problem/tracks.hpp"
 #include "search/booking_table.hpp"
 
 namespace rightofway {

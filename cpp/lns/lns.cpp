@@ -97,7 +97,7 @@ void Lns::attempt(Worker& worker, Task& task, Random& random, const StopConditio
 }
 
 // Plans the robots of a task anew, notes the tracks in the task, and leaves the plan as it was.
-bool Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
+void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     const std::size_t n = task.robots.size();
     if (task.tracks.size() < n) {
         task.tracks.resize(n);
@@ -128,7 +128,6 @@ bool Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
         worker.plan.exchange(task.robots[k], task.tracks[k]);
     }
     task.gain = is_found ? slack : -1;
-    return is_found;
 }
 
 // Takes over, in their order, the results that still fit.
@@ -140,7 +139,8 @@ void Lns::settle(std::size_t n) {
         const bool is_adopted = task.gain >= 0 && adopt(task, is_changed);
         is_changed |= is_adopted;
         n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + 1;
-        learn(task, is_adopted);
+        neighbourhood_.learn(task.neighbourhood, is_adopted ? static_cast<double>(task.gain) : 0.0,
+                             static_cast<double>(task.effort));
         ++n_tasks_;
     }
     neighbourhood_.settle();
@@ -175,12 +175,6 @@ bool Lns::adopt(Task& task, bool may_clash) {
         is_touched_[static_cast<std::size_t>(task.robots[k])] = 1;
     }
     return true;
-}
-
-void Lns::learn(const Task& task, bool is_adopted) {
-    const double gain = is_adopted ? static_cast<double>(task.gain) : 0.0;
-    const auto effort = static_cast<double>(task.effort);
-    neighbourhood_.learn(task.neighbourhood, gain, effort);
 }
 
 }  // namespace rightofway

@@ -58,10 +58,9 @@ class Lns {
 
     void round(std::size_t n, const StopCondition& is_over);
     void attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over);
-    bool replan(Worker& worker, Task& task, const StopCondition& is_over);
+    void replan(Worker& worker, Task& task, const StopCondition& is_over);
     void settle(std::size_t n);
     bool adopt(Task& task, bool may_clash);
-    void learn(const Task& task, bool is_adopted);
 
     FleetPlan& plan_;
     std::span<const Tick> alone_;

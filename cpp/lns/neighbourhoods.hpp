@@ -49,7 +49,6 @@ class Neighbourhoods {
     std::vector<std::uint8_t> is_chosen_;
     std::vector<std::int32_t> stage_of_;
     std::vector<VertexId> ring_;
-    std::vector<VertexId> seen_;
 };
 
 }  // namespace rightofway

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,7 @@
 #include "core/task_crew.hpp"
 #include "distances/shared_distances.hpp"
 #include "lns/fleet_plan.hpp"
+#include "lns/lns.hpp"
 
 namespace rightofway {
 
@@ -74,6 +76,32 @@ class Population {
     std::int64_t n_tasks_ = 0;
     std::int64_t n_idle_;
     std::int64_t n_expanded_ = 0;
+};
+
+// Improvement of a plan: of that one alone until it is stuck, then of a population.
+class AnytimeLns {
+  public:
+    // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
+    AnytimeLns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
+               std::uint64_t seed, std::size_t n_threads);
+
+    // As `Lns::run`.
+    void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
+             const StopCondition& is_due);
+
+    std::int64_t n_tasks() const;
+    std::int64_t n_idle() const;  // since the last gain
+    std::int64_t n_expanded() const;
+
+  private:
+    SharedDistances& distances_;
+    FleetPlan& plan_;
+    std::span<const Tick> alone_;
+    std::uint64_t seed_;
+    std::size_t n_threads_;
+    std::int64_t idle_until_stuck_;
+    Lns one_;
+    std::optional<Population> many_;
 };
 
 }  // namespace rightofway

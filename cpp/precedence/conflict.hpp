@@ -9,7 +9,6 @@
 #include <compare>
 #include <cstdint>
 
-#include "core/booking.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {

@@ -95,22 +95,16 @@ bool PrecedenceGraph::keep_order(std::span<const Tick> when) {
         index_.move(x, timetable_);
     }
     conflicts_ = 0;
+    for (VisitId x = 0; x < n_visits(); ++x) {
+        conflicts_ += index_.weight(x);
+    }
     for (RobotId r = 0; r < n_robots(); ++r) {
         earliest_.forget(r);
-        conflicts_ += conflicts_of_all(r);
     }
     conflicts_ /= 2;  // each has two robots
     n_kept_ = checkpoint();
     conflicts_before_.assign(timetable_.n_changes(), conflicts_);
     return true;
-}
-
-Tick PrecedenceGraph::conflicts_of_all(RobotId robot) const {
-    Tick total = 0;
-    for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
-        total += index_.weight(x);
-    }
-    return total;
 }
 
 bool PrecedenceGraph::take_back(VisitId a, VisitId b) {
@@ -153,13 +147,10 @@ void PrecedenceGraph::for_each_touched(Use&& use) const {
 }
 
 void PrecedenceGraph::count_change() {
-    if (conflicts_before_.size() < timetable_.n_changes()) {  // not what was so already
-        conflicts_before_.push_back(conflicts_);
-        recount();
+    if (conflicts_before_.size() == timetable_.n_changes()) {
+        return;  // it was so already
     }
-}
-
-void PrecedenceGraph::recount() {
+    conflicts_before_.push_back(conflicts_);
     for_each_touched([this](VisitId x) {
         conflicts_ -= index_.remove(x);
         earliest_.forget(routes_.robot(x));

@@ -75,11 +75,9 @@ class PrecedenceGraph {
 
   private:
     void check_pair(VisitId a, VisitId b) const;
-    Tick conflicts_of_all(RobotId robot) const;
     template <class Use>
     void for_each_touched(Use&& use) const;
     void count_change();
-    void recount();
 
     Routes routes_;
     Timetable timetable_;

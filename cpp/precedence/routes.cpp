@@ -47,21 +47,16 @@ void check_lengths(const RouteArrays& arrays) {
     }
 }
 
-template <class T>
-std::vector<T> copy(std::span<const T> source) {
-    return std::vector<T>(source.begin(), source.end());
-}
-
 }  // namespace
 
 Routes::Routes(const RouteArrays& arrays)
-    : first_visit_(copy(arrays.first_visit)),
-      vertex_(copy(arrays.vertex)),
-      least_(copy(arrays.least)),
-      approach_(copy(arrays.approach)),
+    : first_visit_(arrays.first_visit.begin(), arrays.first_visit.end()),
+      vertex_(arrays.vertex.begin(), arrays.vertex.end()),
+      least_(arrays.least.begin(), arrays.least.end()),
+      approach_(arrays.approach.begin(), arrays.approach.end()),
       headway_(arrays.headway),
       swaps_conflict_(arrays.swaps_conflict),
-      active_(copy(arrays.active)) {
+      active_(arrays.active.begin(), arrays.active.end()) {
     check_lengths(arrays);
     number_robots();
     for (RobotId r = 0; r < n_robots(); ++r) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <vector>
+
+#include "precedence/routes.hpp"
 
 namespace rightofway {
 
@@ -14,10 +17,6 @@ Timetable::Timetable(const Routes& routes)
       raise_(routes.n_visits(), 0),
       cause_(routes.n_visits(), none),
       is_in_instant_(routes.n_visits(), 0) {
-    run_freely();
-}
-
-void Timetable::run_freely() {
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
     }
@@ -113,21 +112,14 @@ bool Timetable::sweep(std::span<const Tick> when) {
             }
             has_changed = false;
             for (std::size_t k = first; k < end; ++k) {
-                has_changed = raise_to_held(in_order[k]) || has_changed;
+                const VisitId x = in_order[k];
+                const Tick held = routes_.is_first(x) ? 0 : held_to(x);
+                has_changed = has_changed || held > enter_[x];
+                enter_[x] = std::max(enter_[x], held);
             }
         }
     }
     return true;
-}
-
-bool Timetable::raise_to_held(VisitId visit) {
-    if (routes_.is_first(visit)) {
-        return false;
-    }
-    const Tick held = held_to(visit);
-    const bool is_raised = held > enter_[visit];
-    enter_[visit] = std::max(enter_[visit], held);
-    return is_raised;
 }
 
 bool Timetable::take_back(VisitId a, VisitId b) {
@@ -165,7 +157,11 @@ void Timetable::lower(VisitId b) {
             is_in_instant_[x] = 0;
             if (raise_[x] < 0) {
                 raised_.push_back(x);
-                let_followers_fall(x);
+                for_each_arc(x, [this, x](VisitId next, Tick length) {
+                    if (length > 0 && enter_[next] == enter_[x] + length) {
+                        let_fall(next);  // it was held by x, and comes later
+                    }
+                });
             }
         }
     }
@@ -231,15 +227,6 @@ Tick Timetable::held_to(VisitId visit) const {
         }
     });
     return held;
-}
-
-// Those that a visit held at its old time, and that come later.
-void Timetable::let_followers_fall(VisitId visit) {
-    for_each_arc(visit, [this, visit](VisitId next, Tick length) {
-        if (length > 0 && enter_[next] == enter_[visit] + length) {
-            let_fall(next);
-        }
-    });
 }
 
 void Timetable::accept() {
@@ -311,6 +298,32 @@ void Timetable::restore_enters(std::size_t trail_length) {
     }
     for (const VisitId x : raised_) {
         raise_[x] = 0;
+    }
+}
+
+void retime(const Problem& problem, Tracks& tracks) {
+    std::vector<Tick> least(tracks.vertex.size(), 1);
+    std::vector<Tick> approach(tracks.vertex.size(), 0);
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        const Itinerary itinerary = problem.itinerary(r);
+        std::size_t stage = 0;
+        for (VisitId x = tracks.first_visit[r]; x + 1 < tracks.first_visit[r + 1]; ++x) {
+            const Tick drive = problem.drive(r, tracks.vertex[x], tracks.vertex[x + 1]);
+            const Tick spare = tracks.enter[x + 1] - tracks.enter[x] - drive;
+            least[x] = drive;
+            for (const std::size_t end = itinerary.stage_after(stage, tracks.vertex[x], spare);
+                 stage < end; ++stage) {
+                least[x] += itinerary.stage_work[stage] + itinerary.stage_turn[stage];
+            }
+            approach[x + 1] = problem.rules().books_ahead ? drive : 0;
+        }
+    }
+    const std::vector<std::uint8_t> active(static_cast<std::size_t>(problem.n_robots()), 1);
+    const Routes routes({tracks.first_visit, tracks.vertex, least, approach,
+                         problem.rules().headway, false, active});
+    Timetable timetable(routes);
+    if (timetable.keep_order(tracks.enter)) {
+        tracks.enter.assign(timetable.enters().begin(), timetable.enters().end());
     }
 }
 

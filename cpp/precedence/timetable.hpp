@@ -20,6 +20,7 @@
 #include "precedence/raise_search.hpp"
 #include "precedence/rights_of_way.hpp"
 #include "precedence/routes.hpp"
+#include "problem/problem.hpp"
 
 namespace rightofway {
 
@@ -89,7 +90,6 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     bool closes_swap(VisitId a, VisitId b) const;
     bool give_in_order(std::span<const Tick> when);
     bool sweep(std::span<const Tick> when);
-    bool raise_to_held(VisitId visit);
     Tick& raise(VisitId visit) { return raise_[visit]; }
     VisitId& cause(VisitId visit) { return cause_[visit]; }
     template <class Use>
@@ -107,10 +107,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     void gather_instant();
     void lower_instant();
     void let_fall(VisitId visit);
-    void let_followers_fall(VisitId visit);
     Tick held_to(VisitId visit) const;
     void accept();
-    void run_freely();
     void restore_enters(std::size_t trail_length);
 
     const Routes& routes_;
@@ -126,5 +124,9 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::vector<VisitId> instant_;  // those that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;
 };
+
+// Gives tracks the earliest times along their routes that keep the order of visits at every vertex,
+// by one sweep over their visits. The tracks keep the rules; no visit becomes later.
+void retime(const Problem& problem, Tracks& tracks);
 
 }  // namespace rightofway

@@ -32,11 +32,6 @@ void require_durations(const char* name, std::span<const Tick> ticks) {
 
 Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules)
     : arrays_(arrays), roads_{{arrays.indptr, arrays.heads}, arrays.length_class}, rules_(rules) {
-    check();
-    check_robots();
-}
-
-void Problem::check() const {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
     }
@@ -51,6 +46,7 @@ void Problem::check() const {
             reject_entry("paces", k, arrays_.paces[k], "is not positive");
         }
     }
+    check_robots();
 }
 
 void Problem::check_robots() const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/graph.hpp"
 #include "core/types.hpp"
@@ -121,12 +122,25 @@ class Problem {
     bool may_rotate() const { return rules_.rotations && may_follow(); }
 
   private:
-    void check() const;
     void check_robots() const;
 
     ProblemArrays arrays_;
     Roads roads_;
     BookingRules rules_;
+};
+
+// One visit of a track. The next visit's `enter` is when it ends.
+struct Visit {
+    Tick enter;
+    VertexId vertex;
+    std::int32_t drive;  // ticks of the edge driven in; 0 for the first visit
+};
+
+// The visits of all robots, one robot behind the other.
+struct Tracks {
+    std::vector<VisitId> first_visit;  // robot r owns first_visit[r] .. [r + 1] - 1
+    std::vector<VertexId> vertex;
+    std::vector<Tick> enter;
 };
 
 }  // namespace rightofway

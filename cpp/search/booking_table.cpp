@@ -50,10 +50,6 @@ void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
     insert(vertex, time, robot);
 }
 
-bool BookingTable::is_free(VertexId vertex, const Booking& time, RobotId robot) const {
-    return overlapping(at(vertex), time, robot) == nullptr;
-}
-
 void BookingTable::insert(VertexId vertex, const Booking& time, RobotId robot) {
     Row& row = rows_[static_cast<std::size_t>(vertex)];
     if (row.size_class < 0 || row.size == (std::int32_t{1} << row.size_class)) {

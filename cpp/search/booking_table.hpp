@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "core/booking.hpp"
 #include "core/types.hpp"
 
 namespace rightofway {
@@ -43,9 +42,6 @@ class BookingTable {
 
     // Takes back the booking of a robot that starts at a tick; nothing happens if there is none.
     void erase(VertexId vertex, Tick start, RobotId robot);
-
-    // Whether nobody but this robot has booked any of that time.
-    bool is_free(VertexId vertex, const Booking& time, RobotId robot) const;
 
     // How many bookings start by then.
     static std::int32_t started(std::span<const BookedBy> bookings, Tick time) {

@@ -42,10 +42,7 @@ void SafeIntervalSearch::begin(const SearchRequest& errand) {
 // no turning; before, each stage takes its work and turning and then the way to the next one.
 void SafeIntervalSearch::measure_stages(const Trip& trip) {
     const std::size_t n = trip.n_stages();
-    std::size_t first = n - 1;
-    while (first > 0 && trip.stage_vertex[first - 1] == trip.stage_vertex[n - 1]) {
-        --first;
-    }
+    const std::size_t first = trip.first_stage_at_end();
     first_last_ = static_cast<std::int32_t>(first);
     to_go_.assign(n + 1, 0);
     for (std::size_t k = n; k-- > 0;) {

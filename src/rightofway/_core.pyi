@@ -1,6 +1,9 @@
 """
 The native kernels: arrays and integers in, arrays and integers out.
 
+ValueError names the array, the index and the value that do not fit. ``time_limit`` [s]
+stops a search; long calls release the GIL and obey Ctrl-C. All are deterministic.
+
 ``CONFLICT_CAP`` is the most that one conflict counts, also if it never ends;
 ``NEVER`` is the end of a booking that never ends. [ticks]
 """
@@ -23,25 +26,7 @@ class PeriodicBookings:
     """
     Bookings of vertices with a period or none, and when one more robot can make given visits.
 
-    Parameters
-    ----------
-    n_vertices : int
-        The number of vertices, V.
-    period : int or None
-        All bookings come again after this many ticks; None for a line of time. [ticks]
-    headway : int
-        How long a vertex stays booked after it was left. [ticks]
-    books_ahead : bool
-        Whether a robot books a vertex from when it starts to drive there.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range.
-
-    References
-    ----------
-    Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environments*, ICRA 2011.
+    All bookings come again after ``period`` ticks; None for a line of time.
     """
 
     def __init__(self, n_vertices: int, period: int | None, headway: int, books_ahead: bool) -> None: ...
@@ -54,18 +39,15 @@ class PeriodicBookings:
 
     def add(self, robot: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], leave: int | None = None) -> bool:
         """
-        Book consecutive visits of a robot.
+        Book consecutive visits of a robot, with a period all those of one period.
 
         Parameters
         ----------
         robot : int
             The robot.
-        vertex : int32[N]
-            The vertex of each visit; with a period, all visits of one period.
-        dwell : int64[N]
-            The least duration of each, without the drive that follows. [ticks]
-        drive : int64[N]
-            The drive into each. [ticks]
+        vertex, dwell, drive : int32[N], int64[N], int64[N]
+            Of each visit the vertex, the least duration without the drive that follows, and the drive into
+            it. [ticks]
         enter : int64[N]
             When each begins, rising; with a period, all within one. [ticks]
         leave : int or None
@@ -74,17 +56,8 @@ class PeriodicBookings:
         Returns
         -------
         bool
-            With a period, whether no booking overlaps another robot's; otherwise nothing is booked.
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together; with a period also if the robot has bookings already. Then
-            nothing is booked.
-
-        Notes
-        -----
-        Without a period a robot may book more than once, and overlaps are not checked.
+            With a period, whether no booking overlaps another robot's; otherwise nothing is booked. Without
+            one, overlaps are not checked.
         """
 
     def remove(self, robot: int) -> None:
@@ -92,83 +65,24 @@ class PeriodicBookings:
 
     def users(self, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int = -4611686018427387904, ends: int = 4611686018427387904) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the robots whose bookings of any of these vertices overlap an interval.
+        Return the robots that have booked any of these vertices in ``[begins, ends)``, rising, int32[K].
 
-        Parameters
-        ----------
-        vertices : int32[N]
-            The vertices.
-        begins, ends : int
-            The half-open interval. With a period, bookings count in the period that they start in. [ticks]
-
-        Returns
-        -------
-        int32[K]
-            Each robot once, rising.
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex.
+        With a period, bookings count in the period that they start in.
         """
 
     def search(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], phase: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
-        Find when a robot can repeat its visits among the bookings of others.
+        Return when a robot can repeat its visits among the bookings of others, int64[N], or None.
 
-        Parameters
-        ----------
-        vertex, dwell, drive : int32[N], int64[N], int64[N]
-            As for ``add``; needs a period.
-        phase : int
-            The tick from which on starts are tried. [ticks]
-        time_limit : float or None
-            The search stops after this many seconds.
-
-        Returns
-        -------
-        int64[N] or None
-            When each visit begins; None if no way was found. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together, or there is no period.
-
-        Notes
-        -----
-        Complete for these visits, unless no other robot visits the first vertex: then only this phase is
-        tried. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        Visits as for ``add``; needs a period; starts are tried from tick ``phase`` on. Complete for these
+        visits, unless no other robot visits the first vertex: then only this phase is tried.
         """
 
     def connect(self, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begins: int, until: int, leave: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
-        Find the earliest ticks for visits between two given ones.
+        Return the earliest ticks for visits between two given ones, int64[N], or None.
 
-        Parameters
-        ----------
-        vertex, dwell, drive : int32[N], int64[N], int64[N]
-            As for ``add``.
-        begins : int
-            When the first visit begins. [ticks]
-        until : int
-            By when the last visit begins. [ticks]
-        leave : int
-            When the last visit ends. [ticks]
-
-        Returns
-        -------
-        int64[N] or None
-            When each visit begins; None if that is impossible. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together.
-
-        Notes
-        -----
-        Complete for these visits; deterministic.
+        The first visit begins at tick ``begins``, the last one by ``until``, and ends at ``leave``.
         """
 
     def find_route(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: int, stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], phase: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]] | None:
@@ -193,84 +107,55 @@ class PeriodicBookings:
             For each stage, the least ticks from each vertex to its vertex; -1 where the robot must not go.
         phase : int
             The tick from which on starts are tried. [ticks]
-        time_limit : float or None
-            The search stops after this many seconds.
 
         Returns
         -------
         tuple of (int32[N], int64[N], int64[N], int64[N]) or None
-            Vertices, dwells, drives and enters of all visits; None if no route was found. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together, a stage cannot be reached, or there is no period.
-
-        Notes
-        -----
-        Complete among all routes, unless no other robot visits the home: then only this phase is tried. No
-        trip from this phase is home again earlier. Deterministic. The GIL is released; Ctrl-C is obeyed.
+            Vertices, dwells, drives and enters of all visits; None if no route was found. Complete among
+            all routes, with the exception of ``search``. No trip from this phase is home again earlier.
         """
 
 class DistanceTables:
     """
-    Least ticks from every vertex to one target.
+    Least ticks from every vertex to one target, on a graph in compressed rows.
 
-    A directed graph in compressed rows: the edges that leave vertex ``v`` are
-    ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at ``indices[e]``. The graph is copied
-    (reversed) once; tables for any target and any speed are made from it.
-
-    Parameters
-    ----------
-    indptr : int32[V + 1]
-        Where each vertex's edges begin.
-    indices : int32[E]
-        The vertex at which each edge ends.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not describe a graph; names the array, the index and the value.
+    The edges that leave vertex ``v`` are ``indptr[v] .. indptr[v + 1] - 1``, and edge ``e`` ends at
+    ``indices[e]``. The graph is copied (reversed) once; several threads may ask one object at once.
     """
 
     def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
     def to(self, target: int, edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the least time from each vertex to one target.
+        Return the least time from each vertex to a target, -1 where no way leads there, int32[V].
 
-        Parameters
-        ----------
-        target : int
-            The vertex to go to.
-        edge_ticks : int32[E]
-            What each edge takes, above 0. [ticks]
-
-        Returns
-        -------
-        int32[V]
-            Least time from each vertex, following edges forward; -1 where no way leads there. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the target is no vertex, or an edge takes no time; names the index and the value.
-        OverflowError
-            If a least time does not fit int32.
-
-        Notes
-        -----
-        Exact and deterministic. Breadth-first search if all edges take the same time, Dijkstra's
-        algorithm otherwise. The GIL is released, and several threads may ask one object at once.
+        ``edge_ticks`` (int32[E], above 0) has what each edge takes. OverflowError if a least time does not
+        fit int32.
         """
 
-    @property
-    def n_vertices(self) -> int:
-        """The number of vertices, V."""
+class Congestion:
+    """
+    Cheapest paths that keep clear of other robots.
 
-    @property
-    def n_edges(self) -> int:
-        """The number of edges, E."""
+    To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
+    enter the vertex that it ends at (``station``, int64[V]), unless that is the target, and what every
+    robot costs that was added on the opposite edge.
+    """
+
+    def __init__(self, problem: Problem, shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def path(self, robot: int, start: int, target: int, to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the vertices of a cheapest path, both ends included, int32[n].
+
+        ``to_go`` has the least ticks from each vertex to the target, -1 where no way leads there. Of
+        several cheapest paths, the one that takes the first edge of a vertex that it can.
+        """
+
+    def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], oncoming: int) -> None:
+        """
+        Count one more robot on a path; to go against it costs ``oncoming`` [shares per tick].
+        """
 
 class CyclicSimulator:
     """
@@ -319,17 +204,7 @@ class CyclicSimulator:
 
     def advance(self, time_limit: float | None = None) -> int:
         """
-        Simulate until a state recurs, a deadlock, or time is over.
-
-        Parameters
-        ----------
-        time_limit : float or None
-            Stop after this many seconds; the next call continues.
-
-        Returns
-        -------
-        int
-            0 if time ran out, 1 if a state has recurred, 2 in a deadlock.
+        Simulate until a state recurs (returns 1), a deadlock (2), or time is over (0; may be continued).
         """
 
     def reset_states(self) -> None:
@@ -351,27 +226,14 @@ class CyclicSimulator:
 
     def waits(self, robot: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return the visits of a robot that had to wait.
-
-        Returns
-        -------
-        tuple of (int32[K], int64[K])
-            Their numbers, and how long the robot had waited by then in all. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If there is no such robot.
+        Return the numbers of the visits of a robot that had to wait, int32[K], and how long the robot had
+        waited by then in all, int64[K]. [ticks]
         """
 
     def deadlock(self) -> tuple[int, int, int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
         """
-        Return the conflict that cannot be resolved.
-
-        Returns
-        -------
-        tuple of (int, int, int, int, int32[K])
-            The two robots, the vertex, the tick, and the robots that would each wait for the next.
+        Return the conflict that cannot be resolved: the two robots, the vertex, the tick, and the robots
+        that would each wait for the next, int32[K].
         """
 
 def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))]] | None:
@@ -388,49 +250,22 @@ def critical_circuit(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(sh
         How long after its tail the head of each comes at least, not negative. [ticks]
     height : int32[M]
         How many periods later; may be negative.
-    time_limit : float or None
-        After so many seconds the search stops.
 
     Returns
     -------
     tuple of (int, int, int32[n]) or None
         Length and height of the largest ratio in lowest terms, and the arcs of a circuit that has it,
         in order; 0, 1 and no arcs if every circuit has length 0. Height 0 if the events of the
-        circuit wait for each other for ever. None if time ran out.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together, or all lengths times all heights is beyond 2^58.
-
-    Notes
-    -----
-    Exact: integers only. Deterministic. The GIL is released; Ctrl-C is obeyed.
+        circuit wait for each other for ever. None if time ran out. ValueError if all lengths times all
+        heights is beyond 2^58.
     """
 
 def earliest_times(n_nodes: int, tail: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], head: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], height: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], period: int, parts: int, time_limit: float | None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
     """
-    Return the least times that keep all arcs, period after period.
+    Return the least times that keep all arcs every ``period / parts`` ticks, int64[N].
 
-    Parameters
-    ----------
-    n_nodes, tail, head, length, height
-        As for ``critical_circuit``.
-    period, parts : int
-        All comes again every ``period / parts`` ticks.
-    time_limit : float or None
-        After so many seconds the search stops.
-
-    Returns
-    -------
-    int64[N] or None
-        When each event comes, at least 0. [1 / parts ticks] None if the period is less than the cycle
-        time, or time ran out.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together, or times may become too large.
+    Arcs as for ``critical_circuit``. At least 0. [1 / parts ticks] None if the period is less than the
+    cycle time, or time ran out.
     """
 
 def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
@@ -447,19 +282,37 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
         For ties.
     most_effort : int
         When the search stops: a choice of a robot is a unit, and so is a decision that it takes again.
-    time_limit : float or None
-        After so many seconds the search stops.
 
     Returns
     -------
     tuple of (int, int32[R + 1], int32[N], int64[N])
         How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
         and where and when each visit begins.
+    """
 
-    Notes
-    -----
-    Deterministic for a seed as long as there is time, not optimal. A stage out of reach
-    is the only proof that there is no plan. The GIL is released; Ctrl-C is obeyed.
+def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
+    """
+    Find steps for the whole fleet that bring every robot through its stages.
+
+    Time plays no part: in a step each robot stays or moves to a neighbour, no two are at one vertex and
+    no two change places.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do.
+    ends_anywhere : uint8[R], or empty
+        Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
+    seed : int
+        For ties.
+    most_steps : int or None
+        After about so many steps of the fleet the search stops.
+
+    Returns
+    -------
+    tuple of (int, int32[T, R])
+        How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
+        after each step, the start included.
     """
 
 class Problem:
@@ -515,122 +368,51 @@ class FleetSearch:
     """
     The tracks of a whole fleet: finding first ones, and better ones.
 
-    Parameters
-    ----------
-    problem : Problem
-        What the fleet has to do.
-    seed : int
-        For all that is drawn.
-    n_threads : int
-        For `improve`; what it finds does not depend on it.
-
-    Notes
-    -----
-    Robots without a track are left where they are by `tracks`: an empty one. The GIL is released in all
-    long calls; Ctrl-C is obeyed, and leaves a plan as good as before.
+    The seed decides all that is drawn; what `improve` finds does not depend on ``n_threads``. Robots
+    without a track are left where they are by `tracks`: an empty one. Ctrl-C leaves a plan as good as
+    before.
     """
 
     def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     def alone(self, time_limit: float | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
-        Return the least completion of each robot without the others.
+        Return the least completion of each robot without the others, int64[R]. [ticks]
 
-        Parameters
-        ----------
-        time_limit : float or None
-            After so many seconds it gives up.
-
-        Returns
-        -------
-        int64[R] or None
-            Ticks; -1 for a robot that cannot get to a stage. None if it gave up.
+        -1 for a robot that cannot get to a stage; None if time ran out.
         """
 
     def start(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        Take over tracks.
+        Take over tracks: where each robot's visits begin, int32[R + 1], their vertices and enters.
 
-        Parameters
-        ----------
-        first_visit : int32[R + 1]
-            Robot ``r`` has visits ``first_visit[r] .. first_visit[r + 1] - 1``.
-        vertices, enter : int32[N], int64[N]
-            Where each visit is, and when it begins. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If they are no tracks of these trips, or overlap.
+        ValueError if they are no tracks of these trips, or overlap.
         """
 
     def prioritize(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None, with_net: float | None) -> bool:
         """
-        Give the robots tracks one after another.
+        Give the robots tracks one after another, in this order; return whether all have one now.
 
-        Parameters
-        ----------
-        order : int32[R]
-            Every robot once.
-        n_searches : int
-            After so many searches it gives up.
-        time_limit : float or None
-            After so many seconds as well.
-        with_net : float or None
-            After so many seconds instead, once there is a plan made in haste.
-
-        Returns
-        -------
-        bool
-            Whether every robot has a track now; if not, `go_on` may change that.
+        Gives up after ``n_searches`` or the time limit; after ``with_net`` seconds instead, once there is
+        a plan made in haste. `go_on` may change a False.
         """
 
     def go_on(self, n_searches: int, time_limit: float | None) -> bool:
-        """
-        Go on with giving the robots tracks one after another.
-
-        Parameters
-        ----------
-        n_searches : int
-            After so many searches since the beginning it gives up.
-        time_limit : float or None
-            After so many seconds as well.
-
-        Returns
-        -------
-        bool
-            Whether every robot has a track now; false as well where nothing was begun.
-        """
+        """Continue `prioritize`; ``n_searches`` counts since its beginning."""
 
     def improve(self, n_tasks: int, patience: int, time_limit: float | None, pause: float | None) -> int:
         """
-        Replace tracks by better ones, a few robots at a time.
+        Replace tracks by better ones, a few robots at a time; return how many times that was done.
 
         Every robot has a track. A plan that is stuck becomes one of several, which are crossed with each
-        other. Ends when nothing can be better.
-
-        Parameters
-        ----------
-        n_tasks : int
-            How many times some robots are planned anew.
-        patience : int
-            It ends after so many times in a row without a gain.
-        time_limit : float or None
-            After so many seconds it stops at once.
-        pause : float or None
-            After so many seconds it stops at the next point that does not depend on clocks.
-
-        Returns
-        -------
-        int
-            How many times that was done.
+        other. Ends when nothing can be better, after ``n_tasks``, after ``patience`` tasks in a row without
+        a gain, at once after the time limit, and after ``pause`` seconds at the next point that does not
+        depend on clocks.
         """
 
     def retime(self) -> None:
         """
-        Have all robots as early as the order of visits at every vertex allows.
-
-        Every robot has a track. `improve` begins anew after that.
+        Have all robots as early as the order of visits at every vertex allows; `improve` starts afresh.
         """
 
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
@@ -681,11 +463,6 @@ class ActionDependencyGraph:
         Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
     stoppage_tick, stoppage_ticks : int64[S]
         When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together; names the array, the index and the value.
     """
 
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], since: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, books_ahead: bool, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], delay_b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
@@ -694,19 +471,13 @@ class ActionDependencyGraph:
         """
         Run the plan many times by right of way, and by the clock.
 
-        Parameters
-        ----------
-        seed, first, count : int
-            Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
-        time_limit : float or None
-            No run begins after this many seconds.
+        Runs ``first`` to ``first + count - 1``; each depends on its number and the seed alone.
 
         Returns
         -------
-        completion : int64[K, R]
-            When each robot completes by right of way, ``NEVER`` if it does not. [ticks]
-        is_broken : uint8[K, R]
-            Not 0 where a robot stands still for ever.
+        completion, is_broken : int64[K, R], uint8[K, R]
+            When each robot completes by right of way, ``NEVER`` if it does not; whether it stands still
+            for ever. [ticks]
         by_right_of_way, by_clock : int64[K, 4]
             Pairs of visits that overlap, pairs that overlap only by the headway, swaps, and the tick of the
             earliest of these, ``NEVER`` without any.
@@ -714,43 +485,22 @@ class ActionDependencyGraph:
             Ticks of lateness that began at each visit: of its own robot, of others.
         between : int64[P, 3]
             Robot, another, and the ticks that the first is late because of the other.
-
-        Notes
-        -----
-        The GIL is released; Ctrl-C is obeyed.
         """
 
     def delay_sample(self, seed: int, run: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Return the delays of one run.
-
-        Returns
-        -------
-        tuple of (int64[N], int64[N], int32[R + 1], int64[S], int64[S])
-            Actual dwells and drives, and the stoppages as the class takes them.
+        Return the delays of one run: dwells and drives, and stoppages as the class takes them.
         """
 
     def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
-        Run the plan once, with these delays.
-
-        Parameters
-        ----------
-        dwell, drive, first_stoppage, stoppage_tick, stoppage_ticks
-            As `delay_sample` returns them.
-        clock : bool
-            Whether by the clock; else by right of way.
+        Run the plan once by the clock or by right of way, with delays as `delay_sample` returns them.
 
         Returns
         -------
         tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
             When each visit begins, when its booking begins, when robots complete, which stand still for
             ever, and the conflicts as `runs` counts them.
-
-        Raises
-        ------
-        ValueError
-            If the arrays do not fit together.
         """
 
     def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
@@ -758,56 +508,14 @@ class ActionDependencyGraph:
         Return the robots that can never complete because they wait for each other.
         """
 
-def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:
-    """
-    Find steps for the whole fleet that bring every robot through its stages.
-
-    Time plays no part: in a step each robot stays or moves to a neighbour, no two are at one vertex and
-    no two change places. Times follow from the routes and the order of visits at each vertex.
-
-    Parameters
-    ----------
-    problem : Problem
-        What the fleet has to do.
-    ends_anywhere : uint8[R], or empty
-        Whether a robot may end anywhere once its last stage is the next one; it only prefers that one.
-    seed : int
-        For ties.
-    most_steps : int or None
-        After about so many steps of the fleet the search stops.
-    time_limit : float or None
-        After so many seconds the search stops.
-
-    Returns
-    -------
-    tuple of (int, int32[T, R])
-        How it ended (0: found, 1: proven that there is none, 2: stopped) and where every robot is
-        after each step, the start included.
-
-    Notes
-    -----
-    Complete, deterministic for a seed, not optimal. The GIL is released; Ctrl-C is obeyed.
-    """
-
 class PrecedenceGraph:
     """
     Routes, rights of way, the timetable they give, and the conflicts left.
 
-    Routes are fixed lists of visits. A right of way says which of two visits to one vertex goes
-    first. The timetable is the earliest times that keep both: ``enter`` is 0 on first visits, at
-    least ``enter[x] + least[x]`` on the visit after ``x``, and at least
-    ``leave(a) + headway + approach[b]`` where ``a`` has the right of way over ``b``. ``leave(x)`` is
-    ``enter[x + 1]``; a last visit never leaves.
-
-    A visit books its vertex for ``[enter - approach, leave + headway)``. Two bookings of one vertex by
-    different robots that overlap are a *vertex conflict* (kind 0); its tick is the start of the
-    overlap, and it counts the overlap's ticks, at most ``CONFLICT_CAP``. Two robots that exchange two
-    vertices at the same tick, without such an overlap at either, are a *swap conflict* (kind 1) at
-    that tick, which counts 1.
-
     A conflict is a tuple ``(tick, kind, visit_a, visit_b)`` where the robot of ``visit_a`` is below
-    that of ``visit_b``; for a swap, these are the visits entered at that tick. Conflicts are ordered
-    by tick, then robots, then visits.
+    that of ``visit_b``. Kind 0: two bookings ``[enter - approach, leave + headway)`` of a vertex
+    overlap, from that tick on; it counts the overlap's ticks, at most ``CONFLICT_CAP``. Kind 1: two
+    robots exchange two vertices at that tick, without such an overlap; it counts 1.
 
     Parameters
     ----------
@@ -825,16 +533,6 @@ class PrecedenceGraph:
         Whether swaps are conflicts.
     active : uint8[R]
         Robots with 0 here have times, but no conflicts and no rights of way.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not describe routes; names the array, the index and the value. The methods
-        raise it for a robot or a visit that does not exist.
-
-    Notes
-    -----
-    Deterministic. Every answer is kept up to date incrementally. Calls are short and keep the GIL.
     """
 
     def __init__(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], headway: int, swaps_conflict: bool, active: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
@@ -863,24 +561,7 @@ class PrecedenceGraph:
 
     def conflicts_of(self, robot: int, others: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
-        Return the weight of one robot's conflicts with others.
-
-        Parameters
-        ----------
-        robot : int
-            The robot.
-        others : uint8[R]
-            Conflicts count with the robots that do not have 0 here.
-
-        Returns
-        -------
-        int
-            Sum of what these conflicts count. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If the robot does not exist or the mask has the wrong length.
+        Return the weight of one robot's conflicts with the ``others`` (uint8[R], not 0). [ticks]
         """
 
     def next_conflict(self) -> tuple[int, int, int, int] | None:
@@ -895,89 +576,31 @@ class PrecedenceGraph:
 
     def precede(self, a: int, b: int) -> bool:
         """
-        Give visit a the right of way over visit b.
+        Give visit a the right of way over visit b, of two active robots at the same vertex.
 
-        Parameters
-        ----------
-        a, b : int
-            Visits of two different active robots to the same vertex.
-
-        Returns
-        -------
-        bool
-            Whether that is possible. If not, nothing has changed: ``a`` is a last visit and never
-            leaves, ``b`` is a first visit, or ``cycle()`` has the deadlock or swap that would follow.
-            True if ``a`` has the right of way already.
-
-        Raises
-        ------
-        ValueError
-            If ``a`` and ``b`` are not two such visits.
-
-        Notes
-        -----
-        Times never decrease. A cycle of positive length is always refused; of zero length only if
-        ``swaps_conflict`` and it is a swap of two robots, so rotations of three or more are possible.
-        Takes time in proportion (but for a logarithm) to the number of changed times.
+        Returns whether that is possible. If not, nothing has changed: ``a`` is a last visit, ``b`` is a
+        first visit, or ``cycle()`` has the deadlock or swap that would follow.
         """
 
     def cycle(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """
-        Return the cycle that the last refused ``precede(a, b)`` would have closed.
+        Return the cycle that the last refused ``precede(a, b)`` would have closed, int32[n].
 
-        Returns
-        -------
-        int32[n]
-            Visits in order, from ``b`` to the visit after ``a``. The enter of each follows from that of
-            the one before: the next visit of the same robot, or of a robot that waits for its leave.
-            Empty if there was another reason, or no refusal yet.
+        Visits in order, from ``b`` to the visit after ``a``; empty if there was another reason.
         """
 
     def keep_order(self, when: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
         """
         Give the rights of way of all visits to a vertex in an order, all at once.
 
-        Parameters
-        ----------
-        when : int64[N]
-            A number for each visit: of two visits to one vertex the one with the smaller number goes
-            first, of equal ones that with the smaller index. Numbers rise along each route, and no visit
-            has to wait for a leave with a greater number. The ticks of a plan, or steps.
-
-        Returns
-        -------
-        bool
-            Whether that is possible. If not, nothing has changed. If so, there is no rollback below this.
-
-        Raises
-        ------
-        ValueError
-            If there is not one number for each visit, if numbers do not rise along a route, or if there
-            were changes before.
+        ``when`` (int64[N]) rises along each route: of two visits to one vertex the one with the smaller
+        number goes first, of equal ones that with the smaller index. Returns whether that is possible; if
+        not, nothing has changed. If so, there is no rollback below this.
         """
 
     def take_back(self, a: int, b: int) -> bool:
         """
-        Take back one right of way, whenever it was given.
-
-        Parameters
-        ----------
-        a, b : int
-            As for ``precede``.
-
-        Returns
-        -------
-        bool
-            Whether ``a`` had the right of way over ``b``.
-
-        Raises
-        ------
-        ValueError
-            As for ``precede``.
-
-        Notes
-        -----
-        All visits get the earliest times that keep the other rights of way. A rollback gives it again.
+        Take back the right of way of a over b, whenever it was given; return whether there was one.
         """
 
     def checkpoint(self) -> int:
@@ -1006,176 +629,34 @@ class PrecedenceGraph:
         """
 
 class BookingTable:
-    """
-    Who has booked which vertex when.
-
-    Parameters
-    ----------
-    n_vertices : int
-        The number of vertices, V.
-
-    Raises
-    ------
-    ValueError
-        If the number is negative.
-    """
+    """Who has booked which vertex when."""
 
     def __init__(self, n_vertices: int) -> None: ...
 
     def book(self, vertex: int, start: int, end: int, robot: int) -> None:
         """
-        Book a vertex.
-
-        Parameters
-        ----------
-        vertex : int
-            The vertex.
-        start, end : int
-            It is booked for ``[start, end)``. [ticks]
-        robot : int
-            By whom.
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex, the booking is empty, or it overlaps another robot's.
+        Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.
         """
 
     def erase(self, vertex: int, start: int, robot: int) -> None:
         """
-        Take back a booking.
-
-        Parameters
-        ----------
-        vertex : int
-            The vertex.
-        start : int
-            When the booking starts; nothing happens if there is none. [ticks]
-        robot : int
-            Whose it is.
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex.
+        Take back the booking of a robot that starts at this tick; nothing happens if there is none.
         """
 
     def at(self, vertex: int) -> list[tuple[int, int, int]]:
         """
-        Return the bookings of a vertex in order of time.
-
-        Parameters
-        ----------
-        vertex : int
-            The vertex.
-
-        Returns
-        -------
-        list of tuple[int, int, int]
-            ``(start, end, robot)``. [ticks]
-
-        Raises
-        ------
-        ValueError
-            If there is no such vertex.
+        Return the bookings ``(start, end, robot)`` of a vertex in order of time. [ticks]
         """
 
 def earliest_track(problem: Problem, robot: int, bookings: BookingTable, stage_tables: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]], time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Find the earliest track of one robot among the bookings of others.
 
-    Parameters
-    ----------
-    problem : Problem
-        The roads, the robots and the booking rules.
-    robot : int
-        Which robot.
-    bookings : BookingTable
-        What the other robots have booked.
-    stage_tables : list of int32[V]
-        For each stage, the least ticks from each vertex to its vertex.
-    time_limit : float or None
-        After so many seconds the search stops.
+    ``stage_tables`` has for each stage the least ticks from each vertex to its vertex, int32[V].
 
     Returns
     -------
     tuple of (int, int32[n], int64[n])
         How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices,
         and when each is entered. [ticks]
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together, or a stage cannot be reached.
-
-    Notes
-    -----
-    Complete and optimal among fixed bookings, deterministic. The GIL is released; Ctrl-C is obeyed.
     """
-
-class Congestion:
-    """
-    Cheapest paths that keep clear of other robots.
-
-    To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
-    enter the vertex that it ends at, unless that is the target, and what every robot costs that was
-    added on the opposite edge.
-
-    Parameters
-    ----------
-    problem : Problem
-        The roads, and how fast robots drive.
-    shares : int
-        In how many shares a tick is counted.
-    station : int64[V]
-        What it costs to enter each vertex, not negative. [shares per tick]
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not fit together; names the array, the index and the value.
-    """
-
-    def __init__(self, problem: Problem, shares: int, station: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
-
-    def path(self, robot: int, start: int, target: int, to_go: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """
-        Return a cheapest path.
-
-        Parameters
-        ----------
-        robot : int
-            Which robot.
-        start, target : int
-            The vertices from and to which it leads.
-        to_go : int32[V]
-            Least time from each vertex to the target, -1 where no way leads there. [ticks]
-
-        Returns
-        -------
-        int32[n]
-            The vertices of the path, both ends included. Of several cheapest paths, the one that takes the
-            first edge of a vertex that it can.
-
-        Raises
-        ------
-        ValueError
-            If there is no path, or something does not fit together.
-        """
-
-    def add(self, path: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], oncoming: int) -> None:
-        """
-        Count one more robot on a path.
-
-        Parameters
-        ----------
-        path : int32[n]
-            Vertices, each a neighbour of the one before.
-        oncoming : int
-            What it costs to go against it, not negative. [shares per tick]
-
-        Raises
-        ------
-        ValueError
-            If that is no path.
-        """

@@ -8,12 +8,10 @@
 #include <thread>
 
 #include "corridors.hpp"
-#include "lns/anytime_lns.hpp"
 #include "lns/fleet_plan.hpp"
 #include "lns/lns.hpp"
 #include "lns/population.hpp"
 #include "lns/prioritized.hpp"
-#include "lns/prioritized_portfolio.hpp"
 
 namespace rightofway {
 namespace {

@@ -39,9 +39,8 @@ TEST_CASE("a robot may book on before its own booking is over") {
     BookingTable table(1);
     table.book(0, {0, 4}, 7);
     table.book(0, {3, 7}, 7);
-    CHECK(table.is_free(0, {2, 9}, 7));
-    CHECK_FALSE(table.is_free(0, {6, 9}, 1));
-    CHECK(table.is_free(0, {7, 9}, 1));
+    CHECK_THROWS_AS(table.book(0, {6, 9}, 1), std::invalid_argument);
+    CHECK_NOTHROW(table.book(0, {7, 9}, 1));
 }
 
 TEST_CASE("where bookings overlap, all of them are seen") {
@@ -49,8 +48,8 @@ TEST_CASE("where bookings overlap, all of them are seen") {
     table.insert(0, {0, never}, 4);
     table.insert(0, {2, 3}, 5);
     CHECK(table.at(0)[1].reach == never);
-    CHECK_FALSE(table.is_free(0, {8, 9}, 5));
-    CHECK(table.is_free(0, {8, 9}, 4));
+    CHECK_THROWS_AS(table.book(0, {8, 9}, 5), std::invalid_argument);
+    CHECK_NOTHROW(table.book(0, {8, 9}, 4));
     table.erase(0, 0, 4);
     CHECK(table.at(0)[0].reach == 3);
 }
