@@ -16,15 +16,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache
-from typing import Any, Self
+from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick
+from rightofway.model import Lap, Tick, visits_of_laps
 
 __all__ = ["Arcs", "Circuit", "CyclicSchedule", "TimedEventGraph", "unrolled"]
 
@@ -139,8 +139,6 @@ class TimedEventGraph:
         Where each visit is; int32.
     robot
         Whose it is, as a position in ``timetable.robots``; int32.
-    index
-        Which visit of the robot's lap it is; int32.
     drive, dwell
         Ticks of the drive into it, and how long it lasts at least; int64.
     """
@@ -153,11 +151,18 @@ class TimedEventGraph:
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
         self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
-        rows = zip(*map(_visits, laps, counts), strict=True)
-        self.vertex, self.index, self.drive, self.dwell = map(np.concatenate, rows)
+        rows = zip(*map(visits_of_laps, laps, counts), strict=True)
+        self.vertex, self.dwell, self.drive = map(np.concatenate, rows)
 
     def __len__(self) -> int:
         return len(self.vertex)
+
+    @cached_property
+    def index(self) -> NDArray[np.int32]:
+        """Which visit of the robot's lap each one is; int32."""
+        visits_of_lap = np.array(list(map(len, self.timetable.laps)), np.int32)
+        place = np.arange(len(self)) - self.first[self.robot]
+        return (place % visits_of_lap[self.robot]).astype(np.int32)
 
     @cached_property
     def after(self) -> NDArray[np.int32]:
@@ -322,14 +327,3 @@ def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit |
         raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
     length, height, numbers = found
     return Circuit(cycle_time=Fraction(length, height), arcs=numbers) if height else None
-
-
-@lru_cache(maxsize=1 << 14)
-def _visits(lap: Lap, count: int) -> tuple[NDArray[Any], ...]:
-    """Return vertex, index, drive and dwell of all visits of some laps."""
-    return (
-        np.array(lap.vertices * count, np.int32),
-        np.array((*range(len(lap)),) * count, np.int32),
-        np.array(lap.drive * count, np.int64),
-        np.array(lap.dwell * count, np.int64),
-    )
