@@ -92,7 +92,7 @@ def solve(
         scenario=scenario,
         options=_settled(spec, options, named),
         seed=_checked_seed(seed),
-        report=report or _silent,
+        report=report or (lambda _: None),
         keep_best=keep_best,
     )
     return _run(spec, task, limit, seconds_per_visit)
@@ -144,7 +144,7 @@ def improve(
         scenario=plan.scenario,
         options=_settled(spec, options, named),
         seed=_checked_seed(seed),
-        report=report or _silent,
+        report=report or (lambda _: None),
         keep_best=keep_best,
         start=plan.tracks,
     )
@@ -169,30 +169,15 @@ def _checked_seed(seed: int) -> int:
     raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
 
 
-class _Clock:
-    """How long planning takes, and when the first plan was there [s]."""
-
-    def __init__(self) -> None:
-        self._began = time.perf_counter()
-        self.kept: float | None = None
-
-    def seconds(self) -> float:
-        return time.perf_counter() - self._began
-
-    def keep(self) -> None:
-        """Keep the time; only the first call counts."""
-        if self.kept is None:
-            self.kept = self.seconds()
-
-
-def _silent(_: str) -> None:
-    """Take a sentence on progress, and say nothing."""
-
-
 def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_visit: float) -> Plan:
     from rightofway.search import alone_completions  # loads the native core: not for help
 
-    clock, deadline = _Clock(), Deadline.after(time_limit)
+    began, deadline = time.perf_counter(), Deadline.after(time_limit)
+    with_plan: list[float] = []  # how long planning took until there was a plan [s]
+
+    def keep() -> None:
+        with_plan.append(time.perf_counter() - began)
+
     with kernel_limits():
         alone = alone_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
@@ -202,19 +187,19 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
             task,
             alone=alone,
             deadline=deadline.earlier(seconds_per_visit * least_visits),
-            has_plan=clock.keep,
+            has_plan=keep,
         )
         if task.start is not None:
-            clock.keep()
+            keep()
         draft = spec.load()(task)
-    clock.keep()
+    keep()
     run = PlannerRun(
         name=spec.name,
         options=task.options,
         seed=task.seed,
         status=draft.status,
-        seconds=clock.seconds(),
-        first_plan_seconds=clock.kept,
+        seconds=with_plan[-1],
+        first_plan_seconds=with_plan[0],
         decisions=draft.decisions,
         reroutes=draft.reroutes,
         alone=tuple(alone.tolist()),

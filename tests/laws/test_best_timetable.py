@@ -13,7 +13,7 @@ from rightofway.cyclic import Comparison, CyclicResult, best_timetable, plan_of,
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import planning_headway
-from rightofway.precedence import critical_circuit
+from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.oracles import periodic_bookings as oracle
 
@@ -55,7 +55,8 @@ def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -
         assert timetable is not None
         assert oracle.faults(timetable, headway=headway, books_ahead=ahead) == []
         period = timetable.period
-        found = critical_circuit(timetable, headway=headway, books_ahead=ahead)
+        graph = TimedEventGraph(timetable, headway=headway, books_ahead=ahead)
+        found = graph.critical_circuit()
         assert found.cycle_time == period or found.cycle_time > period - 1
         assert comparison.throughput == group.rate()
         assert min(timetable.counts) >= 1

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rightofway.cyclic.route import cyclic_routes
-from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, edge_ticks
+from rightofway.model import Itinerary, Lap, Rules, Scenario, Tick, drives_along
 from rightofway.planners import planning_headway
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
@@ -47,11 +47,8 @@ def crowd(
 
 def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
     """Tell whether a lap of one stop is on the roadmap and serves what is to be done."""
-    n, [stop, home] = len(lap), itinerary.stages
-    drives = [
-        edge_ticks(scenario.roadmap, itinerary, lap.vertices[k - 1], lap.vertices[k])
-        for k in range(n)
-    ]
+    stop, home = itinerary.stages
+    drives = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
     served = [(v, dwell) for v, dwell in zip(lap.vertices, lap.dwell, strict=True) if dwell]
     due = [(one.vertex, one.work + one.turn) for one in (home, stop)]
     return (

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
-from rightofway.model import Itinerary, Lap, Roadmap, edge_ticks
+from rightofway.model import Itinerary, Lap, Roadmap, drives_along
 from rightofway.precedence import CyclicSchedule
 
 
@@ -137,7 +137,7 @@ def has_a_route(
     def steps(vertex: int, stage: int, enter: int, dwell: int, end: int) -> Iterator[_State]:
         """Yield all that may follow a visit that lasts so long at least and is left by the end."""
         for head in roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist():
-            drive = edge_ticks(roadmap, itinerary, vertex, head)
+            drive = drives_along(roadmap, itinerary, [vertex, head])[0]
             ahead = drive if books_ahead else 0
             for leave in range(enter + dwell + drive, end + 1):
                 if not free(vertex, enter, leave + headway):

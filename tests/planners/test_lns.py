@@ -11,9 +11,9 @@ import rightofway
 from rightofway.errors import GaveUp
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules
-from rightofway.planners import Deadline, Task
+from rightofway.planners import Deadline, PrioritizedOptions, Task
 from rightofway.planners.lns import lns
-from rightofway.planners.prioritized import ORDERS, prioritized
+from rightofway.planners.prioritized import prioritized
 from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(5, size=10, robots=30, rules=Rules(occupancy="both"))
@@ -60,7 +60,7 @@ def test_it_stops_when_time_is_up() -> None:
     assert time.perf_counter() - began < 5
 
 
-@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("order", PrioritizedOptions.described()[0].choices)
 def test_every_order_gives_a_sound_plan(order: str) -> None:
     plan = rightofway.solve(CROWDED, "prioritized", options={"order": order})
     assert rightofway.check(plan).ok

@@ -13,7 +13,7 @@ import pytest
 
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
-from rightofway.precedence import TimedEventGraph, critical_circuit, sensitivity, unrolled
+from rightofway.precedence import TimedEventGraph, sensitivity, unrolled
 from tests.builders.periodic import timetable_of
 
 
@@ -42,17 +42,18 @@ def test_the_period_is_both_stays_beyond_the_door() -> None:
 
 def test_each_change_at_the_door_costs_headway_and_the_drive_into_it() -> None:
     timetable = door().timetable
-    headway = critical_circuit(timetable, headway=Tick(3), books_ahead=False)
-    assert headway.cycle_time == 12 + 2 * 3
-    both = critical_circuit(timetable, headway=Tick(0), books_ahead=True)
-    assert both.cycle_time == 12 + 2 * 1
+    headway = TimedEventGraph(timetable, headway=Tick(3), books_ahead=False)
+    assert headway.critical_circuit().cycle_time == 12 + 2 * 3
+    both = TimedEventGraph(timetable, headway=Tick(0), books_ahead=True)
+    assert both.critical_circuit().cycle_time == 12 + 2 * 1
 
 
 def test_the_period_of_two_periods_is_twice_as_long() -> None:
     timetable = unrolled(door().timetable, 2)
     assert timetable.counts == (2, 2)
     assert timetable.enter[1].tolist() == [13, 28, 29, 32, 33, 48, 49, 52]
-    assert critical_circuit(timetable, headway=Tick(0), books_ahead=False).cycle_time == 24
+    graph = TimedEventGraph(timetable, headway=Tick(0), books_ahead=False)
+    assert graph.critical_circuit().cycle_time == 24
 
 
 def test_a_slow_robot_sets_the_pace_of_all_that_take_turns_with_it() -> None:

@@ -1,7 +1,6 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
-from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
-from rightofway.model.lap import Lap, lap_of
+from rightofway.model.clustering import Floor, Obstacle, cluster, node_length
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
 from rightofway.model.problem import Itinerary, Problem, ProblemArrays, Stage, least_dwell
 from rightofway.model.roadmap import (
@@ -12,9 +11,17 @@ from rightofway.model.roadmap import (
     roadmap_of_grid,
     straight_length,
 )
-from rightofway.model.robot import Robot, Stop, TripEnd, Turn
-from rightofway.model.route import Route, edge_ticks, route_along, route_of, route_through
-from rightofway.model.rules import Occupancy, Rules
+from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
+from rightofway.model.route import (
+    Lap,
+    Route,
+    drives_along,
+    lap_of,
+    route_along,
+    route_of,
+    route_through,
+    visits_of_laps,
+)
 from rightofway.model.scenario import Scenario
 from rightofway.model.stays import (
     Stays,
@@ -63,7 +70,7 @@ __all__ = [
     "choose_clock",
     "cluster",
     "completions_of",
-    "edge_ticks",
+    "drives_along",
     "flowtime_of",
     "lap_of",
     "least_dwell",
@@ -75,6 +82,6 @@ __all__ = [
     "route_through",
     "serving_visits",
     "stays_of",
-    "steps_per_unit",
     "straight_length",
+    "visits_of_laps",
 ]

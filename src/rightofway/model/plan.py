@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
@@ -355,21 +356,17 @@ class Plan:
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")
 
     def _columns(self) -> dict[str, list[Any]]:
-        name, parts = (
-            self.scenario.roadmap.name,
-            zip(self.scenario.robots, self.tracks, strict=True),
-        )
-        columns: dict[str, list[Any]] = {
-            key: [] for key in ("robot", "visit", "vertex", "enter", "leave")
+        scenario, tracks = self.scenario, self.tracks
+        pairs = zip(scenario.robots, tracks, strict=True)
+        enters = [track.enter.tolist() for track in tracks]
+        vertices = chain.from_iterable(track.vertices.tolist() for track in tracks)
+        return {
+            "robot": [robot.name for robot, track in pairs for _ in range(len(track))],
+            "visit": [visit for track in tracks for visit in range(len(track))],
+            "vertex": list(map(scenario.roadmap.name, vertices)),
+            "enter": list(chain.from_iterable(enters)),
+            "leave": [tick for enter in enters for tick in (*enter[1:], None)],
         }
-        for robot, track in parts:
-            enter = track.enter.tolist()
-            columns["robot"] += [robot.name] * len(track)
-            columns["visit"] += range(len(track))
-            columns["vertex"] += map(name, track.vertices.tolist())
-            columns["enter"] += enter
-            columns["leave"] += [*enter[1:], None]
-        return columns
 
 
 FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")

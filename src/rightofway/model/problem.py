@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model.roadmap import Roadmap
-from rightofway.model.robot import Robot
-from rightofway.model.rules import Rules
+from rightofway.model.robot import Robot, Rules
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
 __all__ = ["Itinerary", "Problem", "ProblemArrays", "Stage", "least_dwell", "problem_of"]

@@ -1,9 +1,11 @@
-"""Where one robot goes: an ordered list of visits, each with a least dwell; no times yet."""
+"""Where one robot goes, without times: visits with least dwells, once or lap after lap."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +16,16 @@ from rightofway.model.roadmap import Roadmap
 from rightofway.model.stays import least_dwells, serving_visits
 from rightofway.model.units import NEVER, Tick, VertexId
 
-__all__ = ["Route", "edge_ticks", "route_along", "route_of", "route_through"]
+__all__ = [
+    "Lap",
+    "Route",
+    "drives_along",
+    "lap_of",
+    "route_along",
+    "route_of",
+    "route_through",
+    "visits_of_laps",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,7 +111,7 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
         enough, the last one in the last visit.
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
-    drive = np.array(_drives(roadmap, itinerary, vertices), np.int64)
+    drive = np.array(drives_along(roadmap, itinerary, vertices), np.int64)
     spare = np.append(np.diff(track.enter) - drive, NEVER)
     return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
 
@@ -117,7 +128,7 @@ def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
     dwell = least_dwells(itinerary.stages, serves, len(vertices))
-    drive = map(Tick, _drives(roadmap, itinerary, vertices))
+    drive = map(Tick, drives_along(roadmap, itinerary, vertices))
     return Route(
         vertices=tuple(vertices),
         dwell=tuple(map(Tick, dwell.tolist())),
@@ -126,7 +137,7 @@ def _route(
     )
 
 
-def _drives(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> list[int]:
+def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]) -> list[int]:
     """Return how long a robot drives along each edge of a path [ticks].
 
     Raises
@@ -144,15 +155,69 @@ def _drives(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
     return ticks
 
 
-def edge_ticks(roadmap: Roadmap, itinerary: Itinerary, tail: int, head: int) -> Tick:
-    """Return how long a robot drives from one vertex to the next [ticks].
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lap:
+    """The visits of one lap; after the last one the first comes again.
 
-    Raises
-    ------
-    KeyError
-        If no edge leads there.
+    Attributes
+    ----------
+    vertices
+        Where each visit is; the first is at home.
+    dwell
+        How long each visit lasts at least, without the drive that follows: at a stop the work and
+        the turn, at home the turn between two laps [ticks].
+    drive
+        Ticks of the edge driven into each visit; into the first: from the last one.
     """
-    edge = roadmap.edge(tail, head)
-    if edge is None:
-        raise KeyError((tail, head))
-    return itinerary.edge_ticks[int(roadmap.length_class[edge])]
+
+    vertices: tuple[VertexId, ...]
+    dwell: tuple[Tick, ...]
+    drive: tuple[Tick, ...]
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    @property
+    def duration(self) -> Tick:
+        """How long a lap without waits lasts [ticks]."""
+        return Tick(sum(self.dwell) + sum(self.drive))
+
+    def least(self, visit: int) -> Tick:
+        """Return the least ticks from a visit's enter to the next one's."""
+        return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
+
+    def leasts(self) -> tuple[Tick, ...]:
+        """Return the least ticks of all visits."""
+        drives = (*self.drive[1:], self.drive[0])
+        return tuple(Tick(dwell + drive) for dwell, drive in zip(self.dwell, drives, strict=True))
+
+
+@lru_cache(maxsize=1 << 14)
+def visits_of_laps(
+    lap: Lap, count: int
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
+    """Return vertex, dwell and drive [ticks] of all visits of some laps."""
+    return (
+        np.array(lap.vertices * count, np.int32),
+        np.array(lap.dwell * count, np.int64),
+        np.array(lap.drive * count, np.int64),
+    )
+
+
+def lap_of(itinerary: Itinerary, route: Route) -> Lap:
+    """Wrap a round trip into a lap.
+
+    Parameters
+    ----------
+    itinerary
+        What the robot has to do in one lap; it ends at home.
+    route
+        Where it goes for that; the last visit serves all stages at home at the end.
+    """
+    at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
+    between = route.dwell[0] + sum(stage.work + stage.turn for stage in at_home)
+    return Lap(
+        vertices=route.vertices[:-1],
+        dwell=(Tick(between), *route.dwell[1:-1]),
+        drive=(route.drive[-1], *route.drive[1:-1]),
+    )

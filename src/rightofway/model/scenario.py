@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.problem import Problem, problem_of
 from rightofway.model.roadmap import Roadmap
-from rightofway.model.robot import Robot, Turn
-from rightofway.model.rules import Rules
+from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
 
 __all__ = ["Scenario"]

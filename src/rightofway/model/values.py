@@ -203,7 +203,7 @@ def length(value: object, place: str) -> Fraction:
         If it is no number, or not positive.
     """
     try:
-        found = value if type(value) is Fraction else exact(value)
+        found = number(value)
     except ValueError as error:
         raise InputError.at(place, str(error)) from None
     if found <= 0:

@@ -28,19 +28,9 @@ SHARE = 0.3
 
 
 def auto(task: Task) -> Draft:
-    """Plan by several methods and improve the best plan.
+    """Plan by several methods and improve the best plan; options: `AutoOptions`.
 
-    Parameters
-    ----------
-    task
-        Options: `AutoOptions`; with ``swaps=leave`` it is `two_level` as published.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out before there was a plan.
+    With ``swaps=leave`` it is `two_level` as published.
     """
     if task.options["swaps"] == "leave":
         return two_level(task)

@@ -182,26 +182,7 @@ def rights_if_waits(
 
 
 def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule: Rule) -> Draft:
-    """Plan a fleet by rights of way, and where time is short for that by `lacam`.
-
-    Parameters
-    ----------
-    task
-        The problem.
-    distances
-        Tables of its roadmap.
-    routes
-        One for each robot.
-    rule
-        Decides which robot waits.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out.
-    """
+    """Plan a fleet by rights of way, and where time is short for that by `lacam`."""
     try:
         hurried = replace(task, deadline=task.deadline.sooner(SHARE))
         return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
@@ -210,13 +191,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
 
 
 def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
-    """Resolve all conflicts, then reroute the robots that were deferred.
-
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `plan_by_rule`.
-    """
+    """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
     tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
     rerouted = reroute(task, distances, tracks, list(plan.deferred))
@@ -245,8 +220,8 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 def _plan_together(task: Task, because: str) -> Draft:
     robots = range(len(task.scenario.robots))
-    return Draft(
-        tracks=tuple(plan_fleet(task)[0]),
+    return replace(
+        plan_fleet(task),
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )

@@ -44,39 +44,12 @@ LEAST_EFFORT, EFFORT_PER_PLACE = 2_000_000, 8
 
 
 def lacam(task: Task) -> Draft:
-    """Plan the whole fleet at once.
-
-    Parameters
-    ----------
-    task
-        Options: `LacamOptions`.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out.
-    """
-    tracks, status = plan_fleet(task, spreads=task.options["paths"] == "spread")
-    return Draft(tracks=tuple(tracks), status=status)
+    """Plan the whole fleet at once; options: `LacamOptions`."""
+    return plan_fleet(task, spreads=task.options["paths"] == "spread")
 
 
-def plan_fleet(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
-    """Return a track for each robot, and how they were found.
-
-    Parameters
-    ----------
-    task
-        The problem.
-    spreads
-        Whether robots prefer paths that were spread before the search.
-
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `lacam`.
-    """
+def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
+    """Plan the whole fleet at once; ``spreads`` tells whether robots prefer paths spread before."""
     scenario = task.scenario
     refuse_shared_ends(scenario)
     robots, share = len(scenario.robots), SHARE_OF_TIME
@@ -91,26 +64,18 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> tuple[list[Track], str]:
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
-    if tracks is not None:
-        task.has_plan()
-        return tracks, "instant by instant"
-    task.report("no end by instants: planning the order of moves without clocks")
-    steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=task.deadline.seconds_left())
-    tracks = timetable_of(scenario, steps)
+    status = "instant by instant"
+    if tracks is None:
+        task.report("no end by instants: planning the order of moves without clocks")
+        left = task.deadline.seconds_left()
+        steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+        tracks, status = timetable_of(scenario, steps), "order of moves first"
     task.has_plan()
-    return tracks, "order of moves first"
+    return Draft(tracks=tuple(tracks), status=status)
 
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
-    """Return the earliest tracks along the routes of some steps that keep their order.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    steps
-        The vertex of every robot after each step, shape (T, R), as from `untimed_lacam`.
-    """
+    """Return the earliest tracks that keep the routes and the order of steps of `untimed_lacam`."""
     arrivals = [[0, *(np.flatnonzero(np.diff(places)) + 1).tolist()] for places in steps.T]
     visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
     return timetable_in_order(scenario, visited, arrivals)

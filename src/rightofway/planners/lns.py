@@ -46,20 +46,7 @@ UNLIMITED = 2**62
 
 
 def lns(task: Task) -> Draft:
-    """Find a plan, or take the one given, and improve it until time is up.
-
-    Parameters
-    ----------
-    task
-        Options: `LnsOptions`. With a plan in ``start``, that one is improved.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out before there was a plan.
-    """
+    """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
     search = fleet_search(task)
     if task.start is not None:
         return _improve(task, search, Draft(tracks=task.start, status="the plan given"))
@@ -67,13 +54,7 @@ def lns(task: Task) -> Draft:
 
 
 def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
-    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized.
-
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `lns`.
-    """
+    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized."""
     found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     plans = [plan for plan in found if plan is not None]
     if not plans:
@@ -86,10 +67,10 @@ def _together(task: Task) -> Draft | None:
     """Plan by LaCAM; fleets too large for prioritized planning may take all the time."""
     share = SHARE if len(task.scenario.robots) <= MOST_ROBOTS else 1
     try:
-        tracks, _ = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
+        draft = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
     except GaveUp:
         return None
-    return Draft(tracks=tuple(tracks), status="all together")
+    return replace(draft, status="all together")
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:

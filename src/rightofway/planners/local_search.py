@@ -49,18 +49,9 @@ class _Preference(NamedTuple):
 
 
 def local_search(task: Task) -> Draft:
-    """Improve a plan without changing its routes.
+    """Improve a plan without changing its routes; options: `LocalSearchOptions`.
 
-    Parameters
-    ----------
-    task
-        Options: `LocalSearchOptions`; `two_level` makes the plan to start from where none is
-        given.
-
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `two_level`, where no plan to start from is given.
+    `two_level` makes the plan to start from where none is given.
     """
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     task.has_plan()

@@ -31,9 +31,8 @@ best one so far.
 from __future__ import annotations
 
 import random
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Literal
 
 from rightofway.errors import GaveUp
@@ -45,68 +44,53 @@ from rightofway.planners.conflict_resolution import (
     plan_by_rule,
     rights_if_waits,
 )
-from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting
-from rightofway.search import Distances
 
 __all__ = ["by_priority", "fixed_priority", "priority_search", "random_priority"]
 
 Order = Sequence[int]
 """The robots, that of highest priority first."""
 
-Orders = Generator[Order, int, None]
-"""Orders to try; the flowtime that each leads to [ticks] is sent back."""
-
 
 def fixed_priority(task: Task) -> Draft:
-    """Plan a fleet with the robots' numbers as priorities, the first robot's the highest.
-
-    Parameters
-    ----------
-    task
-        Options: `PriorityOptions`.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out before the first plan.
-    """
-    return _plan(task, order="listed")
+    """Plan with the robots' numbers as priorities, the first robot's the highest."""
+    distances, routes = chosen_routes(task)
+    return plan_by_rule(task, distances, routes, by_priority(range(len(routes))))
 
 
 def random_priority(task: Task) -> Draft:
-    """Plan a fleet with random priorities, several times, and keep the best plan.
+    """Plan with random priorities, several times, and keep the best plan."""
 
-    Parameters
-    ----------
-    task
-        Options: `RandomPriorityOptions`.
+    def search(flowtime: Callable[[Order], int], listed: range, draw: random.Random) -> None:
+        for _ in range(task.options["restarts"]):
+            flowtime(draw.sample(listed, len(listed)))
 
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `fixed_priority`.
-    """
-    return _plan(task, order="random")
+    return _best_of(task, search)
 
 
 def priority_search(task: Task) -> Draft:
-    """Plan a fleet with priorities that are improved by hill climbing, several times.
+    """Plan with priorities that are improved by hill climbing, several times.
 
-    Parameters
-    ----------
-    task
-        Options: `PrioritySearchOptions`; the first climb starts from the order of the scenario.
-
-    Raises
-    ------
-    NoPlanExists, GaveUp
-        As `fixed_priority`.
+    A climb swaps two robots in the order as long as that is not worse; the first climb starts from
+    the order of the scenario.
     """
-    return _plan(task, order="climbing")
+
+    def search(flowtime: Callable[[Order], int], listed: range, draw: random.Random) -> None:
+        for climb in range(task.options["restarts"]):
+            order: Order = draw.sample(listed, len(listed)) if climb else listed
+            cost = flowtime(order)
+            for _ in range(task.options["rounds"] - 1):
+                other = list(order)
+                if len(other) > 1:
+                    one, another = draw.sample(listed, 2)
+                    other[one], other[another] = other[another], other[one]
+                other_cost = flowtime(other)
+                if other_cost <= cost:
+                    order, cost = other, other_cost
+
+    return _best_of(task, search)
 
 
 def by_priority(order: Order) -> Rule:
@@ -138,60 +122,33 @@ def _if_waits(
     return Resolution(decisions=(decision,), rights=rights)
 
 
-def _plan(task: Task, order: Literal["listed", "random", "climbing"]) -> Draft:
-    """Try orders until there are no more or time is over, and return the best plan."""
-    checkpoint = partial(task.deadline.check, "choosing routes")
-    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
-    choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
-    routes = choose(task.scenario, distances)
-    if order == "listed":
-        return plan_by_rule(task, distances, routes, by_priority(range(len(routes))))
-    orders = (_drawn if order == "random" else _climbing)(task, range(len(routes)))
+def _best_of(
+    task: Task, search: Callable[[Callable[[Order], int], range, random.Random], None]
+) -> Draft:
+    """Let a search try orders until it ends or time is over, and return the best plan.
+
+    The search gets the function that plans by an order and returns the flowtime [ticks], the robots
+    in the order of the scenario, and a source of random numbers.
+    """
+    distances, routes = chosen_routes(task)
     tried, best, least = 0, None, 0
-    robots: Order | None = next(orders)
+
+    def flowtime(order: Order) -> int:
+        nonlocal tried, best, least
+        task.deadline.check("trying orders of the robots")
+        draft = plan_by_rule(task, distances, routes, by_priority(order))
+        reached = flowtime_of(task.scenario, draft.tracks)
+        tried += 1
+        if best is None or reached < least:
+            best, least = draft, reached
+            task.report(f"order {tried}: flowtime {reached} ticks")
+        return reached
+
     try:
-        while robots is not None:
-            task.deadline.check("trying orders of the robots")
-            draft = plan_by_rule(task, distances, routes, by_priority(robots))
-            flowtime = flowtime_of(task.scenario, draft.tracks)
-            tried += 1
-            if best is None or flowtime < least:
-                best, least = draft, flowtime
-                task.report(f"order {tried}: flowtime {flowtime} ticks")
-            robots = _next(orders, flowtime)
+        search(flowtime, range(len(routes)), random.Random(task.seed))  # noqa: S311 (no secret)
     except GaveUp:
         if best is None:
             raise
     assert best is not None, "at least one order is tried"
     count = "1 order" if tried == 1 else f"{tried} orders"
     return replace(best, status=f"{best.status}; best of {count}")
-
-
-def _next(orders: Orders, flowtime: int) -> Order | None:
-    try:
-        return orders.send(flowtime)
-    except StopIteration:
-        return None
-
-
-def _drawn(task: Task, listed: range) -> Orders:
-    """Yield random orders."""
-    draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
-    for _ in range(task.options["restarts"]):
-        yield draw.sample(listed, len(listed))
-
-
-def _climbing(task: Task, listed: range) -> Orders:
-    """Yield an order, then orders with two robots swapped, as long as that is not worse."""
-    draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
-    for climb in range(task.options["restarts"]):
-        order: Order = draw.sample(listed, len(listed)) if climb else listed
-        cost = yield order
-        for _ in range(task.options["rounds"] - 1):
-            other = list(order)
-            if len(other) > 1:
-                one, another = draw.sample(listed, 2)
-                other[one], other[another] = other[another], other[one]
-            other_cost = yield other
-            if other_cost <= cost:
-                order, cost = other, other_cost

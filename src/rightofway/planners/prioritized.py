@@ -25,7 +25,7 @@ from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 
-__all__ = ["MOST_ROBOTS", "ORDERS", "fleet_search", "plan_in_turn", "prioritized"]
+__all__ = ["MOST_ROBOTS", "fleet_search", "plan_in_turn", "prioritized"]
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
@@ -46,42 +46,19 @@ MOST_ROBOTS = 8000
 HEADWAYS_PER_EDGE = 8
 """The headway of robots at one pace, as a part of the shortest edge."""
 
-ORDERS = ("shortest", "longest", "slowest", "file", "random")
-"""Which robot is planned first: by least completion alone, by speed, as listed, or as drawn."""
-
 
 def prioritized(task: Task) -> Draft:
-    """Plan one robot after another.
-
-    Parameters
-    ----------
-    task
-        Options: `PrioritizedOptions`.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out.
-    """
+    """Plan one robot after another; options: `PrioritizedOptions`."""
     found = plan_in_turn(task, fleet_search(task), task.options["order"])
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
-    tracks, _ = plan_fleet(task)
     status = "all together, because robots one after another found no way"
-    return Draft(tracks=tuple(tracks), status=status)
+    return replace(plan_fleet(task), status=status)
 
 
 def fleet_search(task: Task) -> FleetSearch:
-    """Return the search for a fleet whose robots can all do their trips alone.
-
-    Raises
-    ------
-    NoPlanExists
-        If a robot cannot get to a place, or two would have to stay at one for ever.
-    """
+    """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
     scenario = task.scenario
     refuse_shared_ends(scenario)
     search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
@@ -94,10 +71,7 @@ def fleet_search(task: Task) -> FleetSearch:
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
-    Returns
-    -------
-    Draft or None
-        None if no plan was found, or no time is left; that proves nothing.
+    None if no plan was found, or no time is left; that proves nothing.
     """
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None

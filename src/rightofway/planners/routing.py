@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
+from rightofway.planners.task import Task
 from rightofway.search import Congestion, CongestionCosts, Distances, Path
 
 __all__ = [
+    "chosen_routes",
     "clear_routes",
     "direct_routes",
     "refuse_shared_ends",
@@ -20,13 +23,22 @@ __all__ = [
 ]
 
 
+def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
+    """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks.
+
+    The published method (``swaps=leave``) takes shortest routes.
+    """
+    checkpoint = partial(task.deadline.check, "choosing routes")
+    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
+    is_clear = task.options.get("swaps") != "leave" and task.options["routes"] == "clear"
+    choose = clear_routes if is_clear else shortest_routes
+    return distances, choose(task.scenario, distances)
+
+
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """Return a shortest route for each robot, as if it were alone.
 
-    Raises
-    ------
-    NoPlanExists
-        If a robot cannot get to a place, or two would have to stay at one for ever.
+    Raises `NoPlanExists` as `refuse_the_impossible`.
     """
     refuse_the_impossible(scenario, distances)
     return [shortest_route(itinerary, distances) for itinerary in scenario.problem.itineraries]
@@ -55,12 +67,7 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """Return a route for each robot that keeps clear of others where that is no long way round.
 
     Robots are routed one after another. Each keeps clear of all homes and stops, and of the robots
-    routed before it that come the other way.
-
-    Raises
-    ------
-    NoPlanExists
-        If a robot cannot get to a place, or two would have to stay at one for ever.
+    routed before it that come the other way. Raises `NoPlanExists` as `refuse_the_impossible`.
     """
     refuse_the_impossible(scenario, distances)
     itineraries = scenario.problem.itineraries
@@ -75,15 +82,6 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
 
     A route that keeps clear of all others is longer in every lap. Each robot whose route is not a
     shortest one gets another one, which keeps clear of others by how often they are there.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    distances
-        Tables of its roadmap.
-    routes
-        One for each robot.
     """
     itineraries, found = scenario.problem.itineraries, list(routes)
     traffic = Congestion(
@@ -136,13 +134,7 @@ def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
 
 
 def refuse_shared_ends(scenario: Scenario) -> None:
-    """Raise if two robots would have to stay at one vertex for ever.
-
-    Raises
-    ------
-    NoPlanExists
-        Naming the two.
-    """
+    """Raise `NoPlanExists` if two robots would have to stay at one vertex for ever."""
     holders: dict[VertexId, str] = {}
     for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
         holder = holders.setdefault(itinerary.last, robot.name)
@@ -155,13 +147,7 @@ def refuse_shared_ends(scenario: Scenario) -> None:
 
 
 def refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
-    """Raise if a robot has no way from one place of its trip to the next.
-
-    Raises
-    ------
-    NoPlanExists
-        Naming the robot and the two places.
-    """
+    """Raise `NoPlanExists` if a robot has no way from one place of its trip to the next."""
     place, roadmap = itinerary.home, distances.roadmap
     for stage in itinerary.stages:
         if distances.to(stage.vertex, itinerary.edge_ticks)[place] < 0:

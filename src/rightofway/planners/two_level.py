@@ -25,7 +25,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Literal
 
 from rightofway.model import Decision, Tick
@@ -37,14 +36,11 @@ from rightofway.planners.conflict_resolution import (
     plan_on_routes,
     rights_if_waits,
 )
-from rightofway.planners.routing import clear_routes, shortest_routes
+from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment
-from rightofway.search import Distances
 
 __all__ = ["by_two_levels", "two_level"]
-
-Level = Literal["node", "robot", "only", "settled"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +52,7 @@ class _Option:
     conflicts_left: int
     meets_settled: bool
     delay: Tick
-    level: Level = "only"
+    level: Literal["node", "robot", "only", "settled"] = "only"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,27 +64,15 @@ class _MovementGroup:
 
 
 def two_level(task: Task) -> Draft:
-    """Plan a fleet by the method of the paper.
+    """Plan a fleet by the method of the paper; options: `TwoLevelOptions`.
 
-    Parameters
-    ----------
-    task
-        Options: `TwoLevelOptions`.
-
-    Raises
-    ------
-    NoPlanExists
-        If it is proven that no plan exists.
-    GaveUp
-        If time ran out; with ``swaps="leave"`` also where the published method is stuck.
+    With ``swaps="leave"`` it also gives up where the published method is stuck.
     """
-    checkpoint = partial(task.deadline.check, "choosing routes")
-    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
+    distances, routes = chosen_routes(task)
     if task.options.get("swaps") == "leave":
-        plan = PartialPlan(task, shortest_routes(task.scenario, distances), sees_swaps=False)
+        plan = PartialPlan(task, routes, sees_swaps=False)
         return plan_on_routes(task, distances, plan, by_two_levels)
-    choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
-    return plan_by_rule(task, distances, choose(task.scenario, distances), by_two_levels)
+    return plan_by_rule(task, distances, routes, by_two_levels)
 
 
 def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:

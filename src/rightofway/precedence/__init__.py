@@ -10,7 +10,6 @@ from rightofway.precedence.adg import (
     order_of,
 )
 from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
-from rightofway.precedence.schedule import CyclicSchedule, unrolled
 from rightofway.precedence.segments import Segment, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
@@ -21,9 +20,9 @@ from rightofway.precedence.sensitivity import (
 from rightofway.precedence.timed_event_graph import (
     Arcs,
     Circuit,
+    CyclicSchedule,
     TimedEventGraph,
-    critical_circuit,
-    timed_event_graph,
+    unrolled,
 )
 
 __all__ = [
@@ -41,7 +40,6 @@ __all__ = [
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
-    "critical_circuit",
     "crossing",
     "cycle_time_without",
     "graph_of",
@@ -49,6 +47,5 @@ __all__ = [
     "sensitivity",
     "shared_segment",
     "tight_arcs",
-    "timed_event_graph",
     "unrolled",
 ]

@@ -110,12 +110,8 @@ class PrecedenceGraph:
     def give_way(self, first: Visit, second: Visit) -> bool:
         """Let ``first`` have the right of way over ``second``, a visit to the same vertex.
 
-        Returns
-        -------
-        bool
-            False, with nothing changed, if that is impossible: ``first`` never leaves, ``second``
-            is there from the start or frozen, or the two would deadlock with what is decided
-            already.
+        False, with nothing changed, if that is impossible: ``first`` never leaves, ``second`` is
+        there from the start or frozen, or both would deadlock with what is decided already.
         """
         self._delays_frozen = second in self._frozen
         return not self._delays_frozen and self._kernel.precede(first, second)
@@ -149,10 +145,9 @@ class PrecedenceGraph:
 
         None if there was another reason.
         """
-        circle = self._refused_cycle()
         return [
             (one - 1, other)
-            for one, other in pairwise(circle)
+            for one, other in pairwise(self._refused_cycle())
             if self._robot[one] != self._robot[other]
         ]
 
@@ -170,10 +165,6 @@ class PrecedenceGraph:
         """
         possible = self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
         assert possible, "what took place in some order can take place in it again"
-
-    def rights_of_way(self) -> list[tuple[Visit, Visit]]:
-        """Return all (first, second) in the order they were given."""
-        return [(first, second) for first, second in self._kernel.rights_of_way().tolist()]
 
     def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) of which one is a visit of the robot."""
@@ -255,7 +246,7 @@ def graph_of(
     scenario
         The problem.
     tracks
-        A plan that keeps the rules, by any planner.
+        A plan that keeps the rules.
     headway
         A longer one than the scenario asks for [ticks].
 

@@ -75,24 +75,19 @@ def shared_segment(one: Route, i: int, other: Route, j: int) -> Segment:
     """
     before = _run(one, i, other, j, i_step=-1, j_step=1)
     after = _run(one, i, other, j, i_step=1, j_step=-1)
-    if before or after:
+    kind: Literal["head-on", "following"] = "head-on"
+    j_first, j_last = j - after, j + before
+    if not before + after:
+        before = _run(one, i, other, j, i_step=-1, j_step=-1)
+        after = _run(one, i, other, j, i_step=1, j_step=1)
+        kind, j_first, j_last = "following", j - before, j + after
+    if before + after:
         return Segment(
-            kind="head-on",
+            kind=kind,
             i_first=i - before,
             i_last=i + after,
-            j_first=j - after,
-            j_last=j + before,
-            vertices=one.vertices[i - before : i + after + 1],
-        )
-    before = _run(one, i, other, j, i_step=-1, j_step=-1)
-    after = _run(one, i, other, j, i_step=1, j_step=1)
-    if before or after:
-        return Segment(
-            kind="following",
-            i_first=i - before,
-            i_last=i + after,
-            j_first=j - before,
-            j_last=j + after,
+            j_first=j_first,
+            j_last=j_last,
             vertices=one.vertices[i - before : i + after + 1],
         )
     return crossing(one, i, j)

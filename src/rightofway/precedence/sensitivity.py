@@ -75,9 +75,13 @@ def sensitivity(
     """
     mask = tight_arcs(graph, time_limit=time_limit) if tight is None else tight
     critical, on_critical = graph.arcs.chosen(mask), share[mask]
-    now = _mean(graph, critical, critical.length, time_limit)
-    gain = now - _mean(graph, critical, critical.length - on_critical, time_limit)
-    loss = _mean(graph, critical, on_critical, time_limit)
+
+    def mean(length: NDArray[np.int64]) -> Fraction:
+        return _circuit(graph, critical.stretched(length), time_limit).cycle_time
+
+    now = mean(critical.length)
+    gain = now - mean(critical.length - on_critical)
+    loss = mean(on_critical)
     until, at_best = _reach(graph, share, now, gain, time_limit)
     return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
 
@@ -124,14 +128,14 @@ def _without(
 ) -> Circuit:
     whole, saved = part.denominator, part.numerator
     arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
-    found = circuit_of(len(graph), arcs, time_limit=time_limit)
+    found = _circuit(graph, arcs, time_limit)
     return Circuit(cycle_time=found.cycle_time / whole, arcs=found.arcs)
 
 
-def _mean(
-    graph: TimedEventGraph, arcs: Arcs, length: NDArray[np.int64], time_limit: float | None
-) -> Fraction:
-    return circuit_of(len(graph), arcs.stretched(length), time_limit=time_limit).cycle_time
+def _circuit(graph: TimedEventGraph, arcs: Arcs, time_limit: float | None) -> Circuit:
+    found = circuit_of(len(graph), arcs, time_limit)
+    assert found is not None, "the orders of the graph are live, also with other lengths"
+    return found
 
 
 def _reach(

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -24,10 +24,48 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.model import Lap, Tick
-from rightofway.precedence.schedule import CyclicSchedule
+from rightofway.model import Lap, Tick, visits_of_laps
 
-__all__ = ["Arcs", "Circuit", "TimedEventGraph", "critical_circuit", "timed_event_graph"]
+__all__ = ["Arcs", "Circuit", "CyclicSchedule", "TimedEventGraph", "unrolled"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CyclicSchedule:
+    """When the robots of a group are where, period after period.
+
+    Attributes
+    ----------
+    robots
+        The numbers of the group's robots in their scenario.
+    laps
+        What each of them repeats.
+    counts
+        How many laps each makes in a period; at least 1.
+    period
+        After how many ticks everything comes again.
+    enter
+        For each robot the ticks at which its visits of one period begin: ``counts * len(lap)`` of
+        them, int64, strictly rising, the first at home in ``[0, period)`` and all before the first
+        plus the period. The visit after the last is the first, a period later.
+    """
+
+    robots: tuple[int, ...]
+    laps: tuple[Lap, ...]
+    counts: tuple[int, ...]
+    period: Tick
+    enter: tuple[NDArray[np.int64], ...]
+
+
+def unrolled(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
+    """Return the same timetable, with so many of its periods as one."""
+    period = int(timetable.period)
+    shifts = np.arange(times, dtype=np.int64)[:, None] * period
+    return replace(
+        timetable,
+        counts=tuple(count * times for count in timetable.counts),
+        period=Tick(period * times),
+        enter=tuple((enter + shifts).ravel() for enter in timetable.enter),
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -101,8 +139,6 @@ class TimedEventGraph:
         Where each visit is; int32.
     robot
         Whose it is, as a position in ``timetable.robots``; int32.
-    index
-        Which visit of the robot's lap it is; int32.
     drive, dwell
         Ticks of the drive into it, and how long it lasts at least; int64.
     """
@@ -115,11 +151,18 @@ class TimedEventGraph:
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
         self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
-        rows = zip(*map(_visits, laps, counts), strict=True)
-        self.vertex, self.index, self.drive, self.dwell = map(np.concatenate, rows)
+        rows = zip(*map(visits_of_laps, laps, counts), strict=True)
+        self.vertex, self.dwell, self.drive = map(np.concatenate, rows)
 
     def __len__(self) -> int:
         return len(self.vertex)
+
+    @cached_property
+    def index(self) -> NDArray[np.int32]:
+        """Which visit of the robot's lap each one is; int32."""
+        visits_of_lap = np.array(list(map(len, self.timetable.laps)), np.int32)
+        place = np.arange(len(self)) - self.first[self.robot]
+        return (place % visits_of_lap[self.robot]).astype(np.int32)
 
     @cached_property
     def after(self) -> NDArray[np.int32]:
@@ -201,14 +244,22 @@ class TimedEventGraph:
         return enter[arcs.head] + arcs.height * int(self.timetable.period) - due
 
     def critical_circuit(self, *, time_limit: float | None = None) -> Circuit:
-        """Return a circuit of the largest mean, and with it the cycle time.
+        """Return a circuit of the largest mean, and with it the exact cycle time.
+
+        The cycle time is for one period of the timetable, so for all its ``counts`` of laps. A
+        fleet that keeps the orders and waits for nothing else settles in it, wherever it starts.
 
         Raises
         ------
+        ValueError
+            If robots wait for each other for ever in these orders.
         GaveUp
             If time ran out.
         """
-        return circuit_of(len(self), self.arcs, time_limit=time_limit)
+        circuit = self.critical_circuit_if_live(time_limit=time_limit)
+        if circuit is None:
+            raise ValueError("timetable: robots wait for each other for ever in its orders")
+        return circuit
 
     def critical_circuit_if_live(self, *, time_limit: float | None = None) -> Circuit | None:
         """Return a critical circuit; None if robots wait for each other for ever in these orders.
@@ -218,7 +269,7 @@ class TimedEventGraph:
         GaveUp
             If time ran out.
         """
-        return _circuit_if_live(len(self), self.arcs, time_limit)
+        return circuit_of(len(self), self.arcs, time_limit)
 
     def earliest(
         self,
@@ -249,83 +300,26 @@ class TimedEventGraph:
             cycle_time = self.critical_circuit(time_limit=time_limit).cycle_time
         if period < cycle_time:
             raise ValueError(f"period: {period} is less than the cycle time {cycle_time}")
-        arcs = self.arcs
+        arcs, ticks = self.arcs, int(period)
         times = _core.earliest_times(
-            len(self), arcs.tail, arcs.head, arcs.length, arcs.height, int(period), 1, time_limit
+            len(self), arcs.tail, arcs.head, arcs.length, arcs.height, ticks, 1, time_limit
         )
         if times is None:
             raise GaveUp("time ran out in the search for the earliest timetable")
-        return replace(self.timetable, period=period, enter=self._within(times, period))
-
-    def _within(self, times: NDArray[np.int64], period: Tick) -> tuple[NDArray[np.int64], ...]:
-        """Return each robot's times, by whole periods to where its first is in the first."""
+        # By whole periods to where the first visit of each robot is in the first period.
         parts = np.split(times, self.first[1:-1])
-        return tuple(part - part[0] // int(period) * int(period) for part in parts)
+        enter = tuple(part - part[0] // ticks * ticks for part in parts)
+        return replace(self.timetable, period=period, enter=enter)
 
 
-def timed_event_graph(
-    timetable: CyclicSchedule, *, headway: Tick, books_ahead: bool
-) -> TimedEventGraph:
-    """Return the event graph of a timetable; see `TimedEventGraph`."""
-    return TimedEventGraph(timetable, headway=headway, books_ahead=books_ahead)
-
-
-def critical_circuit(
-    timetable: CyclicSchedule,
-    *,
-    headway: Tick,
-    books_ahead: bool,
-    time_limit: float | None = None,
-) -> Circuit:
-    """Return the exact cycle time of the laps and orders of a timetable, and a circuit that has it.
-
-    Parameters
-    ----------
-    timetable
-        Its times serve for nothing but the orders at each vertex.
-    headway
-        Ticks that a vertex stays booked after it was left.
-    books_ahead
-        Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
-    time_limit
-        When to stop [s].
-
-    Returns
-    -------
-    Circuit
-        Its ``cycle_time`` is for one period of the timetable, so for all its ``counts`` of laps.
+def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
+    """Return a circuit of the largest mean among arcs between so many visits; None for deadlock.
 
     Raises
     ------
     GaveUp
         If time ran out.
-
-    Notes
-    -----
-    Exact and deterministic. A fleet that keeps the orders and waits for nothing else settles in
-    exactly that cycle time, wherever it starts.
     """
-    graph = timed_event_graph(timetable, headway=headway, books_ahead=books_ahead)
-    return graph.critical_circuit(time_limit=time_limit)
-
-
-def circuit_of(n_visits: int, arcs: Arcs, *, time_limit: float | None = None) -> Circuit:
-    """Return a circuit of the largest mean among arcs between so many visits.
-
-    Raises
-    ------
-    ValueError
-        If robots wait for each other for ever in these orders.
-    GaveUp
-        If time ran out.
-    """
-    circuit = _circuit_if_live(n_visits, arcs, time_limit)
-    if circuit is None:
-        raise ValueError("timetable: robots wait for each other for ever in its orders")
-    return circuit
-
-
-def _circuit_if_live(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
     found = _core.critical_circuit(
         n_visits, arcs.tail, arcs.head, arcs.length, arcs.height, time_limit
     )
@@ -333,17 +327,3 @@ def _circuit_if_live(n_visits: int, arcs: Arcs, time_limit: float | None) -> Cir
         raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
     length, height, numbers = found
     return Circuit(cycle_time=Fraction(length, height), arcs=numbers) if height else None
-
-
-_Visits = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
-
-
-@lru_cache(maxsize=1 << 14)
-def _visits(lap: Lap, count: int) -> _Visits:
-    """Return vertex, index, drive and dwell of all visits of some laps."""
-    return (
-        np.array(lap.vertices * count, np.int32),
-        np.array((*range(len(lap)),) * count, np.int32),
-        np.array(lap.drive * count, np.int64),
-        np.array(lap.dwell * count, np.int64),
-    )

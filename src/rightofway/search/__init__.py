@@ -1,14 +1,12 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
-from rightofway.search.bookings import Booking, Bookings
 from rightofway.search.congestion import Congestion, CongestionCosts
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, alone_completions
-from rightofway.search.lacam import plan_by_lacam
+from rightofway.search.lacam import plan_by_lacam, untimed_lacam
 from rightofway.search.native import bound, compiler
 from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip
-from rightofway.search.sipp import earliest_track
-from rightofway.search.untimed_lacam import untimed_lacam
+from rightofway.search.sipp import Booking, Bookings, earliest_track
 
 __all__ = [
     "Booking",

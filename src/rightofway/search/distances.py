@@ -94,21 +94,16 @@ class Distances:
         the order east, south, west, north, which gives the routes of the paper.
         """
         self.checkpoint()
-        table = self.to(target, edge_ticks)
+        indptr, heads = self.roadmap.indptr, self.roadmap.heads
+        table, ticks = self.to(target, edge_ticks), self.ticks_of_edges(edge_ticks)
         assert table[start] >= 0, "unreachable places were refused"
         path = [start]
         while path[-1] != target:
-            path.append(self._nearer(path[-1], table, edge_ticks))
+            vertex = path[-1]
+            nearer = (
+                heads[edge]
+                for edge in range(indptr[vertex], indptr[vertex + 1])
+                if 0 <= table[heads[edge]] == table[vertex] - ticks[edge]
+            )
+            path.append(VertexId(int(next(nearer))))
         return tuple(path)
-
-    def _nearer(
-        self, vertex: VertexId, table: NDArray[np.int32], edge_ticks: tuple[Tick, ...]
-    ) -> VertexId:
-        roadmap = self.roadmap
-        for edge in range(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1])):
-            head = roadmap.heads[edge]
-            if table[head] >= 0 and (
-                table[vertex] == table[head] + edge_ticks[roadmap.length_class[edge]]
-            ):
-                return VertexId(int(head))
-        raise AssertionError("a shortest path goes on at every vertex but its target")

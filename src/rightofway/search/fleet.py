@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from itertools import accumulate, pairwise
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Problem, Scenario, Tick, Track
-from rightofway.search.native import bound
+from rightofway.search.native import bound, tracks_of
 
 __all__ = ["FleetSearch", "alone_completions"]
 
@@ -19,7 +19,7 @@ __all__ = ["FleetSearch", "alone_completions"]
 def alone_completions(
     scenario: Scenario, *, time_limit: float | None = None
 ) -> NDArray[np.int64] | None:
-    """Return each robot's least completion without the others; None if the time limit came first.
+    """Return each robot's least completion without the others.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ def alone_completions(
 
     Returns
     -------
-    ndarray of int64, shape (R,)
-        Ticks, -1 where no way leads to a place.
+    ndarray of int64, shape (R,), or None
+        Ticks, -1 where no way leads to a place; None if the time limit came first.
     """
     search = _core.FleetSearch(bound(scenario.problem), seed=0, n_threads=1)
     return search.alone(time_limit)
@@ -103,25 +103,11 @@ class FleetSearch:
         return self._core.prioritize(np.array(order, np.int32), searches, time_limit, with_net)
 
     def go_on(self, *, searches: int, time_limit: float | None) -> bool:
-        """Go on with `prioritize` where it ended; tell whether all robots have a track now.
-
-        Parameters
-        ----------
-        searches
-            After so many searches since the beginning it gives up.
-        time_limit
-            When to stop [s].
-        """
+        """Go on with `prioritize` where it ended; the searches count from its beginning."""
         return self._core.go_on(searches, time_limit)
 
     def start(self, tracks: Sequence[Track]) -> None:
-        """Take over tracks.
-
-        Raises
-        ------
-        ValueError
-            If they break the rules.
-        """
+        """Take over tracks; a ``ValueError`` refuses those that break the rules."""
         lengths = [len(track) for track in tracks]
         self._core.start(
             np.array([0, *accumulate(lengths)], np.int32),
@@ -160,11 +146,7 @@ class FleetSearch:
 
     def tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
-        first, vertices, enter = self._core.tracks()
-        return tuple(
-            Track(vertices=vertices[begin:end].copy(), enter=enter[begin:end].copy())
-            for begin, end in pairwise(first.tolist())
-        )
+        return tuple(tracks_of(*self._core.tracks()))
 
 
 def _cores() -> int:

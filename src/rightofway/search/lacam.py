@@ -1,4 +1,7 @@
-"""A plan for a whole fleet with clocks, instant by instant: only robots that are free decide.
+"""LaCAM for a whole fleet: with clocks, instant by instant, or without, in steps.
+
+With clocks only robots that are free decide. Without clocks the search is complete: it finds an
+order of moves or proves that none exists.
 
 References
 ----------
@@ -7,14 +10,17 @@ Okumura, *LaCAM: Search-based algorithm for quick multi-agent pathfinding*, AAAI
 
 from __future__ import annotations
 
-from itertools import pairwise
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.errors import NoPlanExists
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Problem, Track
-from rightofway.search.native import bound
+from rightofway.search.native import bound, tracks_of
 
-__all__ = ["plan_by_lacam"]
+__all__ = ["plan_by_lacam", "untimed_lacam"]
 
 FOUND, PROVEN_NONE = 0, 1
 
@@ -63,9 +69,57 @@ def plan_by_lacam(
     )
     if end == PROVEN_NONE:
         raise NoPlanExists("a robot has no way to one of its places (join the parts of the map)")
+    return tracks_of(first_visit, vertices, enter) if end == FOUND else None
+
+
+def untimed_lacam(
+    problem: Problem,
+    *,
+    seed: int = 0,
+    time_limit: float | None = None,
+    most_steps: int | None = None,
+    ends_anywhere: Collection[int] = (),
+) -> NDArray[np.int32]:
+    """Find steps for the whole fleet that bring every robot through its stages.
+
+    In a step each robot stays or moves to a neighbour. Speeds, work and headways do not matter for
+    whether there is a plan, because everybody can wait; the order in which robots visit a vertex
+    is all that a timetable needs.
+
+    Parameters
+    ----------
+    problem
+        What the fleet has to do.
+    seed
+        For ties.
+    time_limit
+        When to stop [s].
+    most_steps
+        After how many steps of the fleet to stop, those taken back included.
+    ends_anywhere
+        Robots that only prefer their last stage: any vertex will do where they are in nobody's way.
+
+    Returns
+    -------
+    ndarray of int32, shape (T, R)
+        The vertex of every robot after each step, the start included.
+
+    Raises
+    ------
+    NoPlanExists
+        If it is proven that there are no such steps, and so no plan.
+    GaveUp
+        If time or steps ran out.
+
+    Notes
+    -----
+    Complete; deterministic for a seed; not optimal.
+    """
+    robots = range(len(problem.itineraries))
+    anywhere = np.array([robot in ends_anywhere for robot in robots], np.uint8)
+    end, steps = _core.untimed_lacam(bound(problem), anywhere, seed, most_steps, time_limit)
+    if end == PROVEN_NONE:
+        raise NoPlanExists("no order of moves brings every robot through its trip (give more room)")
     if end != FOUND:
-        return None
-    return [
-        Track(vertices=vertices[first:last].copy(), enter=enter[first:last].copy())
-        for first, last in pairwise(first_visit.tolist())
-    ]
+        raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
+    return steps

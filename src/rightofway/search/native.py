@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from weakref import WeakKeyDictionary
 
-from rightofway import _core
-from rightofway.model import Problem
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["bound", "compiler"]
+from rightofway import _core
+from rightofway.model import Problem, Track
+
+__all__ = ["bound", "compiler", "tracks_of"]
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 
@@ -28,6 +32,16 @@ def bound(problem: Problem) -> _core.Problem:
             rotations=problem.rotations,
         )
     return native
+
+
+def tracks_of(
+    first_visit: NDArray[np.int32], vertices: NDArray[np.int32], enter: NDArray[np.int64]
+) -> list[Track]:
+    """Return a track for each robot, whose visits begin at ``first_visit`` (int32[R + 1])."""
+    return [
+        Track(vertices=vertices[first:last].copy(), enter=enter[first:last].copy())
+        for first, last in pairwise(first_visit.tolist())
+    ]
 
 
 def compiler() -> str:

@@ -17,12 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Itinerary, Lap, Roadmap, Stage, Tick, VertexId
+from rightofway.model import NEVER, Itinerary, Lap, Roadmap, Stage, Tick, VertexId, visits_of_laps
 from rightofway.search.distances import Distances
 
 __all__ = ["PeriodicBookings", "RoundTrip"]
-
-_Visits = tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -127,7 +125,7 @@ class PeriodicBookings:
 
     def add_if_free(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> bool:
         """Book as `add` does; false, with nothing booked, if a booking overlaps another robot's."""
-        return self._kernel.add(robot, *_visits(lap, count), enter)
+        return self._kernel.add(robot, *visits_of_laps(lap, count), enter)
 
     def add_visits(
         self, robot: int, lap: Lap, visits: range, enter: NDArray[np.int64], leave: int
@@ -144,7 +142,7 @@ class PeriodicBookings:
             When each begins, and when the last one ends [ticks].
         """
         place = np.arange(visits.start, visits.stop) % len(lap)
-        vertex, dwell, drive = _visits(lap, 1)
+        vertex, dwell, drive = visits_of_laps(lap, 1)
         begins = np.ascontiguousarray(enter)
         self._kernel.add(robot, vertex[place], dwell[place], drive[place], begins, int(leave))
 
@@ -162,7 +160,7 @@ class PeriodicBookings:
         Complete for this lap, unless no other robot visits its home: then the robot stays there
         until the phase, and None says nothing about other phases.
         """
-        enter = self._kernel.search(*_visits(lap, count), phase, time_limit)
+        enter = self._kernel.search(*visits_of_laps(lap, count), phase, time_limit)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
 
     def find_route(
@@ -226,16 +224,9 @@ class PeriodicBookings:
 
 
 @lru_cache(maxsize=1 << 14)
-def _visits(lap: Lap, count: int) -> _Visits:
-    return (
-        np.array(lap.vertices * count, np.int32),
-        np.array(lap.dwell * count, np.int64),
-        np.array(lap.drive * count, np.int64),
-    )
-
-
-@lru_cache(maxsize=1 << 14)
-def _visits_home(lap: Lap, count: int) -> _Visits:
-    vertex, dwell, drive = _visits(lap, 1)
+def _visits_home(
+    lap: Lap, count: int
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
+    vertex, dwell, drive = visits_of_laps(lap, 1)
     place = np.append(np.arange(len(lap) * count) % len(lap), 0)
     return vertex[place], dwell[place], drive[place]

@@ -7,16 +7,81 @@ Phillips & Likhachev, *SIPP: Safe interval path planning for dynamic environment
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from rightofway import _core
 from rightofway.errors import GaveUp
-from rightofway.model import Track
-from rightofway.search.bookings import Bookings
+from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.search.distances import Distances
 from rightofway.search.native import bound
 
-__all__ = ["earliest_track"]
+__all__ = ["Booking", "Bookings", "earliest_track"]
 
 STOPPED = 2
+
+
+class Booking(NamedTuple):
+    """A vertex is one robot's for ``[start, end)`` [ticks]."""
+
+    start: Tick
+    end: Tick
+    robot: int
+
+
+class Bookings:
+    """What robots with a track book; no two bookings of a vertex overlap.
+
+    Parameters
+    ----------
+    problem
+        The roads, the robots and the booking rules.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.table = _core.BookingTable(problem.roadmap.n_vertices)
+        self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
+
+    def at(self, vertex: int) -> list[Booking]:
+        """Return the bookings of a vertex in order of time."""
+        return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(vertex)]
+
+    def add(self, robot: int, track: Track) -> None:
+        """Book all vertices of a track."""
+        for vertex, booking in self.of_track(robot, track):
+            self.book(vertex, booking)
+
+    def book(self, vertex: int, booking: Booking) -> None:
+        """Book one vertex."""
+        self.table.book(vertex, *booking)
+        self._of[booking.robot].append((vertex, booking.start))
+
+    def release(self, robot: int) -> None:
+        """Take back all that a robot has booked."""
+        for vertex, start in self._of.pop(robot, ()):
+            self.table.erase(vertex, start, robot)
+
+    def of_track(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
+        """Yield what a track would book, visit by visit."""
+        problem, vertices, enter = self.problem, track.vertices.tolist(), track.enter.tolist()
+        drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
+        approaches = drives if problem.books_ahead else [0] * len(drives)
+        ends = [*(Tick(tick + problem.headway) for tick in enter[1:]), NEVER]
+        for vertex, tick, approach, end in zip(
+            vertices, enter, [0, *approaches], ends, strict=True
+        ):
+            yield vertex, Booking(Tick(tick - approach), end, robot)
+
+    def in_the_way(self, robot: int, track: Track) -> set[int]:
+        """Return the other robots whose bookings a track would overlap."""
+        return {
+            other.robot
+            for vertex, own in self.of_track(robot, track)
+            for other in self.at(vertex)
+            if other.robot != robot and other.start < own.end and own.start < other.end
+        }
 
 
 def earliest_track(
