@@ -10,8 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from rightofway.bench.extras import needed
-from rightofway.bench.results import Row
+from rightofway.bench.results import Row, needed
 from rightofway.bench.summary import (
     Group,
     Quantiles,
