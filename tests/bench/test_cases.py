@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.bench import Case, cases_of, read_suite
+from rightofway.bench import Case, read_suite
 from rightofway.bench.fleets import largest_part, random_grid
 from rightofway.errors import InputError
 from rightofway.model import Scenario
@@ -25,7 +25,7 @@ SCEN = (
 def cases(directory: Path, text: str) -> tuple[Case, ...]:
     path = directory / "suite.toml"
     path.write_text(HEAD + text, encoding="utf-8")
-    return cases_of(read_suite(path))
+    return read_suite(path)
 
 
 def ends(scenario: Scenario) -> list[tuple[str, str]]:

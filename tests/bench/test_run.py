@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import rightofway
-from rightofway.bench import Case, cases_of, read_suite, run_here
+from rightofway.bench import Case, read_suite, run_here
 from rightofway.bench.process import Interrupted, Processes, cores, machine
 from rightofway.bench.run import run
 from rightofway.errors import InputError
@@ -25,7 +25,7 @@ def case(tmp_path: Path) -> Case:
         'planners = [{name = "two-level"}]\n',
         encoding="utf-8",
     )
-    [case] = cases_of(read_suite(path))
+    [case] = read_suite(path)
     return case
 
 
@@ -82,7 +82,7 @@ def laps_case(folder: Path, options: str) -> Case:
         f'planners = [{{name = "laps", options = {options}}}]\n',
         encoding="utf-8",
     )
-    [case] = cases_of(read_suite(path))
+    [case] = read_suite(path)
     return case
 
 

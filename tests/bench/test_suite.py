@@ -12,7 +12,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from rightofway.bench import cases_of, read_suite
+from rightofway.bench import read_suite
 from rightofway.errors import InputError
 from rightofway.io import load, schema
 from rightofway.io.text import parse_toml
@@ -44,7 +44,7 @@ def test_every_fault_is_told_with_place_value_and_remedy(path: Path) -> None:
 
 
 def test_the_example_can_be_read_and_fits_the_schema() -> None:
-    assert len(cases_of(read_suite(SUITE))) >= 20
+    assert len(read_suite(SUITE)) >= 20
     assert fits(tomllib.loads(SUITE.read_text(encoding="utf-8")))
 
 
@@ -91,13 +91,12 @@ def test_what_is_left_out_has_a_default(tmp_path: Path) -> None:
         'maps = [{random = {size = [8, 9]}}]\nplanners = [{name = "auto"}]\n',
         encoding="utf-8",
     )
-    suite = read_suite(tmp_path / "small.toml")
-    assert (suite.name, suite.seeds, suite.limits) == ("small", (0,), (Fraction(10),))
-    assert [(each.name, each.counts) for each in suite.maps] == [("random-8-9-0", (2,))]
-    assert [(fleet.name, fleet.data["speeds"]) for fleet in suite.fleets] == [("default", [1])]
-    [contender] = suite.contenders
+    [case] = read_suite(tmp_path / "small.toml")
+    assert (case.map, case.fleet, case.robots) == ("random-8-9-0", "default", 2)
+    assert (case.seed, case.limit) == (0, Fraction(10))
+    assert case.fleet_data == {"speeds": [1], "by_seed": False, "work": (0, 0), "rules": {}}
     spec = find("auto")
-    assert (contender.planner, contender.options) == (spec.name, spec.settle({}))
+    assert (case.planner, case.options) == (spec.name, spec.settle({}))
 
 
 def test_numbers_are_exact() -> None:

@@ -22,7 +22,7 @@ from benchmarks.pages import (
     priorities_tables,
     timetable_tables,
 )
-from rightofway.bench import Row, cases_of, read_suite
+from rightofway.bench import Row, read_suite
 from rightofway.bench.run import run
 from rightofway.io import schema
 from tests.builders.pages import DOCS
@@ -114,7 +114,7 @@ def laps(tmp_path: Path) -> list[Row]:
         ),
         encoding="utf-8",
     )
-    return [{**case.labels, **run(case)} for case in cases_of(read_suite(tmp_path / "suite.toml"))]
+    return [{**case.labels, **run(case)} for case in read_suite(tmp_path / "suite.toml")]
 
 
 def test_the_page_on_laps_gets_each_of_its_tables_and_plots(laps: list[Row]) -> None:
@@ -153,4 +153,4 @@ def test_every_suite_fits_the_schema_and_has_cases(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert jsonschema.Draft202012Validator(schema("suite")).is_valid(tomllib.loads(text))
     if "movingai" not in text:
-        assert len(cases_of(read_suite(path))) >= 12
+        assert len(read_suite(path)) >= 12

@@ -5,11 +5,10 @@ matplotlib, only Parquet files pyarrow, only clusters distributed; they are impo
 """
 
 from rightofway.bench.cluster import run_on_cluster
-from rightofway.bench.extras import need
 from rightofway.bench.process import machine, run_here
 from rightofway.bench.report import write_report
-from rightofway.bench.results import COLUMNS, Column, Results, Row
-from rightofway.bench.suite import Case, Suite, cases_of, read_suite
+from rightofway.bench.results import COLUMNS, Column, Results, Row, need
+from rightofway.bench.suite import Case, read_suite
 from rightofway.bench.summary import Group, Quantiles, by_planner
 
 __all__ = [
@@ -20,9 +19,7 @@ __all__ = [
     "Quantiles",
     "Results",
     "Row",
-    "Suite",
     "by_planner",
-    "cases_of",
     "machine",
     "need",
     "read_suite",

@@ -8,9 +8,8 @@ from itertools import islice
 from textwrap import shorten
 from typing import Any
 
-from rightofway.bench.extras import needed
 from rightofway.bench.process import lost, run_on_worker
-from rightofway.bench.results import Row
+from rightofway.bench.results import Row, needed
 from rightofway.bench.suite import Case
 from rightofway.errors import InputError
 
@@ -50,11 +49,17 @@ def run_on_cluster(
     If a worker dies, the scheduler gives its cases, and results it held, to another worker; a case
     whose workers die four times is a row that says so.
     """
-    client = _client(address)
+    distributed = needed("distributed", "a cluster")
+    try:
+        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, TimeoutError, ValueError) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        message = f"no scheduler answers: {reason} (start one with: dask scheduler)"
+        raise InputError.at("", message, address) from None
     try:
         if not client.nthreads():
             report(f"{address} has no workers yet; waiting for some")
-        yield from _rows(client, iter(cases))
+        yield from _rows(distributed, client, iter(cases))
     except InputError as error:
         raise InputError(error.faults, address) from None
     except Exception as error:
@@ -67,18 +72,7 @@ def run_on_cluster(
         client.close(timeout=PATIENCE)
 
 
-def _client(address: str) -> Any:
-    distributed = needed("distributed", "a cluster")
-    try:
-        return distributed.Client(address, timeout=PATIENCE, set_as_default=False)
-    except (OSError, TimeoutError, ValueError) as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
-        message = f"no scheduler answers: {reason} (start one with: dask scheduler)"
-        raise InputError.at("", message, address) from None
-
-
-def _rows(client: Any, cases: Iterator[Case]) -> Iterator[Row]:
-    distributed = needed("distributed", "a cluster")
+def _rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]:
     run, waiting = uuid.uuid4().hex, dict[Any, Case]()
 
     def submit(case: Case) -> Any:

@@ -84,8 +84,19 @@ class Processes:
         """
         with tempfile.TemporaryFile() as stderr, self._started(stderr) as process:
             allowed = 3 * float(case.limit) + GRACE
-            overran = _wait(process, case, allowed)
+            overran = False
+            assert process.stdin is not None, "it is a pipe"
             assert process.stdout is not None, "it is a pipe"
+            with contextlib.suppress(BrokenPipeError):  # it died before it could read
+                left = memoryview(pickle.dumps(case))
+                while left:
+                    left = left[process.stdin.write(left) :]
+            try:
+                process.wait(allowed)
+            except subprocess.TimeoutExpired:
+                overran = True
+                _kill(process)
+                process.wait()
             outcome = process.stdout.read()
             with self._lock:
                 self._running.discard(process)
@@ -123,22 +134,6 @@ class Processes:
                 _kill(process)
 
 
-def _wait(process: subprocess.Popen[bytes], case: Case, allowed: float) -> bool:
-    """Give a process its case and wait for its end; return whether it had to be ended."""
-    assert process.stdin is not None, "it is a pipe"
-    with contextlib.suppress(BrokenPipeError):  # it died before it could read
-        left = memoryview(pickle.dumps(case))
-        while left:
-            left = left[process.stdin.write(left) :]
-    try:
-        process.wait(allowed)
-    except subprocess.TimeoutExpired:
-        _kill(process)
-        process.wait()
-        return True
-    return False
-
-
 def _kill(process: subprocess.Popen[bytes]) -> None:
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
@@ -164,8 +159,7 @@ def lost(case: Case, message: str) -> Row:
 
 
 def _failed(case: Case, status: str, message: str) -> Row:
-    outcome = {"solved": False, "valid": None, "status": status, "message": message}
-    return _row(case, outcome)
+    return _row(case, {"solved": False, "status": status, "message": message})
 
 
 def _row(case: Case, outcome: dict[str, Any]) -> Row:

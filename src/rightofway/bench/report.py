@@ -6,12 +6,11 @@ import base64
 import html
 import io
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
-from rightofway.bench.extras import needed
-from rightofway.bench.results import Row
+from rightofway.bench.results import Row, needed
 from rightofway.bench.summary import (
     Group,
     Quantiles,
@@ -24,8 +23,6 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 
 __all__ = ["markdown_table", "write_report"]
-
-Format = Literal["svg", "png"]
 
 Table = list[Sequence[str]]
 """Rows of cells; the first has the headings."""
@@ -94,28 +91,51 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     path = Path(path)
     if not rows:
         raise InputError.at("", "there is no row to report on (run some cases)", str(path))
-    names = planner_names(rows)
-    planners = [
-        [name, *_figures(group), _unsolved(group)]
-        for name, group in ((name, Group.of(each)) for name, each in by_planner(rows).items())
-    ]
-    details = [
-        [*place, str(robots), planner, *_figures(group)]
-        for place, part in grouped(rows, "map", "fleet").items()
-        for planner, each in by_planner(part, names).items()
-        for robots, group in by_robots(each).items()
-    ]
-    tables: tuple[Table, Table] = (
-        [["planner", *FIGURES, "not solved"], *planners],
-        [["map", "fleet", "robots", "planner", *FIGURES], *details],
-    )
-    if path.suffix.lower() == ".md":
-        _write_markdown(rows, tables, path, title)
+    is_page = path.suffix.lower() != ".md"
+    table, paragraph = (_html_table, _html_paragraph) if is_page else (markdown_table, str)
+    parts = [table(_planners(rows))]
+    for name, draw, words in (("cactus", _cactus, CACTUS), ("ratio", _ratios, RATIOS)):
+        alt, picture = words.partition(":")[0], _picture(rows, draw, "svg" if is_page else "png")
+        if is_page:
+            # Each an image of its own, so that the pictures share no names.
+            source = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
+            caption = f"<figcaption>{html.escape(words)}</figcaption>"
+            parts.append(f'<figure><img alt="{alt}" src="{source}">{caption}</figure>')
+        else:
+            file = f"{path.stem}-{name}.png"
+            write_whole(path.with_name(file), picture)
+            parts += [f"![{alt}]({file})", words]
+    parts += [table(_details(rows)), *map(paragraph, _machines(rows))]
+    if is_page:
+        content = PAGE.format(title=html.escape(title), body="\n".join(parts))
     else:
-        write_whole(path, _page(rows, tables, title))
+        content = "\n\n".join([f"# {title}", *parts]) + "\n"
+    write_whole(path, content)
 
 
 FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
+
+
+def _planners(rows: Sequence[Row]) -> Table:
+    table: Table = [["planner", *FIGURES, "not solved"]]
+    for name, each in by_planner(rows).items():
+        group = Group.of(each)
+        ends = [f"{n} {status}" for status, n in group.statuses.items() if status != "solved"]
+        table.append([name, *_figures(group), ", ".join(ends)])
+    return table
+
+
+def _details(rows: Sequence[Row]) -> Table:
+    names = planner_names(rows)
+    return [
+        ["map", "fleet", "robots", "planner", *FIGURES],
+        *(
+            [*place, str(robots), planner, *_figures(group)]
+            for place, part in grouped(rows, "map", "fleet").items()
+            for planner, each in by_planner(part, names).items()
+            for robots, group in by_robots(each).items()
+        ),
+    ]
 
 
 def _figures(group: Group) -> Iterator[str]:
@@ -131,25 +151,6 @@ def _figures(group: Group) -> Iterator[str]:
     yield "" if group.memory is None else f"{group.memory:.0f}"
 
 
-def _unsolved(group: Group) -> str:
-    return ", ".join(f"{n} {status}" for status, n in group.statuses.items() if status != "solved")
-
-
-def _page(rows: Sequence[Row], tables: tuple[Table, Table], title: str) -> str:
-    figures = []
-    for picture, words in ((_cactus(rows, "svg"), CACTUS), (_ratios(rows, "svg"), RATIOS)):
-        # Each an image of its own, so that the pictures share no names.
-        data, text = base64.b64encode(picture).decode(), html.escape(words)
-        figures.append(
-            f'<figure><img alt="{text}" src="data:image/svg+xml;base64,{data}">'
-            f"<figcaption>{text}</figcaption></figure>"
-        )
-    planners, details = map(_html_table, tables)
-    machines = (f"<p>{html.escape(sentence)}</p>" for sentence in _machines(rows))
-    body = "\n".join([planners, *figures, details, *machines])
-    return PAGE.format(title=html.escape(title), body=body)
-
-
 def _html_table(table: Table) -> str:
     lines = [
         "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in line)
@@ -158,24 +159,8 @@ def _html_table(table: Table) -> str:
     return "<table>\n" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>"
 
 
-def _write_markdown(
-    rows: Sequence[Row], tables: tuple[Table, Table], path: Path, title: str
-) -> None:
-    cactus, ratio = f"{path.stem}-cactus.png", f"{path.stem}-ratio.png"
-    write_whole(path.with_name(cactus), _cactus(rows, "png"))
-    write_whole(path.with_name(ratio), _ratios(rows, "png"))
-    planners, details = map(markdown_table, tables)
-    parts = [
-        f"# {title}",
-        planners,
-        f"![{CACTUS}]({cactus})",
-        CACTUS,
-        f"![Flowtime / lower bound]({ratio})",
-        RATIOS,
-        details,
-        *_machines(rows),
-    ]
-    write_whole(path, "\n\n".join(parts) + "\n")
+def _html_paragraph(sentence: str) -> str:
+    return f"<p>{html.escape(sentence)}</p>"
 
 
 def markdown_table(table: Table) -> str:
@@ -195,36 +180,41 @@ def _machines(rows: Iterable[Row]) -> Iterator[str]:
         yield f"{cases} by {what} on {cpu}, {cores} cores, {compiler}, Python {python}."
 
 
-def _cactus(rows: Sequence[Row], form: Format) -> bytes:
-    """Draw how many cases each planner has solved after how many seconds."""
+def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str) -> bytes:
+    """Return a picture as svg or png."""
+    content = io.BytesIO()
     with needed("matplotlib", "a report").rc_context(STYLE):
-        figure = needed("matplotlib.figure", "a report").Figure((7, 4.2), layout="constrained")
-        axes, planners = figure.add_subplot(), by_planner(rows)
-        for index, (name, each) in enumerate(planners.items()):
-            # Laps have no first plan: they are known at the end.
-            known = (
-                row["first_plan_seconds"] or row["wall_seconds"] for row in each if row["solved"]
-            )
-            seconds = sorted(max(second, LEAST_SECONDS) for second in known)
-            end = max([*seconds, *(row["limit"] for row in each)])
-            counts = [*range(1, len(seconds) + 1), len(seconds)]
-            colour = COLOURS[index % len(COLOURS)]
-            axes.step(
-                [*seconds, end], counts, where="post", label=name, color=colour, linewidth=1.6
-            )
-        most = max(map(len, planners.values()))
-        axes.axhline(most, color="#888888", linestyle=":", linewidth=1)
-        axes.set(
-            xscale="log",
-            xlabel="time to the first plan [s]",
-            ylabel=f"solved cases, of {most}",
-            ylim=(0, 1.05 * most),
-        )
-        axes.legend(loc="lower right")
-        return _saved(figure, form)
+        figure = needed("matplotlib.figure", "a report").Figure(layout="constrained")
+        draw(rows, figure)
+        metadata = {"Date": None} if form == "svg" else {}
+        figure.savefig(content, format=form, dpi=150, metadata=metadata)
+    return content.getvalue()
 
 
-def _ratios(rows: Sequence[Row], form: Format) -> bytes:
+def _cactus(rows: Sequence[Row], figure: Any) -> None:
+    """Draw how many cases each planner has solved after how many seconds."""
+    figure.set_size_inches(7, 4.2)
+    axes, planners = figure.add_subplot(), by_planner(rows)
+    for index, (name, each) in enumerate(planners.items()):
+        # Laps have no first plan: they are known at the end.
+        known = (row["first_plan_seconds"] or row["wall_seconds"] for row in each if row["solved"])
+        seconds = sorted(max(second, LEAST_SECONDS) for second in known)
+        end = max([*seconds, *(row["limit"] for row in each)])
+        counts = [*range(1, len(seconds) + 1), len(seconds)]
+        colour = COLOURS[index % len(COLOURS)]
+        axes.step([*seconds, end], counts, where="post", label=name, color=colour, linewidth=1.6)
+    most = max(map(len, planners.values()))
+    axes.axhline(most, color="#888888", linestyle=":", linewidth=1)
+    axes.set(
+        xscale="log",
+        xlabel="time to the first plan [s]",
+        ylabel=f"solved cases, of {most}",
+        ylim=(0, 1.05 * most),
+    )
+    axes.legend(loc="lower right")
+
+
+def _ratios(rows: Sequence[Row], figure: Any) -> None:
     """Draw flowtime / lower bound by number of robots: medians and quartiles, a part for each map.
 
     Medians are of solved cases; where others are not solved the marker is hollow.
@@ -233,30 +223,26 @@ def _ratios(rows: Sequence[Row], form: Format) -> bytes:
     planners = list(dict.fromkeys(names.values()))
     columns = min(3, len(parts))
     lines = math.ceil(len(parts) / columns)
-    with needed("matplotlib", "a report").rc_context(STYLE):
-        figure = needed("matplotlib.figure", "a report").Figure(
-            (1.2 + 3.6 * columns, 0.6 + 3 * lines), layout="constrained"
-        )
-        grid = figure.subplots(lines, columns, squeeze=False)
-        for axes in grid.flat[len(parts) :]:
-            axes.remove()
-        for axes, (title, part) in zip(grid.flat, parts.items(), strict=False):
-            axes.set_title(", ".join(filter(None, title)), fontsize="medium")
-            found = by_planner(part, names)
-            for index, name in enumerate(planners):
-                beside = 1.02 ** (index - (len(planners) - 1) / 2)  # spreads do not cover others
-                _draw_planner(axes, by_robots(found.get(name, [])), name, index, beside)
-            counts = sorted({row["robots"] for row in part})
-            axes.set(xscale="log", xlim=(counts[0] / 1.3, counts[-1] * 1.3))
-            axes.set_xticks(counts, [str(count) for count in counts])
-            axes.minorticks_off()
-            axes.margins(y=0.1)
-            axes.axhline(1, color="#888888", linestyle=":", linewidth=1)
-        figure.supxlabel("robots", fontsize="medium")
-        figure.supylabel("flowtime / lower bound", fontsize="medium")
-        lines_of, labels = grid.flat[0].get_legend_handles_labels()
-        figure.legend(lines_of, labels, loc="outside upper center", ncols=min(3, len(labels)))
-        return _saved(figure, form)
+    figure.set_size_inches(1.2 + 3.6 * columns, 0.6 + 3 * lines)
+    grid = figure.subplots(lines, columns, squeeze=False)
+    for axes in grid.flat[len(parts) :]:
+        axes.remove()
+    for axes, (title, part) in zip(grid.flat, parts.items(), strict=False):
+        axes.set_title(", ".join(filter(None, title)), fontsize="medium")
+        found = by_planner(part, names)
+        for index, name in enumerate(planners):
+            beside = 1.02 ** (index - (len(planners) - 1) / 2)  # spreads do not cover others
+            _draw_planner(axes, by_robots(found.get(name, [])), name, index, beside)
+        counts = sorted({row["robots"] for row in part})
+        axes.set(xscale="log", xlim=(counts[0] / 1.3, counts[-1] * 1.3))
+        axes.set_xticks(counts, [str(count) for count in counts])
+        axes.minorticks_off()
+        axes.margins(y=0.1)
+        axes.axhline(1, color="#888888", linestyle=":", linewidth=1)
+    figure.supxlabel("robots", fontsize="medium")
+    figure.supylabel("flowtime / lower bound", fontsize="medium")
+    lines_of, labels = grid.flat[0].get_legend_handles_labels()
+    figure.legend(lines_of, labels, loc="outside upper center", ncols=min(3, len(labels)))
 
 
 def _draw_planner(
@@ -277,10 +263,3 @@ def _draw_planner(
             [x], [ratio.median], yerr=spread, marker=marker, capsize=2,
             markerfacecolor=look["color"] if is_whole else "white", **look,
         )  # fmt: skip
-
-
-def _saved(figure: Any, form: Format) -> bytes:
-    content = io.BytesIO()
-    metadata = {"Date": None} if form == "svg" else {}
-    figure.savefig(content, format=form, dpi=150, metadata=metadata)
-    return content.getvalue()

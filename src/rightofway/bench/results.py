@@ -7,11 +7,11 @@ import io
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Literal, Self
 
-from rightofway.bench.extras import need, needed
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 
@@ -20,7 +20,7 @@ try:
 except ImportError:  # pragma: no cover (not on Windows)
     fcntl = None  # type: ignore[assignment]
 
-__all__ = ["COLUMNS", "Column", "Results", "Row"]
+__all__ = ["COLUMNS", "Column", "Results", "Row", "need", "needed"]
 
 Row = dict[str, Any]
 """A value for each column; None where there is none."""
@@ -71,8 +71,23 @@ COLUMNS = (
 
 HEADER = [column.name for column in COLUMNS]
 
+EXTRAS = {"matplotlib": "bench", "pyarrow": "bench", "distributed": "dask"}
+"""Optional libraries, imported where they are used, and the extra that installs each."""
 
 NOT_RESULTS = "this is no file of results as they are now (give another file)"
+
+
+def need(library: str, purpose: str) -> None:
+    """Refuse with `InputError`, before any work, if an optional library is not installed."""
+    if find_spec(library) is None:
+        remedy = f"pip install 'rightofway[{EXTRAS[library]}]'"
+        raise InputError.at("", f"{purpose} needs {library} ({remedy})")
+
+
+def needed(module: str, purpose: str) -> Any:
+    """Return a module of an optional library, or refuse as `need`."""
+    need(module.partition(".")[0], purpose)
+    return import_module(module)
 
 
 class Results:
@@ -110,7 +125,6 @@ class Results:
             message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
             raise self._fault(message) from None
         try:
-            self._lock()
             for row in self._mended_rows():
                 self.rows.setdefault(row["key"], row)
         except BaseException:
@@ -135,24 +149,17 @@ class Results:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        _kind: type[BaseException] | None,
-        _error: BaseException | None,
-        _trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _lock(self) -> None:
+    def _mended_rows(self) -> Iterator[Row]:
+        """Lock the journal; begin it, or cut off a line that was being written; yield its rows."""
         try:
             if fcntl is not None:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             message = "another run is writing to it (wait for its end, or give another file)"
             raise self._fault(message) from None
-
-    def _mended_rows(self) -> Iterator[Row]:
-        """Begin a new journal, or cut off a line that was being written; yield the whole rows."""
         content, header = self.journal.read_bytes(), _line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
             raise self._fault(NOT_RESULTS, "line 1")

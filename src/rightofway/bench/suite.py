@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
@@ -29,75 +29,24 @@ if TYPE_CHECKING:
         SuiteFleetDocument,
     )
 
-__all__ = [
-    "LAPS", "Case", "Contender", "FleetSpec", "MapSpec", "Suite", "cases_of",
-    "read_suite",
-]  # fmt: skip
+__all__ = ["LAPS", "Case", "read_suite"]
 
 LAPS = "laps"
 """In place of a planner: the fleet repeats its work under a rule."""
 
+_Fleet = tuple[str, dict[str, Any] | None]
+"""Name and data of a fleet, both empty where a scenario has its own robots."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MapSpec:
-    """A map of a suite with the homes and targets of its robots; needs no files any more.
-
-    Attributes
-    ----------
-    name
-        In results.
-    scen
-        The file that has the homes and targets, if any.
-    counts
-        How many robots drive there, in one case each.
-    map
-        ``{"random": …}``, ``{"grid": …}`` or ``{"scenario": …}``, as plain data.
-    ends
-        Home and target of each row; empty where they are drawn, or the scenario has them.
-    """
+class _Map:
+    """A map of a suite, as plain data, with homes and targets where a .scen file has them."""
 
     name: str
     scen: str = ""
     counts: tuple[int, ...]
-    map: Mapping[str, Any]
-    ends: tuple[tuple[Cell, Cell], ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FleetSpec:
-    """What the robots of a case are like.
-
-    Attributes
-    ----------
-    name
-        In results.
-    data
-        As plain data: ``speeds``, whether they are drawn ``by_seed`` or dealt round robin, least
-        and most ``work`` [time unit], and ``rules`` as a scenario document has them.
-    """
-
-    name: str
     data: Mapping[str, Any]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Contender:
-    """A planner by name, or `LAPS`, with a value for each of its options."""
-
-    planner: str
-    options: Mapping[str, Any]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Suite:
-    """Maps, fleets, seeds, time limits [s] and planners; every combination of them is a case."""
-
-    name: str
-    maps: tuple[MapSpec, ...]
-    fleets: tuple[FleetSpec, ...]
-    seeds: tuple[int, ...]
-    limits: tuple[Fraction, ...]
-    contenders: tuple[Contender, ...]
+    ends: tuple[tuple[Cell, Cell], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,9 +66,10 @@ class Case:
     planner, options
         The planner, or `LAPS`, with a value for each of its options.
     problem
-        The map with the ends of the robots, as plain data; see `MapSpec`.
+        ``{"random": …}``, ``{"grid": …, "ends": …}`` or ``{"scenario": …}``, as plain data.
     fleet_data
-        See `FleetSpec`; None if the problem is a whole scenario.
+        ``speeds``, whether they are drawn ``by_seed`` or dealt round robin, least and most
+        ``work`` [time unit], and ``rules`` as in a scenario; None if the problem is a scenario.
     key
         A hash of all this but the names: the same case has the same key in every run.
     """
@@ -171,45 +121,10 @@ class Case:
         return scenario_of(document)
 
 
-def cases_of(suite: Suite) -> tuple[Case, ...]:
-    """Return every case of a suite, the planners of one fleet next to each other.
+def read_suite(path: Path | str) -> tuple[Case, ...]:
+    """Read a suite and every file that it names; return every combination of what it lists.
 
-    Raises
-    ------
-    InputError
-        If two cases are the same but for their names.
-    """
-    cases: dict[str, Case] = {}
-    for case in _combinations(suite):
-        twin = cases.setdefault(case.key, case)
-        if twin is not case:
-            message = f"two cases are the same: {case}; and {twin} (take one of them out)"
-            raise InputError.at("", message, suite.name)
-    return tuple(cases.values())
-
-
-def _combinations(suite: Suite) -> Iterator[Case]:
-    for each in suite.maps:
-        fleets: tuple[FleetSpec | None, ...] = (None,) if "scenario" in each.map else suite.fleets
-        for fleet, count in product(fleets, each.counts):
-            ends = {"ends": each.ends[:count]} if each.ends else {}
-            for seed, limit, contender in product(suite.seeds, suite.limits, suite.contenders):
-                yield Case(
-                    map=each.name,
-                    scen=each.scen,
-                    fleet=fleet.name if fleet else "",
-                    robots=count,
-                    seed=seed,
-                    limit=limit,
-                    planner=contender.planner,
-                    options=contender.options,
-                    problem={**each.map, **ends},
-                    fleet_data=fleet.data if fleet else None,
-                )
-
-
-def read_suite(path: Path | str) -> Suite:
-    """Read a suite and every file that it names.
+    The planners of one fleet are next to each other.
 
     Parameters
     ----------
@@ -219,42 +134,61 @@ def read_suite(path: Path | str) -> Suite:
     Raises
     ------
     InputError
-        With every independent fault, its place, value and remedy.
+        With every independent fault, its place, value and remedy; also if two cases are the same
+        but for their names.
     """
     from rightofway.io.suite import SuiteDocument
 
     path = Path(path)
     with blaming(str(path)):
         data = checked_format(parse_toml(read_text(path)), SUITE_FORMAT)
-        return _suite_of(checked(SuiteDocument, data), path)
+        found = list(_combinations(checked(SuiteDocument, data), path.parent))
+    cases: dict[str, Case] = {}
+    for case in found:
+        twin = cases.setdefault(case.key, case)
+        if twin is not case:
+            message = f"two cases are the same: {case}; and {twin} (take one of them out)"
+            raise InputError.at("", message, path.stem)
+    return tuple(cases.values())
 
 
-def _suite_of(document: SuiteDocument, path: Path) -> Suite:
+def _combinations(document: SuiteDocument, base: Path) -> Iterator[Case]:
+    from rightofway.io.suite import SuiteFleetDocument
+
     faults = Faults()
     maps = [
-        faults.attempt(f"maps[{index}]", _maps, each, document.counts, path.parent)
+        faults.attempt(f"maps[{index}]", _maps, each, document.counts, base)
         for index, each in enumerate(document.maps)
     ]
-    contenders = [
-        faults.attempt(f"planners[{index}]", _contender, each)
+    planners = [
+        faults.attempt(f"planners[{index}]", _planner, each)
         for index, each in enumerate(document.planners)
     ]
     fleets = [
         faults.attempt(f"fleets[{index}]", _fleet, each)
-        for index, each in enumerate(document.fleets or ())
+        for index, each in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
     ]
     _note_twins(faults, "maps", [each[0].name if each else None for each in maps])
-    _note_twins(faults, "fleets", [each.name if each else None for each in fleets])
+    _note_twins(faults, "fleets", [each[0] if each else None for each in fleets])
     faults.stop(("maps", "planners", "fleets"))
-    default = FleetSpec(name="default", data=_fleet_data((Fraction(1),)))
-    return Suite(
-        name=path.stem,
-        maps=tuple(spec for each in maps for spec in each or ()),
-        fleets=tuple(fleet for fleet in fleets if fleet) or (default,),
-        seeds=tuple(document.seeds),
-        limits=tuple(document.limits or (Fraction(10),)),
-        contenders=tuple(each for each in contenders if each),
-    )
+    limits = document.limits or [Fraction(10)]
+    for spec in (spec for each in maps for spec in each or ()):
+        dealt: Iterable[_Fleet] = [("", None)] if "scenario" in spec.data else filter(None, fleets)
+        for fleet, count in product(dealt, spec.counts):
+            ends = {"ends": spec.ends[:count]} if spec.ends else {}
+            for seed, limit, planner in product(document.seeds, limits, filter(None, planners)):
+                yield Case(
+                    map=spec.name,
+                    scen=spec.scen,
+                    fleet=fleet[0],
+                    robots=count,
+                    seed=seed,
+                    limit=limit,
+                    planner=planner[0],
+                    options=planner[1],
+                    problem={**spec.data, **ends},
+                    fleet_data=fleet[1],
+                )
 
 
 def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
@@ -265,16 +199,14 @@ def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
             faults.note(f"{key}[{index}].name", message)
 
 
-def _maps(
-    document: MapCasesDocument, counts: Sequence[int] | None, base: Path
-) -> tuple[MapSpec, ...]:
+def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) -> tuple[_Map, ...]:
     """Read a map of a suite with each of its files; places of faults are relative to the map."""
     if document.scenario is not None:
         with under("scenario"):
             scenario = load(base / document.scenario)
         name, content = Path(document.scenario).stem, {"scenario": dump_scenario(scenario)}
         count = len(scenario.robots)
-        return (MapSpec(name=document.name or name, counts=(count,), map=content),)
+        return (_Map(name=document.name or name, counts=(count,), data=content),)
     counts = tuple(document.counts or counts or ())
     if not counts:
         raise InputError.at("counts", "is missing (give it here, or for the whole suite)")
@@ -287,7 +219,7 @@ def _maps(
             raise InputError.at("counts", message)
         name = document.name or f"random-{width}-{height}-{walls * 100:g}"
         recipe = {"width": width, "height": height, "walls": walls, "seed": seed}
-        return (MapSpec(name=name, counts=counts, map={"random": recipe}),)
+        return (_Map(name=name, counts=counts, data={"random": recipe}),)
     faults = Faults()
     specs = [
         faults.attempt("", _with_rows, document, index, counts, base)
@@ -297,9 +229,7 @@ def _maps(
     return tuple(spec for spec in specs if spec)
 
 
-def _with_rows(
-    document: MapCasesDocument, index: int, counts: tuple[int, ...], base: Path
-) -> MapSpec:
+def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], base: Path) -> _Map:
     """Read a map and rows as the scenario that they are, so that its reader finds the faults."""
     scen = document.scens[index]
     whole = {
@@ -316,18 +246,19 @@ def _with_rows(
         ) from None
     grid = scenario.roadmap.grid
     assert grid is not None, "or its reader would have refused the rows"
-    return MapSpec(
+    return _Map(
         name=document.name or Path(document.file).stem,
         scen=Path(scen).name,
         counts=counts,
-        map={"grid": grid.lines()},
+        data={"grid": grid.lines()},
         ends=tuple(
             (grid.cell(robot.home), grid.cell(robot.stops[0].at)) for robot in scenario.robots
         ),
     )
 
 
-def _fleet(document: SuiteFleetDocument) -> FleetSpec:
+def _fleet(document: SuiteFleetDocument) -> _Fleet:
+    """Return the name and the data of a fleet."""
     given = document.given("occupancy", "headway", "turn", "laps", "rotations")
     if document.ends is not None:
         given["return"] = document.ends
@@ -337,20 +268,12 @@ def _fleet(document: SuiteFleetDocument) -> FleetSpec:
     }
     speeds = tuple(document.speeds or (Fraction(1),))
     _try_out(speeds, rules)
-    by_seed = document.deal == "by seed"
-    data = _fleet_data(speeds, by_seed=by_seed, work=document.work, rules=rules)
-    return FleetSpec(name=document.name, data=data)
-
-
-def _fleet_data(
-    speeds: Sequence[Fraction],
-    *,
-    by_seed: bool = False,
-    work: tuple[int, int] = (0, 0),
-    rules: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:
-    numbers = [written(speed) for speed in speeds]
-    return {"speeds": numbers, "by_seed": by_seed, "work": work, "rules": dict(rules or {})}
+    return document.name, {
+        "speeds": [written(speed) for speed in speeds],
+        "by_seed": document.deal == "by seed",
+        "work": document.work,
+        "rules": rules,
+    }
 
 
 def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
@@ -369,17 +292,18 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
         raise InputError.at("speeds" if key == "robots" else key, first.message) from None
 
 
-def _contender(document: PlannerDocument) -> Contender:
+def _planner(document: PlannerDocument) -> tuple[str, Mapping[str, Any]]:
+    """Return the name of a planner and a value for each of its options."""
     # Options come as on a command line: no True, but true.
     options = {
         name: str(value).lower() if isinstance(value, bool) else value
         for name, value in document.options.items()
     }
     if document.name == LAPS:
-        return Contender(planner=LAPS, options=_laps_options(options))
+        return LAPS, _laps_options(options)
     try:
         spec = find(document.name)
-        return Contender(planner=spec.name, options=spec.settle(options))
+        return spec.name, spec.settle(options)
     except InputError as error:
         # The registry knows of no document: it names the option after the planner.
         options_of = [(fault.place.partition(" ")[2], fault.message) for fault in error.faults]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -48,7 +49,7 @@ def bench(
     Prints for each planner how many cases it solves, how well and how fast. An interrupted run goes
     on when the same command is given again. Exit code 1 if a plan was wrong.
     """
-    from rightofway.bench import Results, cases_of, need, read_suite, write_report
+    from rightofway.bench import Results, need, read_suite, write_report
 
     if dask and jobs:
         raise click.UsageError("--jobs is for this machine, --dask for a cluster: choose one")
@@ -56,8 +57,7 @@ def bench(
         need("matplotlib", "a report")
     if dask:
         need("distributed", "a cluster")
-    found = read_suite(suite)
-    cases = cases_of(found)
+    cases = read_suite(suite)
     with Results(output) as results:
         try:
             _run(cases, results, jobs=jobs, dask=dask)
@@ -69,7 +69,7 @@ def bench(
     say(f"wrote {output}")
     _summarize(rows, output, as_json=as_json)
     if report:
-        write_report(rows, report, f"Results of {found.name}")
+        write_report(rows, report, f"Results of {Path(suite).stem}")
         say(f"wrote {report}")
     return 1 if any(row["valid"] is False for row in rows) else 0
 

@@ -9,6 +9,7 @@ import click
 
 from rightofway.cli.planning import refuse_outputs, write
 from rightofway.cli.terminal import (
+    ListingCommand,
     as_json_option,
     progress,
     put,
@@ -31,17 +32,12 @@ Examples:
 """
 
 
-class _LapsCommand(click.Command):
-    """A command whose help lists the rules."""
+def _list_rules(formatter: click.HelpFormatter) -> None:
+    from rightofway.cyclic import RULES, TIMETABLE
 
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the rules, then the examples."""
-        from rightofway.cyclic import RULES, TIMETABLE
-
-        search = "no rule: a search for the orders of highest throughput"
-        with formatter.section("Rules (which of two robots that meet goes first)"):
-            formatter.write_dl([*RULES.items(), (TIMETABLE, search)])
-        super().format_epilog(ctx, formatter)
+    search = "no rule: a search for the orders of highest throughput"
+    with formatter.section("Rules (which of two robots that meet goes first)"):
+        formatter.write_dl([*RULES.items(), (TIMETABLE, search)])
 
 
 def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> Fraction:
@@ -52,7 +48,8 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
 
 
 @click.command(
-    cls=_LapsCommand,
+    cls=ListingCommand,
+    listing=_list_rules,
     epilog=EXAMPLES,
     short_help="Find the cycle time of a fleet that repeats its work.",
 )

@@ -12,7 +12,6 @@ from typing import Any
 
 from rightofway.cli.terminal import wrapped
 from rightofway.cyclic import (
-    Bottleneck,
     Comparison,
     CyclicResult,
     GroupResult,
@@ -59,15 +58,32 @@ def laps_data(run: CyclicResult) -> dict[str, Any]:
         "rule": run.rule,
         "routes": run.routes,
         "throughput_per_hour": str(HOUR * run.throughput()),
-        "groups": [_group_data(run, group) for group in run.groups],
+        "groups": [_group_data(run.scenario, group) for group in run.groups],
     }
 
 
-def _group_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
-    names, pattern = _names(run, group), group.pattern
-    time = run.scenario.problem.clock.time
-    means = [None if mean is None else str(mean * time(1)) for mean in group.mean_laps()]
+def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
+    robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
+    names, pattern, measured, time = _names(scenario, group), group.pattern, None, clock.time
+    means = [None if mean is None else str(mean * clock.tick) for mean in group.mean_laps()]
     shares = [None if share is None else str(share) for share in group.waiting_shares()]
+    if pattern is None:
+        found = group.measured()
+        laps = dict(zip(names, found.laps, strict=True))
+        measured = {"from": str(time(found.warm_up)), "laps": laps}
+
+    def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
+        return [
+            {
+                "vertex": place(wait.vertex),
+                "robots": [robots[robot].name for robot in wait.pair],
+                "waits": robots[wait.waits].name,
+                when: str(time(wait.tick)),
+                "for": str(time(wait.ticks)),
+            }
+            for wait in waits
+        ]
+
     data: dict[str, Any] = {
         "robots": names,
         "ends": group.ends,
@@ -78,62 +94,47 @@ def _group_data(run: CyclicResult, group: GroupResult) -> dict[str, Any]:
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
         "laps_made": dict(zip(names, group.laps_made(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
-        "measured": _measured_data(run, group),
+        "measured": measured,
         "waiting_share": dict(zip(names, shares, strict=True)),
     }
     if _is_long(group):
         data |= dict.fromkeys(("conflicts", "first_lap", "bottleneck", "sensitivity"))
     else:
+        bottleneck = group.bottleneck()
         data |= {
-            "conflicts": [_wait_data(run, wait, "offset") for wait in group.waits()],
-            "first_lap": [_wait_data(run, wait, "time") for wait in group.first_waits()],
-            "bottleneck": _bottleneck_data(run.scenario, group.bottleneck()),
-            "sensitivity": _sensitivity_data(run.scenario, group),
+            "conflicts": waits_data(group.waits(), "offset"),
+            "first_lap": waits_data(group.first_waits(), "time"),
+            "bottleneck": [
+                {
+                    "kind": piece.kind,
+                    "robot": robots[piece.robot].name,
+                    "vertices": [place(vertex) for vertex in piece.places],
+                    "for": str(time(piece.ticks)),
+                }
+                for piece in (bottleneck.pieces if bottleneck else ())
+            ],
+            "sensitivity": _sensitivity_data(scenario, group),
         }
-    return data | _baseline_data(run.scenario, group.comparison)
+    if group.comparison is not None:
+        hour = HOUR / clock.tick
+        data |= {
+            "throughput_per_hour": str(group.comparison.throughput * hour),
+            "fairness": str(group.comparison.fairness),
+            "first_come": {
+                "ends": group.comparison.baseline_ends,
+                "throughput_per_hour": str(group.comparison.baseline * hour),
+            },
+        }
+    return data
 
 
-def _names(run: CyclicResult, group: GroupResult) -> list[str]:
-    return [run.scenario.robots[robot].name for robot in group.robots]
+def _names(scenario: Scenario, group: GroupResult) -> list[str]:
+    return [scenario.robots[robot].name for robot in group.robots]
 
 
 def _is_long(group: GroupResult) -> bool:
     """Return whether a period is too long to be computed visit by visit."""
     return group.pattern is not None and group.pattern.n_visits > MAX_VISITS
-
-
-def _measured_data(run: CyclicResult, group: GroupResult) -> dict[str, Any] | None:
-    """Return which laps the means are of, where no period is known."""
-    if group.pattern:
-        return None
-    measured, names = group.measured(), _names(run, group)
-    return {
-        "from": str(run.scenario.problem.clock.time(measured.warm_up)),
-        "laps": dict(zip(names, measured.laps, strict=True)),
-    }
-
-
-def _wait_data(run: CyclicResult, wait: LapWait, when: str) -> dict[str, Any]:
-    time, robots = run.scenario.problem.clock.time, run.scenario.robots
-    return {
-        "vertex": run.scenario.roadmap.name(wait.vertex),
-        "robots": [robots[robot].name for robot in wait.pair],
-        "waits": robots[wait.waits].name,
-        when: str(time(wait.tick)),
-        "for": str(time(wait.ticks)),
-    }
-
-
-def _bottleneck_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
-    return [
-        {
-            "kind": piece.kind,
-            "robot": scenario.robots[piece.robot].name,
-            "vertices": [scenario.roadmap.name(place) for place in piece.places],
-            "for": str(scenario.problem.clock.time(piece.ticks)),
-        }
-        for piece in (bottleneck.pieces if bottleneck else ())
-    ]
 
 
 def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
@@ -155,90 +156,70 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
     ]
 
 
-def _baseline_data(scenario: Scenario, found: Comparison | None) -> dict[str, Any]:
-    if found is None:
-        return {}
-    hour = HOUR / scenario.problem.clock.tick
-    return {
-        "throughput_per_hour": str(found.throughput * hour),
-        "fairness": str(found.fairness),
-        "first_come": {
-            "ends": found.baseline_ends,
-            "throughput_per_hour": str(found.baseline * hour),
-        },
-    }
-
-
 def laps_report(run: CyclicResult) -> str:
     """Return a result for people."""
-    return "\n".join(_lines(run))
-
-
-def _lines(run: CyclicResult) -> Iterator[str]:
     together = [group for group in run.groups if len(group.robots) > 1]
-    yield f"rule        {run.rule}, on {run.routes} routes"
-    yield f"groups      {_groups(run, together)}"
-    yield f"throughput  {_short(HOUR * run.throughput())} laps in {HOUR} time units"
-    largest = sorted(together, key=lambda group: -len(group.robots))
-    for group in largest[:MAX_GROUPS]:
-        yield ""
-        yield from _group_lines(run, group)
-        if group.comparison is not None:
-            yield from comparison_lines(group.comparison)
-    if len(largest) > MAX_GROUPS:
-        yield ""
-        yield f"… and {len(largest) - MAX_GROUPS} more groups, none larger (--json has them all)"
-
-
-def _groups(run: CyclicResult, together: Sequence[GroupResult]) -> str:
     ends = Counter(group.ends for group in together)
     counts = [
         (ends["repeats"], "periodic"),
         (ends["deadlock"], "in deadlock"),
         (ends["open"], "open: time ran out"),
     ]
-    found = [f"{number} of {len(together)} {words}" for number, words in counts if number]
-    alone = len(run.groups) - len(together)
-    return "; ".join([*found, *([f"{alone} robots meet no other"] if alone else [])])
+    groups = [f"{number} of {len(together)} {words}" for number, words in counts if number]
+    if len(together) < len(run.groups):
+        groups.append(f"{len(run.groups) - len(together)} robots meet no other")
+    lines = [
+        f"rule        {run.rule}, on {run.routes} routes",
+        f"groups      {'; '.join(groups)}",
+        f"throughput  {_short(HOUR * run.throughput())} laps in {HOUR} time units",
+    ]
+    largest = sorted(together, key=lambda group: -len(group.robots))
+    for group in largest[:MAX_GROUPS]:
+        lines += ["", *_group_lines(run.scenario, group)]
+        if group.comparison is not None:
+            lines += comparison_lines(group.comparison)
+    if len(largest) > MAX_GROUPS:
+        more = len(largest) - MAX_GROUPS
+        lines += ["", f"… and {more} more groups, none larger (--json has them all)"]
+    return "\n".join(lines)
 
 
-def _group_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
-    time, size = run.scenario.problem.clock.time, f"{len(group.robots)} robots"
+def _group_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+    time, size = scenario.problem.clock.time, f"{len(group.robots)} robots"
     if group.pattern is None:
-        yield from wrapped(f"{size}: {group.why}. {_source_of_means(run, group)}:")
-        yield from _robot_lines(run, group)
+        source = "Laps until then"
+        if group.ends != "deadlock":
+            measured = group.measured()
+            laps = sum(measured.laps) / len(measured.laps)
+            source = (
+                f"Measured, not proven: means of {laps:.1f} laps per robot"
+                f" from time {_short(time(measured.warm_up))} on"
+            )
+        yield from wrapped(f"{size}: {group.why}. {source}:")
+        yield from _robot_lines(scenario, group)
         return
     period, since = time(group.pattern.period), time(group.pattern.transient)
     yield f"{size}: period {period}, from time {since} on"
-    yield from _robot_lines(run, group)
+    yield from _robot_lines(scenario, group)
     if _is_long(group):
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
-    yield from _wait_lines(run, group)
+    yield from _wait_lines(scenario, group)
     bottleneck = group.bottleneck()
     if bottleneck:
-        yield from wrapped(f"bottleneck: {in_words(bottleneck, run.scenario)}")
-        yield from _sensitivity_lines(run.scenario, group)
+        yield from wrapped(f"bottleneck: {in_words(bottleneck, scenario)}")
+        yield from _sensitivity_lines(scenario, group)
 
 
-def _source_of_means(run: CyclicResult, group: GroupResult) -> str:
-    """Say which laps the means are of, where no period is known."""
-    if group.ends == "deadlock":
-        return "Laps until then"
-    measured = group.measured()
-    laps = sum(measured.laps) / len(measured.laps)
-    since = _short(run.scenario.problem.clock.time(measured.warm_up))
-    return f"Measured, not proven: means of {laps:.1f} laps per robot from time {since} on"
-
-
-def _robot_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
-    names, tick = _names(run, group), run.scenario.problem.clock.tick
-    routes = group.context.laps
+def _robot_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+    names, tick = _names(scenario, group), scenario.problem.clock.tick
     counts = group.pattern.counts if group.pattern else group.measured().laps
     title = "laps/period" if group.pattern else "laps"
     width = max(map(len, ("robot", *names[:MAX_LINES])))
     yield f"{'robot':{width}}  {title:>11}  mean lap     alone  waiting"
-    rows = zip(names, counts, group.mean_laps(), group.waiting_shares(), routes, strict=True)
+    rows = zip(
+        names, counts, group.mean_laps(), group.waiting_shares(), group.context.laps, strict=True
+    )
     for name, laps, mean, share, route in list(rows)[:MAX_LINES]:
         lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
         alone = _short(route.duration * tick)
@@ -252,38 +233,33 @@ def _short(number: Fraction) -> str:
     return str(number) if number.denominator <= MAX_DENOMINATOR else f"{float(number):.2f}"
 
 
-def _wait_lines(run: CyclicResult, group: GroupResult) -> Iterator[str]:
+def _wait_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
-    first, periodic = _sites(run, group.first_waits()), _sites(run, group.waits())
+    first, periodic = _sites(scenario, group.first_waits()), _sites(scenario, group.waits())
     both = len(first.keys() & periodic.keys())
     yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
-    robots, place = run.scenario.robots, run.scenario.roadmap.name
-    sites = [*periodic, *(site for site in first if site not in periodic)]
+    robots, place = scenario.robots, scenario.roadmap.name
+    sites = list(periodic | first)
     for site in sites[:MAX_LINES]:
         vertex, waiting, awaited = site
         text = f"{place(vertex)}: {robots[waiting].name} waits for {robots[awaited].name}"
-        when = [
-            f"{words} {_times(found[site])}"
-            for words, found in (("first lap at", first), ("each period at", periodic))
-            if site in found
-        ]
+        when = []
+        for words, found in (("first lap at", first), ("each period at", periodic)):
+            times = found.get(site, ())
+            more = f" and {len(times) - MAX_TIMES} more times" if len(times) > MAX_TIMES else ""
+            if times:
+                when.append(f"{words} {', '.join(map(_short, times[:MAX_TIMES]))}{more}")
         yield from wrapped(f"{text}, {'; '.join(when)}", "  ")
     if len(sites) > MAX_LINES:
         yield f"  … and {len(sites) - MAX_LINES} more"
 
 
-def _sites(run: CyclicResult, waits: Sequence[LapWait]) -> Sites:
+def _sites(scenario: Scenario, waits: Sequence[LapWait]) -> Sites:
     found: Sites = {}
     for wait in waits:
-        when = run.scenario.problem.clock.time(wait.tick)
-        found.setdefault((wait.vertex, wait.waits, wait.for_robot), []).append(when)
+        site = (wait.vertex, wait.waits, wait.for_robot)
+        found.setdefault(site, []).append(scenario.problem.clock.time(wait.tick))
     return found
-
-
-def _times(times: Sequence[Fraction]) -> str:
-    listed = ", ".join(map(_short, times[:MAX_TIMES]))
-    more = len(times) - MAX_TIMES
-    return listed if more <= 0 else f"{listed} and {more} more times"
 
 
 def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:

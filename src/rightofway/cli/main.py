@@ -24,16 +24,12 @@ import click
 
 from rightofway import __version__
 from rightofway.cli.bench import bench
-from rightofway.cli.check import check
-from rightofway.cli.convert import convert
-from rightofway.cli.improve import improve
+from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
-from rightofway.cli.plan import plan
-from rightofway.cli.schema import schema
-from rightofway.cli.show import show
+from rightofway.cli.planning import improve, plan
 from rightofway.cli.simulate import simulate
-from rightofway.cli.table import table
 from rightofway.cli.terminal import say, speak_utf8
+from rightofway.cli.views import check, show, table
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 __all__ = ["commands", "main", "run"]

@@ -1,95 +1,67 @@
-"""Options and results that ``plan`` and ``improve`` share."""
+"""``rightofway plan`` and ``rightofway improve``: a checked plan out."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from rightofway.cli.terminal import (
+    ListingCommand,
     as_json_option,
+    progress,
     put,
     put_json,
+    read_scenario,
     say,
     seed_option,
     time_limit_option,
     width,
     writable,
 )
-from rightofway.planners import PlannerSpec, registered
+from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, registered
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = [
-    "SECONDS_PER_VISIT",
-    "Asked",
-    "PlanningCommand",
-    "hand_over",
-    "planning_options",
-    "refuse_outputs",
-    "write",
-]
+__all__ = ["improve", "plan", "refuse_outputs", "write"]
 
 SECONDS_PER_VISIT = 0.9e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
 
+PLAN_EXAMPLES = """\b
+Examples:
+  rightofway plan examples/door.yaml --show door.html
+  rightofway plan examples/warehouse.yaml -o plan.json --log
+  rightofway plan examples/door.yaml --planner two-level --option swaps=leave
+"""
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Asked:
-    """The values of `planning_options`, and when the command began [s]."""
-
-    output: str | None
-    planner: str
-    options: dict[str, str]
-    time_limit: float | None
-    seed: int
-    page: str | None
-    log: bool
-    table: bool
-    as_json: bool
-    began: float = field(default_factory=time.monotonic, init=False)
-
-    @property
-    def time_left(self) -> float | None:
-        """What the time limit leaves for planning, after reading; at least half of it [s]."""
-        if self.time_limit is None:
-            return None
-        return max(self.time_limit - (time.monotonic() - self.began), self.time_limit / 2)
-
-    def refuse_outputs(self, source: str) -> None:
-        """Refuse, before any work, results that would be lost or replace the source."""
-        words = "--log" if self.log else "--table" if self.table else None
-        if words and self.output == "-":
-            raise click.UsageError(f"{words} and -o - both go to standard output")
-        if words and self.as_json:
-            raise click.UsageError(f"{words} is for people, --json for programs: choose one")
-        refuse_outputs(source, self.output, as_json=self.as_json)
+IMPROVE_EXAMPLES = """\b
+Examples:
+  rightofway improve plan.json -o better.json
+  rightofway improve plan.json --planner local-search --option rounds=1000
+"""
 
 
-class PlanningCommand(click.Command):
-    """A command whose help lists the planners that it can use."""
-
-    def __init__(self, *args: Any, only_improvers: bool = False, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
-        self.only_improvers = only_improvers
-
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the planners with their options, then the examples."""
-        specs = [each for each in registered().values() if each.improves or not self.only_improvers]
-        with formatter.section("Planners and their options"):
-            formatter.write_dl([line for spec in specs for line in _described(spec)])
-        super().format_epilog(ctx, formatter)
+def _list_planners(specs: Iterable[PlannerSpec], formatter: click.HelpFormatter) -> None:
+    lines: list[tuple[str, str]] = []
+    for spec in specs:
+        lines.append((spec.name, spec.summary))
+        lines += [(f"  {option.name}={option.accepts}", option.summary) for option in spec.options]
+    with formatter.section("Planners and their options"):
+        formatter.write_dl(lines)
 
 
-def _described(spec: PlannerSpec) -> list[tuple[str, str]]:
-    options = [(f"  {option.name}={option.accepts}", option.summary) for option in spec.options]
-    return [(spec.name, spec.summary), *options]
+def _list_all(formatter: click.HelpFormatter) -> None:
+    _list_planners(registered().values(), formatter)
+
+
+def _list_improvers(formatter: click.HelpFormatter) -> None:
+    _list_planners((spec for spec in registered().values() if spec.improves), formatter)
 
 
 def _options(
@@ -102,14 +74,8 @@ def _options(
     return {name: value for name, _, value in pairs}
 
 
-def planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds the options of `Asked` to a command.
-
-    Parameters
-    ----------
-    planner
-        The default planner.
-    """
+def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds the options of `_run` to a command."""
     options: list[Callable[[Callable[..., Any]], Callable[..., Any]]] = [
         click.option("-o", "--output", metavar="PLAN", callback=writable(),
                      help="Write the plan to this file (JSON); - for standard output."),
@@ -135,25 +101,88 @@ def planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..
     return add_to
 
 
+@click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
+@click.argument("scenario", type=click.Path())
+@_planning_options(DEFAULT)
+def plan(*, scenario: str, **given: Any) -> int:
+    """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
+
+    Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
+    standard input.
+    """
+    from rightofway.solve import solve
+
+    return _run(scenario, read_scenario, solve, **given)
+
+
+@click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
+@click.argument("plan", type=click.Path())
+@_planning_options(IMPROVER)
+def improve(*, plan: str, **given: Any) -> int:
+    """Improve a PLAN of any planner, and check the result.
+
+    The result is never worse than the PLAN. A PLAN of - is standard input.
+    """
+    from rightofway.io import load_plan
+    from rightofway.solve import improve as improved
+
+    return _run(plan, load_plan, improved, **given)
+
+
+def _run(
+    source: str,
+    read: Callable[[str], Any],
+    search: Callable[..., Plan],
+    *,
+    output: str | None,
+    planner: str,
+    options: dict[str, str],
+    time_limit: float | None,
+    seed: int,
+    page: str | None,
+    log: bool,
+    table: bool,
+    as_json: bool,
+) -> int:
+    """Read, plan, write and report; return the exit code."""
+    began = time.monotonic()
+    words = "--log" if log else "--table" if table else None
+    if words and output == "-":
+        raise click.UsageError(f"{words} and -o - both go to standard output")
+    if words and as_json:
+        raise click.UsageError(f"{words} is for people, --json for programs: choose one")
+    refuse_outputs(source, output, as_json=as_json)
+    problem = read(source)
+    if time_limit is not None:
+        time_limit = max(time_limit - (time.monotonic() - began), time_limit / 2)
+    with progress() as report:
+        found = search(
+            problem,
+            planner,
+            time_limit,
+            seed,
+            options=options,
+            report=report,
+            keep_best=True,
+            seconds_per_visit=SECONDS_PER_VISIT,
+        )
+    write(found, output)
+    if page:
+        from rightofway.viz import write_page
+
+        write_page(found, page)
+        say(f"wrote {page} (open it in a browser)")
+    if output != "-":
+        _report(found, log=log, table=table, as_json=as_json)
+    return _exit_code(found)
+
+
 def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:
     """Refuse two documents on standard output, and an output that would replace the source."""
     if output == "-" and as_json:
         raise click.UsageError("--json and -o - both go to standard output")
     if output and output != "-" and Path(output).resolve() == Path(source).resolve():
         raise click.UsageError(f"-o {output} would replace {source} (give another name)")
-
-
-def hand_over(found: Plan, asked: Asked) -> int:
-    """Write and report a plan; return the exit code."""
-    write(found, asked.output)
-    if asked.page:
-        from rightofway.viz import write_page
-
-        write_page(found, asked.page)
-        say(f"wrote {asked.page} (open it in a browser)")
-    if asked.output != "-":
-        _report(found, asked)
-    return _exit_code(found)
 
 
 def write(found: Plan, output: str | None) -> None:
@@ -167,16 +196,16 @@ def write(found: Plan, output: str | None) -> None:
         say(f"wrote {output}")
 
 
-def _report(found: Plan, asked: Asked) -> None:
+def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
     from rightofway.cli.plan_report import decision_log, summary, summary_data
 
-    if asked.as_json:
+    if as_json:
         put_json(summary_data(found))
         return
     put(summary(found))
-    if asked.log:
+    if log:
         put("\n" + decision_log(found))
-    if asked.table:
+    if table:
         from rightofway.viz.table import as_text, table_of
 
         put("\n" + as_text(table_of(found), width()))

@@ -9,11 +9,11 @@ import click
 
 from rightofway.cli.terminal import (
     COLUMNS,
+    ListingCommand,
     as_json_option,
     progress,
     put,
     put_json,
-    read_plan,
     row,
     say,
     seed_option,
@@ -44,22 +44,18 @@ Examples:
 """
 
 
-class _SimulateCommand(click.Command):
-    """A command whose help lists the kinds of delays."""
+def _list_delays(formatter: click.HelpFormatter) -> None:
+    from rightofway.execution import CAUSES
 
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the delays, then the examples."""
-        from rightofway.execution import CAUSES
-
-        with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
-            formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
-            formatter.write_paragraph()
-            formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
-        super().format_epilog(ctx, formatter)
+    with formatter.section("Delays (times in time units; numbers may be fractions like 1/3)"):
+        formatter.write_dl([one for cause in CAUSES.values() for one in cause.examples])
+        formatter.write_paragraph()
+        formatter.write_text("Several delays: with commas between, or a YAML or JSON list.")
 
 
 @click.command(
-    cls=_SimulateCommand,
+    cls=ListingCommand,
+    listing=_list_delays,
     epilog=EXAMPLES,
     short_help="Execute a PLAN many times with robots that are late.",
 )
@@ -104,9 +100,12 @@ def simulate(
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.execution import DEFAULT
     from rightofway.execution import simulate as execute
+    from rightofway.io import DELAY_FILES, load_delays, load_plan
 
-    texts = [text for one in delays or [DEFAULT] for text in _texts(one)]
-    found = read_plan(plan)
+    texts: list[str] = []
+    for text in delays or [DEFAULT]:
+        texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
+    found = load_plan(plan)
     with progress() as reported:
         outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
     if as_json:
@@ -120,13 +119,6 @@ def simulate(
         write_page(outcome.plan, page, actual=outcome.trace(played))
         say(f"wrote {page}: run {played} of {outcome.runs}")
     return 1 if outcome.collisions or outcome.deadlocks else 0
-
-
-def _texts(delays: str) -> tuple[str, ...]:
-    """Return delays as they were written, or those of a file that was named."""
-    from rightofway.io import DELAY_FILES, load_delays
-
-    return load_delays(delays) if delays.lower().endswith(DELAY_FILES) else (delays,)
 
 
 def report(outcome: Outcome) -> str:

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COLUMNS",
+    "ListingCommand",
     "as_json_option",
     "progress",
     "put",
     "put_json",
     "read_either",
-    "read_plan",
     "read_scenario",
     "row",
     "say",
@@ -113,13 +113,6 @@ def read_scenario(path: str) -> Scenario:
     return _noted(load_with_notes(path), path)
 
 
-def read_plan(path: str) -> Plan:
-    """Read a plan; ``-`` is standard input."""
-    from rightofway.io import load_plan
-
-    return load_plan(path)
-
-
 def read_either(path: str) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
@@ -195,3 +188,18 @@ seed_option = click.option(
 def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return the option that prints a result for programs."""
     return click.option("--json", "as_json", is_flag=True, help=f"Print the {what} as JSON.")
+
+
+class ListingCommand(click.Command):
+    """A command whose help lists the values of an option, then the examples."""
+
+    def __init__(
+        self, *args: Any, listing: Callable[[click.HelpFormatter], None], **kwargs: Any
+    ) -> None:
+        super().__init__(*args, **kwargs)
+        self.listing = listing
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list, then the examples."""
+        self.listing(formatter)
+        super().format_epilog(ctx, formatter)

@@ -1,19 +1,19 @@
-"""``rightofway convert``: one file format into another."""
+"""``rightofway convert`` and ``rightofway schema``: the file formats."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
-from rightofway.cli.terminal import read_scenario, say, writable
+from rightofway.cli.terminal import put_json, read_scenario, say, writable
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from rightofway.model import Scenario
 
-__all__ = ["convert"]
+__all__ = ["convert", "schema"]
 
 EXAMPLES = """\b
 Examples:
@@ -54,3 +54,12 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
     for loss in losses:
         say(f"{path}: {loss}")
     say(f"wrote {path} and {map_path}")
+
+
+@click.command(epilog="Example:  rightofway schema scenario > scenario.schema.json")
+@click.argument("kind", type=click.Choice(["scenario", "plan", "suite"]))
+def schema(kind: Literal["scenario", "plan", "suite"]) -> None:
+    """Print the JSON Schema of scenario, plan or suite files."""
+    from rightofway.io import schema as schema_of
+
+    put_json(schema_of(kind))

@@ -1,0 +1,184 @@
+"""``rightofway check``, ``show`` and ``table``: what is in a plan."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.terminal import as_json_option, put, put_json, read_either, say, width, writable
+
+if TYPE_CHECKING:
+    from rightofway.check import Report
+    from rightofway.model import Plan
+    from rightofway.viz.table import TimeSpaceTable
+
+__all__ = ["check", "show", "table"]
+
+SHOW_EXAMPLES = """\b
+Examples:
+  rightofway show plan.json -o plan.html
+  rightofway show plan.json -o moment.png --tick 12
+  rightofway show examples/door.yaml -o door.gif
+"""
+
+TABLE_EXAMPLES = """\b
+Examples:
+  rightofway table plan.json --to 20
+  rightofway table plan.json -o plan.xlsx --robots R1,R2
+"""
+
+
+@click.command(epilog="Example:  rightofway check plan.json")
+@click.argument("plan", type=click.Path())
+@click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
+              help="Faults to list; all are counted.")  # fmt: skip
+@as_json_option("report")
+def check(plan: str, limit: int, as_json: bool) -> int:
+    """Check a PLAN; exit code 1 if it breaks a rule.
+
+    The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
+    short, missed stops, wrong homes and ends, vertex and swap conflicts, headways that are too
+    short and, where they are forbidden, rotations. A PLAN of - is standard input.
+    """
+    from rightofway.check import check as judge
+    from rightofway.io import load_plan
+
+    found = load_plan(plan)
+    report = judge(found, limit=limit)
+    if as_json:
+        put_json(_report_data(found, report))
+    elif report.ok:
+        robots, visits = len(found.tracks), sum(map(len, found.tracks))
+        put(f"{plan}: no fault in {robots} robots and {visits} visits")
+    else:
+        put(f"{plan}: {report}")
+    return 0 if report.ok else 1
+
+
+def _report_data(found: Plan, report: Report) -> dict[str, Any]:
+    return {
+        "ok": report.ok,
+        "counts": dict(report.counts),
+        "faults": [
+            {
+                "kind": fault.kind,
+                "robots": [found.scenario.robots[robot].name for robot in fault.robots],
+                "vertices": [found.scenario.roadmap.name(vertex) for vertex in fault.vertices],
+                "tick": fault.tick,
+                "message": fault.message,
+            }
+            for fault in report.faults
+        ],
+    }
+
+
+@click.command(epilog=SHOW_EXAMPLES)
+@click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO")
+@click.option("-o", "--output", required=True, metavar="FILE",
+              callback=writable(".html", ".png", ".gif"),
+              help="File to write: a page (.html), a picture (.png) or a film (.gif).")  # fmt: skip
+@click.option("--tick", type=click.IntRange(0), metavar="TICK",
+              help="Tick that a picture shows; the start by default.")  # fmt: skip
+@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under a picture.")
+def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
+    """Show a plan as a page that plays it, a picture or a film.
+
+    A scenario is planned first, as by `rightofway plan`.
+    """
+    suffix = Path(output).suffix.lower()
+    if suffix != ".png" and (diagram or tick is not None):
+        raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
+    found = _plan_of(plan)
+    if suffix == ".html":
+        from rightofway.viz import write_page
+
+        write_page(found, output)
+    elif suffix == ".png":
+        from rightofway.viz import write_png
+
+        write_png(found, output, tick, diagram=diagram)
+    else:
+        from rightofway.viz import write_gif
+
+        film = write_gif(found, output)
+        say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
+    say(f"wrote {output}")
+
+
+def _plan_of(path: str) -> Plan:
+    """Read a plan, or plan a scenario."""
+    from rightofway.model import Plan
+    from rightofway.solve import solve
+
+    found = read_either(path)
+    if isinstance(found, Plan):
+        return found
+    planned = solve(found, report=say)
+    say(f"{path}: planned with {planned.run.name}: {planned.run.status}")
+    return planned
+
+
+@click.command(epilog=TABLE_EXAMPLES, short_help="Print the vertex of each robot at each tick.")
+@click.argument("plan", type=click.Path())
+@click.option("-o", "--output", metavar="FILE", callback=writable(".csv", ".xlsx"),
+              help="Write .csv or .xlsx instead of text.")  # fmt: skip
+@click.option("--from", "first", type=click.IntRange(0), default=0, metavar="TICK",
+              help="First tick shown.")  # fmt: skip
+@click.option("--to", "last", type=click.IntRange(0), metavar="TICK", help="Last tick shown.")
+@click.option("--robots", metavar="NAMES", help="Only these robots, with commas between.")
+@as_json_option("table")
+def table(
+    *,
+    plan: str,
+    output: str | None,
+    first: int,
+    last: int | None,
+    robots: str | None,
+    as_json: bool,
+) -> None:
+    """Print the time/space table of a PLAN: the vertex of each robot at each tick.
+
+    Planned rows are those of robots that never wait, with their collisions marked; final rows are
+    those of the plan. A PLAN of - is standard input.
+    """
+    from rightofway.io import load_plan
+    from rightofway.viz.table import as_text, table_of
+
+    names = [name.strip() for name in robots.split(",")] if robots else None
+    found = table_of(load_plan(plan), first_tick=first, last_tick=last, robots=names)
+    if output:
+        _write_table(found, output)
+    if as_json:
+        put_json(_table_data(found))
+    elif not output:
+        put(as_text(found, width()))
+
+
+def _write_table(found: TimeSpaceTable, path: str) -> None:
+    from rightofway.viz.table import write_csv, write_xlsx
+
+    writers = {".csv": write_csv, ".xlsx": write_xlsx}
+    writers[Path(path).suffix.lower()](found, path)
+    say(f"wrote {path}")
+
+
+def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
+    """Return the table for programs: for each row its runs of equal cells."""
+    return {
+        "first_tick": found.first_tick,
+        "last_tick": found.last_tick,
+        "tick": str(found.tick),
+        "rows": [
+            {
+                "robot": row.robot,
+                "kind": row.kind,
+                "runs": [
+                    {"start": start, "end": end, "place": cell.place, "mark": cell.mark}
+                    for start, end, cell in row.runs
+                ],
+            }
+            for row in found.rows
+        ],
+    }
