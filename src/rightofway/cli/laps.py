@@ -12,7 +12,6 @@ from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     progress,
-    put,
     put_json,
     read_scenario,
     say,
@@ -115,7 +114,7 @@ def laps(
     if as_json:
         put_json(laps_data(run))
     elif output != "-":
-        put(laps_report(run))
+        click.echo(laps_report(run))
     if page:
         from rightofway.viz import write_page
 

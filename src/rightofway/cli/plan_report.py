@@ -19,8 +19,22 @@ MAX_LINES = 20
 def summary(plan: Plan) -> str:
     """Return the costs of a plan, and which robots lose time for which others."""
     metrics, found = measure(plan), waits(plan)
-    costs = [*_costs(plan, metrics), ""]
-    return "\n".join([*costs, *_robots(plan, metrics, found), *_waits(plan, found)])
+    tick = plan.scenario.problem.clock.tick
+
+    def time(number: int) -> str:
+        return _ticks(number) + ("" if tick == 1 else f" = {number * tick} time units")
+
+    above = f"{metrics.gap:.1%} above the lower bound {metrics.lower_bound}"
+    rows = [
+        ("planner", f"{plan.run.name}: {plan.run.status}"),
+        ("flowtime", f"{time(metrics.flowtime)}, {above}"),
+        ("makespan", time(metrics.makespan)),
+        ("waiting", time(metrics.waiting)),
+    ]
+    costs = [
+        row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 10) for key, text in rows
+    ]
+    return "\n".join([*costs, "", *_robots(plan, metrics, found), *_waits(plan, found)])
 
 
 def summary_data(plan: Plan) -> dict[str, Any]:
@@ -63,23 +77,6 @@ def _ticks(number: int) -> str:
     return f"{number} tick" + "s" * (number != 1)
 
 
-def _costs(plan: Plan, metrics: Metrics) -> Iterator[str]:
-    tick = plan.scenario.problem.clock.tick
-
-    def time(number: int) -> str:
-        return _ticks(number) + ("" if tick == 1 else f" = {number * tick} time units")
-
-    above = f"{metrics.gap:.1%} above the lower bound {metrics.lower_bound}"
-    rows = [
-        ("planner", f"{plan.run.name}: {plan.run.status}"),
-        ("flowtime", f"{time(metrics.flowtime)}, {above}"),
-        ("makespan", time(metrics.makespan)),
-        ("waiting", time(metrics.waiting)),
-    ]
-    for key, text in rows:
-        yield row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 10)
-
-
 def _waiting(plan: Plan, found: Sequence[Wait]) -> list[int]:
     total = [0] * len(plan.tracks)
     for wait in found:
@@ -109,22 +106,19 @@ def _waits(plan: Plan, found: Sequence[Wait]) -> Iterator[str]:
     longest = sorted(groups.values(), key=lambda group: -sum(wait.ticks for wait in group))
     if longest:
         yield ""
+    names, place = _names(plan), plan.scenario.roadmap.name
     for group in longest[:MAX_LINES]:
-        yield from wrapped(_wait(plan, group))
+        first, where = group[0], ""
+        if len(group) > 1:
+            where = f" in {len(group)} places, first"
+        where += f" in {place(first.vertex)} at tick {first.tick}"
+        reason = "to let others pass further on"
+        if first.for_robot is not None:
+            reason = f"for {names[first.for_robot]} to leave {place(first.towards)}"
+        total = _ticks(sum(wait.ticks for wait in group))
+        yield from wrapped(f"{names[first.robot]} waits {total}{where}, {reason}.")
     if len(longest) > MAX_LINES:
         yield f"… and {len(longest) - MAX_LINES} more (--json lists all)"
-
-
-def _wait(plan: Plan, group: list[Wait]) -> str:
-    names, place, first = _names(plan), plan.scenario.roadmap.name, group[0]
-    total = f"{names[first.robot]} waits {_ticks(sum(wait.ticks for wait in group))}"
-    reason = "to let others pass further on"
-    if first.for_robot is not None:
-        reason = f"for {names[first.for_robot]} to leave {place(first.towards)}"
-    if len(group) == 1:
-        return f"{total} in {place(first.vertex)} at tick {first.tick}, {reason}."
-    start = f"first in {place(first.vertex)} at tick {first.tick}"
-    return f"{total} in {len(group)} places, {start}, {reason}."
 
 
 def decision_log(plan: Plan) -> str:

@@ -13,7 +13,6 @@ from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     progress,
-    put,
     put_json,
     read_scenario,
     say,
@@ -190,7 +189,7 @@ def write(found: Plan, output: str | None) -> None:
     from rightofway.io import plan_text, write_plan
 
     if output == "-":
-        put(plan_text(found).rstrip("\n"))
+        click.echo(plan_text(found).rstrip("\n"))
     elif output:
         write_plan(found, output)
         say(f"wrote {output}")
@@ -202,13 +201,13 @@ def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
     if as_json:
         put_json(summary_data(found))
         return
-    put(summary(found))
+    click.echo(summary(found))
     if log:
-        put("\n" + decision_log(found))
+        click.echo("\n" + decision_log(found))
     if table:
         from rightofway.viz.table import as_text, table_of
 
-        put("\n" + as_text(table_of(found), width()))
+        click.echo("\n" + as_text(table_of(found), width()))
 
 
 def _exit_code(found: Plan) -> int:

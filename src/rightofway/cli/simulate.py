@@ -12,7 +12,6 @@ from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     progress,
-    put,
     put_json,
     row,
     say,
@@ -22,7 +21,7 @@ from rightofway.cli.terminal import (
 )
 
 if TYPE_CHECKING:
-    from rightofway.execution import Outcome, PolicyGain, Quantiles
+    from rightofway.execution import Outcome, Quantiles
 
 __all__ = ["report", "simulate"]
 
@@ -111,7 +110,7 @@ def simulate(
     if as_json:
         put_json(outcome.as_dict())
     else:
-        put(report(outcome))
+        click.echo(report(outcome))
     if page:
         from rightofway.viz import write_page
 
@@ -127,40 +126,48 @@ def report(outcome: Outcome) -> str:
 
 
 def _totals(outcome: Outcome) -> Iterator[str]:
-    late = outcome.lateness
+    runs, late, clock, gain = outcome.runs, outcome.lateness, outcome.by_clock, outcome.gain
     collisions = _count(outcome.collisions, "collision")
+    by_clock = "no run collides"
+    if clock.runs:
+        by_clock = (
+            f"{clock.runs / runs:.1%} of runs collide, {clock.total / runs:.1f} times per run on"
+            f" average, first at tick {clock.first.median:g} (median)"
+        )
     rows = [
-        ("runs", f"{outcome.runs} with {', '.join(outcome.delays)}; seed {outcome.seed}"),
+        ("runs", f"{runs} with {', '.join(outcome.delays)}; seed {outcome.seed}"),
         ("right of way", f"{collisions}, {_count(outcome.deadlocks, 'deadlock')}"),
-        ("by the clock", _by_clock(outcome)),
+        ("by the clock", by_clock),
         ("late", _quantiles(late.all)),
     ]
     if late.flowtime.mean is not None:
         rows.append(("flowtime", f"later by {_quantiles(late.flowtime)}"))
         rows.append(("makespan", f"later by {_quantiles(late.makespan)}"))
     if outcome.switches:
-        rows.append(("switched", f"{outcome.switches / outcome.runs:.1f} times per run"))
+        rows.append(("switched", f"{outcome.switches / runs:.1f} times per run"))
     if outcome.replans:
-        rows.append(("replanned", f"{outcome.replans / outcome.runs:.1f} times per run"))
-    if outcome.gain and outcome.gain.runs:
-        rows.append(("gain", _gain(outcome.gain)))
+        rows.append(("replanned", f"{outcome.replans / runs:.1f} times per run"))
+    if gain and gain.runs:
+        saved = (  # a loss is below zero
+            f"{gain.flowtime.mean:.1f} ticks of flowtime per run on average, compared with the"
+            f" plan's rights of way in the same runs; {gain.earlier / gain.runs:.0%} of runs"
+            f" earlier, {gain.later / gain.runs:.0%} later"
+        )
+        rows.append(("gain", saved))
     if outcome.broken:
-        rows.append(("broken", _broken(outcome)))
+        broken = (
+            f"{outcome.broken / runs:.2f} robots per run break down,"
+            f" {outcome.stranded / runs:.2f} wait for them for ever"
+        )
+        if outcome.replans:
+            broken += f", {outcome.cut_off / runs:.2f} are cut off from a place"
+        rows.append(("broken", broken))
     for key, text in rows:
         yield row(key, text, 14)
 
 
 def _count(number: int, what: str) -> str:
     return f"{number or 'no'} {what}" + "s" * (number != 1)
-
-
-def _by_clock(outcome: Outcome) -> str:
-    clock = outcome.by_clock
-    if not clock.runs:
-        return "no run collides"
-    often = f"{clock.total / outcome.runs:.1f} times per run on average"
-    first = f"first at tick {clock.first.median:g} (median)"
-    return f"{clock.runs / outcome.runs:.1%} of runs collide, {often}, {first}"
 
 
 def _quantiles(found: Quantiles) -> str:
@@ -170,26 +177,6 @@ def _quantiles(found: Quantiles) -> str:
         f"{found.mean:.1f} ticks on average; median {found.median:g},"
         f" 90 % {found.p90:g}, 95 % {found.p95:g}, most {found.max}"
     )
-
-
-def _gain(gain: PolicyGain) -> str:
-    """Say how much flowtime was saved; a loss is below zero."""
-    runs = gain.runs
-    return (
-        f"{gain.flowtime.mean:.1f} ticks of flowtime per run on average, compared with the plan's"
-        f" rights of way in the same runs; {gain.earlier / runs:.0%} of runs earlier,"
-        f" {gain.later / runs:.0%} later"
-    )
-
-
-def _broken(outcome: Outcome) -> str:
-    parts = [
-        (outcome.broken, "robots per run break down"),
-        (outcome.stranded, "wait for them for ever"),
-        (outcome.cut_off, "are cut off from a place"),
-    ]
-    parts = parts if outcome.replans else parts[:2]
-    return ", ".join(f"{number / outcome.runs:.2f} {what}" for number, what in parts)
 
 
 def _robots(outcome: Outcome) -> Iterator[str]:

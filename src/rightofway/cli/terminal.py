@@ -24,7 +24,6 @@ __all__ = [
     "ListingCommand",
     "as_json_option",
     "progress",
-    "put",
     "put_json",
     "read_either",
     "read_scenario",
@@ -72,11 +71,6 @@ def progress() -> Iterator[Callable[[str], None]]:
         yield lambda message: click.echo(f"{CLEAR}{message[: width() - 1]}", err=True, nl=False)
     finally:
         click.echo(CLEAR, err=True, nl=False)
-
-
-def put(text: str) -> None:
-    """Write a result to standard output."""
-    click.echo(text)
 
 
 def put_json(value: Any) -> None:

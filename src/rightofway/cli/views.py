@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import as_json_option, put, put_json, read_either, say, width, writable
+from rightofway.cli.terminal import as_json_option, put_json, read_either, say, width, writable
 
 if TYPE_CHECKING:
     from rightofway.check import Report
@@ -51,9 +51,9 @@ def check(plan: str, limit: int, as_json: bool) -> int:
         put_json(_report_data(found, report))
     elif report.ok:
         robots, visits = len(found.tracks), sum(map(len, found.tracks))
-        put(f"{plan}: no fault in {robots} robots and {visits} visits")
+        click.echo(f"{plan}: no fault in {robots} robots and {visits} visits")
     else:
-        put(f"{plan}: {report}")
+        click.echo(f"{plan}: {report}")
     return 0 if report.ok else 1
 
 
@@ -153,7 +153,7 @@ def table(
     if as_json:
         put_json(_table_data(found))
     elif not output:
-        put(as_text(found, width()))
+        click.echo(as_text(found, width()))
 
 
 def _write_table(found: TimeSpaceTable, path: str) -> None:
