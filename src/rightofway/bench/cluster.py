@@ -89,19 +89,15 @@ def _rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]
     )
     for future in done:
         case = waiting.pop(future)
-        yield _row(future, case, distributed)
+        try:
+            row: Row = future.result()
+        except distributed.KilledWorker:
+            row = lost(case, "each worker that tried it died, perhaps for its memory")
+        except Exception as error:
+            if future.status != "error":
+                raise
+            what = shorten(f"{type(error).__name__}: {error}", LONGEST, placeholder=" …")
+            message = f"a worker cannot run cases: {what} (install this rightofway on all workers)"
+            raise InputError.at("", message) from None
+        yield row
         done.update([submit(case) for case in islice(cases, room())])
-
-
-def _row(future: Any, case: Case, distributed: Any) -> Row:
-    try:
-        row: Row = future.result()
-    except distributed.KilledWorker:
-        return lost(case, "each worker that tried it died, perhaps for its memory")
-    except Exception as error:
-        if future.status != "error":
-            raise
-        what = shorten(f"{type(error).__name__}: {error}", LONGEST, placeholder=" …")
-        message = f"a worker cannot run cases: {what} (install this rightofway on all workers)"
-        raise InputError.at("", message) from None
-    return row

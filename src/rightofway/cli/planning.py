@@ -173,7 +173,16 @@ def _run(
         say(f"wrote {page} (open it in a browser)")
     if output != "-":
         _report(found, log=log, table=table, as_json=as_json)
-    return _exit_code(found)
+    if found.run.options.get("swaps") != "leave":
+        return 0
+    from rightofway.check import check
+
+    # Only swaps that were left in on request are faults; other plans are checked already.
+    judged = check(found)
+    if judged.ok:
+        return 0
+    say(f"the plan still has {judged.summary}; swaps=resolve takes them out")
+    return 1
 
 
 def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:
@@ -208,16 +217,3 @@ def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
         from rightofway.viz.table import as_text, table_of
 
         click.echo("\n" + as_text(table_of(found), width()))
-
-
-def _exit_code(found: Plan) -> int:
-    """Return 1, and say why, where swaps were left in on request; other plans are checked."""
-    from rightofway.check import check
-
-    if found.run.options.get("swaps") != "leave":
-        return 0
-    report = check(found)
-    if report.ok:
-        return 0
-    say(f"the plan still has {report.summary}; swaps=resolve takes them out")
-    return 1

@@ -87,10 +87,16 @@ def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
 
     A scenario is planned first, as by `rightofway plan`.
     """
+    from rightofway.model import Scenario
+    from rightofway.solve import solve
+
     suffix = Path(output).suffix.lower()
     if suffix != ".png" and (diagram or tick is not None):
         raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
-    found = _plan_of(plan)
+    found = read_either(plan)
+    if isinstance(found, Scenario):
+        found = solve(found, report=say)
+        say(f"{plan}: planned with {found.run.name}: {found.run.status}")
     if suffix == ".html":
         from rightofway.viz import write_page
 
@@ -105,19 +111,6 @@ def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
         film = write_gif(found, output)
         say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
     say(f"wrote {output}")
-
-
-def _plan_of(path: str) -> Plan:
-    """Read a plan, or plan a scenario."""
-    from rightofway.model import Plan
-    from rightofway.solve import solve
-
-    found = read_either(path)
-    if isinstance(found, Plan):
-        return found
-    planned = solve(found, report=say)
-    say(f"{path}: planned with {planned.run.name}: {planned.run.status}")
-    return planned
 
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print the vertex of each robot at each tick.")
