@@ -50,19 +50,10 @@ def largest_part(lines: Sequence[str]) -> list[Cell]:
 def scenario_document(
     problem: Mapping[str, Any], fleet: Mapping[str, Any] | None, robots: int, seed: int
 ) -> dict[str, Any]:
-    """Return the scenario of a case as a document.
+    """Return the scenario of a `Case` as a document.
 
-    Parameters
-    ----------
-    problem
-        The map, and the ends of robots if they are not drawn.
-    fleet
-        Speeds, work and rules; None if the problem is a whole scenario.
-    robots
-        How many.
-    seed
-        Draws homes and targets on random grids (each place at most once as a home and once as a
-        target), speeds if they are drawn, and work.
+    The seed draws homes and targets on random grids (each place at most once as a home and once as
+    a target), speeds if they are drawn, and work.
     """
     if fleet is None:
         return dict(problem["scenario"])

@@ -75,13 +75,7 @@ class Processes:
         self._is_over = False
 
     def run(self, case: Case) -> Row:
-        """Return the row of a case, however its process ends.
-
-        Raises
-        ------
-        Interrupted
-            If `end` was called before it was done.
-        """
+        """Return the row of a case, however its process ends; `Interrupted` after `end`."""
         with tempfile.TemporaryFile() as stderr, self._started(stderr) as process:
             allowed = 3 * float(case.limit) + GRACE
             overran = False

@@ -41,13 +41,7 @@ ENDINGS: dict[type[BaseException], str] = {
 
 
 def run(case: Case) -> dict[str, Any]:
-    """Plan a case, have the plan judged and measured; whatever happens is an outcome.
-
-    Returns
-    -------
-    dict
-        Columns of a row, from ``solved`` to ``peak_memory``.
-    """
+    """Plan a case, have the plan judged and measured; return a row's columns from ``solved`` on."""
     clock = _Clock()
     try:
         scenario = case.scenario()

@@ -72,7 +72,10 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     except BrokenPipeError:  # nobody reads our messages
         code = UNREAD
     if code == UNREAD:
-        _let_the_readers_go()
+        # Keep Python from complaining, at its exit, that nobody reads its output any more.
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        for stream in (1, 2):
+            os.dup2(nowhere, stream)
     sys.exit(code)
 
 
@@ -107,13 +110,6 @@ def run(args: Sequence[str] | None = None) -> int:
     except Exception as error:  # noqa: BLE001 (whatever else goes wrong is a defect of ours)
         _confess(error, debug=session.debug)
         return DEFECT
-
-
-def _let_the_readers_go() -> None:
-    """Keep Python from complaining, at its exit, that nobody reads its output any more."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    for stream in (1, 2):
-        os.dup2(nowhere, stream)
 
 
 def _confess(error: Exception, *, debug: bool) -> None:

@@ -124,10 +124,7 @@ def _noted(loaded: Loaded, path: str) -> Scenario:
 def writable(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], Any]:
     """Return a callback that refuses, before any work, a file that could not be written after it.
 
-    Parameters
-    ----------
-    suffixes
-        The endings that its name may have; any if there are none.
+    Its name must end in one of the suffixes, if there are any.
     """
 
     def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
