@@ -72,26 +72,27 @@ tuple of (int64[N], int64[N], int64[R], uint8[R], int64[4])
     When each visit begins, when its booking begins, when robots complete, which stand still for
     ever, and the conflicts as `runs` counts them.)";
 
+std::vector<Stoppage> stoppages_of(const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
+    require_length("stoppage_ticks", ticks.size(), tick.size());
+    std::vector<Stoppage> stoppages;
+    for (std::size_t k = 0; k < tick.size(); ++k) {
+        stoppages.push_back({view(tick)[k], view(ticks)[k]});
+    }
+    return stoppages;
+}
+
 DelaySample sample_of(const ActionDependencyGraph& plan, const ArrayIn<Tick>& dwell,
                       const ArrayIn<Tick>& drive, const ArrayIn<std::int32_t>& first,
                       const ArrayIn<Tick>& tick, const ArrayIn<Tick>& ticks) {
     const auto n_visits = static_cast<std::size_t>(plan.n_visits());
     require_length("dwell", dwell.size(), n_visits);
     require_length("drive", drive.size(), n_visits);
-    require_length("first_stoppage", first.size(), static_cast<std::size_t>(plan.n_robots()) + 1);
-    require_length("stoppage_ticks", ticks.size(), tick.size());
-    const auto firsts = view(first);
-    if (firsts.front() != 0 || static_cast<std::size_t>(firsts.back()) != tick.size() ||
-        !std::is_sorted(firsts.begin(), firsts.end())) {
-        throw std::invalid_argument("first_stoppage: does not rise from 0 to their number");
-    }
+    require_stoppages(view(first), static_cast<std::size_t>(plan.n_robots()), tick.size());
     DelaySample out;
     out.dwell.assign(view(dwell).begin(), view(dwell).end());
     out.drive.assign(view(drive).begin(), view(drive).end());
-    out.first_stoppage.assign(firsts.begin(), firsts.end());
-    for (std::size_t k = 0; k < tick.size(); ++k) {
-        out.stoppages.push_back({view(tick)[k], view(ticks)[k]});
-    }
+    out.first_stoppage.assign(view(first).begin(), view(first).end());
+    out.stoppages = stoppages_of(tick, ticks);
     return out;
 }
 
@@ -199,22 +200,17 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           const ArrayIn<Tick>& stoppage_ticks) {
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
-    require_length("stoppage_ticks", stoppage_ticks.size(), stoppage_tick.size());
     std::vector<Delay> delays;
     for (std::size_t k = 0; k < delay_kind.size(); ++k) {
         require_id("delay_kind", view(delay_kind)[k], 5);
         delays.push_back(
             {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
     }
-    std::vector<Stoppage> stoppages;
-    for (std::size_t k = 0; k < stoppage_tick.size(); ++k) {
-        stoppages.push_back({view(stoppage_tick)[k], view(stoppage_ticks)[k]});
-    }
     const auto first = view(first_stoppage);
-    new (self)
-        BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
-                  view(before), headway, books_ahead, view(since)},
-                 view(pace), std::move(delays), {first.begin(), first.end()}, std::move(stoppages));
+    new (self) BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
+                         view(before), headway, books_ahead, view(since)},
+                        view(pace), std::move(delays), {first.begin(), first.end()},
+                        stoppages_of(stoppage_tick, stoppage_ticks));
 }
 
 }  // namespace

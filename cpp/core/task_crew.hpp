@@ -22,8 +22,6 @@ class TaskCrew {
 
     explicit TaskCrew(std::size_t n_workers) : n_workers_(n_workers) {}
 
-    std::size_t n_workers() const { return n_workers_; }
-
     // Does tasks 0 .. n_tasks - 1, or the first of them if `is_over` says so. What that throws
     // means the same and is kept, so that the caller can tidy up before it calls `pass_on`.
     void run(std::size_t n_tasks, const Work& work, const StopCondition& is_over);

@@ -17,7 +17,7 @@ Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     if (conflict.kind == ConflictKind::swap) {
         j = j.before();  // the visit that j ends as i enters
     }
-    conflict_visits_ = {i, j};
+    conflict_visit_ = i;
     waiting_cycle_.clear();
     const Segment segment = segment_of(i, j);
     const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
@@ -67,15 +67,11 @@ Backjumping::Outcome Backjumping::backjump() {
 // The longest run of vertices around two visits that one robot visits in reverse order of the
 // other, or else in the same order.
 Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const {
-    const auto is_shown = [this](CyclicVisit visit) {
-        return timetable_.start(visit.robot) <= visit.number &&
-               visit.number < timetable_.end(visit.robot);
-    };
     const auto run_length = [&](std::int32_t i_step, std::int32_t j_step) {
         for (std::int32_t length = 0;; ++length) {
             const CyclicVisit one{i.robot, i.number + (length + 1) * i_step};
             const CyclicVisit other{j.robot, j.number + (length + 1) * j_step};
-            if (!is_shown(one) || !is_shown(other) ||
+            if (!timetable_.is_in_window(one) || !timetable_.is_in_window(other) ||
                 routes_.vertex(one) != routes_.vertex(other)) {
                 return length;
             }

@@ -11,7 +11,6 @@
 // decisions are undone. If the turned decision fails as well, its culprits are added to the others.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -52,8 +51,8 @@ class Backjumping {
     Outcome backjump();
     bool is_backjumping() const { return is_backjumping_; }
     std::span<const RobotId> waiting_cycle() const { return waiting_cycle_; }
-    // The two visits of the last conflict, at one vertex.
-    std::array<CyclicVisit, 2> conflict_visits() const { return conflict_visits_; }
+    // A visit of the last conflict, at its vertex.
+    CyclicVisit conflict_visit() const { return conflict_visit_; }
 
     std::vector<SegmentOrder> orders() const;
     // Calls use(rights) for the rights of way of each decision, and for those of the other robot.
@@ -111,7 +110,7 @@ class Backjumping {
     std::vector<RobotId> waiting_cycle_;
     std::vector<DecisionId> culprits_;  // of the conflict that is being resolved; rising
     bool is_backjumping_ = false;
-    std::array<CyclicVisit, 2> conflict_visits_{};
+    CyclicVisit conflict_visit_{};
 };
 
 }  // namespace rightofway

@@ -89,15 +89,10 @@ Booking ConflictSweep::booking(CyclicVisit visit) const {
             timetable_.enter(visit.next()) + routes_.headway()};
 }
 
-bool ConflictSweep::is_in_window(CyclicVisit visit) const {
-    return timetable_.start(visit.robot) <= visit.number &&
-           visit.number < timetable_.end(visit.robot);
-}
-
 bool ConflictSweep::holds(const Conflict& conflict) const {
     const CyclicVisit a{conflict.robot_a, conflict.visit_a};
     const CyclicVisit b{conflict.robot_b, conflict.visit_b};
-    if (!is_in_window(a) || !is_in_window(b)) {
+    if (!timetable_.is_in_window(a) || !timetable_.is_in_window(b)) {
         return false;
     }
     if (conflict.kind == ConflictKind::swap) {
@@ -197,7 +192,7 @@ void ConflictSweep::compare(const Booked& own, const Booked& other) {
     }
     const CyclicVisit there = other.visit.next();
     if (own.booking.start == other.booking.end && routes_.gap_before(own.visit) == 0 &&
-        own.visit.number > timetable_.start(own.visit.robot) && is_in_window(there) &&
+        own.visit.number > timetable_.start(own.visit.robot) && timetable_.is_in_window(there) &&
         routes_.gap_before(there) == 0 &&
         routes_.vertex(there) == routes_.vertex(own.visit.before())) {
         add(own.visit, there, own.booking.start, ConflictKind::swap);

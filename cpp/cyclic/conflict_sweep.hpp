@@ -57,7 +57,6 @@ class ConflictSweep {
     };
 
     Booking booking(CyclicVisit visit) const;
-    bool is_in_window(CyclicVisit visit) const;
     bool holds(const Conflict& conflict) const;
     void find_next(RobotId robot);
     void unsweep(RobotId robot, std::int32_t from);

@@ -48,6 +48,9 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     std::int32_t start(RobotId robot) const { return lines_[robot].start; }
     std::int32_t frozen(RobotId robot) const { return lines_[robot].frozen; }
     std::int32_t end(RobotId robot) const { return lines_[robot].end; }
+    bool is_in_window(CyclicVisit visit) const {
+        return start(visit.robot) <= visit.number && visit.number < end(visit.robot);
+    }
     Tick begins() const { return begins_; }
     Tick enter(CyclicVisit visit) const { return node(visit).enter; }
     // Fetches the enter of a visit, or of the last one in the window, into the cache.

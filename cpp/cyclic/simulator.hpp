@@ -62,7 +62,7 @@ class CyclicSimulator {
     // Of a deadlock: the conflict that cannot be resolved, its vertex, and the robots that would
     // each wait for the next.
     const Conflict& deadlock() const { return conflict_; }
-    VertexId deadlock_at() const { return routes_.vertex(decisions_.conflict_visits()[0]); }
+    VertexId deadlock_at() const { return routes_.vertex(decisions_.conflict_visit()); }
     std::span<const RobotId> waiting_cycle() const { return decisions_.waiting_cycle(); }
 
   private:

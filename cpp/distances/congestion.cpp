@@ -1,6 +1,7 @@
 #include "distances/congestion.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "core/reject.hpp"
@@ -67,7 +68,7 @@ void Congestion::search(RobotId robot, VertexId start, VertexId target,
     reached_.push_back(start);
     open_.push_back({shares_ * to_go[start], shares_ * to_go[start], 0, start});
     while (!open_.empty() && open_.front().cost <= cost_[target]) {
-        std::pop_heap(open_.begin(), open_.end(), is_later);
+        std::pop_heap(open_.begin(), open_.end(), std::greater<>());
         const Open top = open_.back();
         open_.pop_back();
         if (top.cost - top.to_go > cost_[top.vertex] || top.vertex == target) {
@@ -95,7 +96,7 @@ void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::i
         cost_[vertex] = cost;
         cheapest_way_[vertex] = none;
         open_.push_back({cost + to_go, to_go, static_cast<std::int64_t>(ways_.size()), vertex});
-        std::push_heap(open_.begin(), open_.end(), is_later);
+        std::push_heap(open_.begin(), open_.end(), std::greater<>());
     }
     ways_.push_back({from, cheapest_way_[vertex]});
     cheapest_way_[vertex] = static_cast<std::int32_t>(ways_.size()) - 1;
@@ -145,13 +146,6 @@ void Congestion::clear() {
     reached_.clear();
     ways_.clear();
     open_.clear();
-}
-
-bool Congestion::is_later(const Open& left, const Open& right) {
-    if (left.cost != right.cost) {
-        return left.cost > right.cost;
-    }
-    return left.to_go != right.to_go ? left.to_go > right.to_go : left.order > right.order;
 }
 
 void Congestion::add(std::span<const VertexId> path, std::int64_t oncoming) {

@@ -7,6 +7,7 @@
 // whole numbers: times in shares of a tick, and surcharges in shares for each tick of an edge.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,8 +39,9 @@ class Congestion {
     struct Open {
         std::int64_t cost;   // with what is to go at least
         std::int64_t to_go;  // of that
-        std::int64_t order;
+        std::int64_t order;  // differs between all entries
         VertexId vertex;
+        auto operator<=>(const Open&) const = default;
     };
     // One of the cheapest ways to get to a vertex, in a list.
     struct Way {
@@ -47,7 +49,6 @@ class Congestion {
         std::int32_t next;
     };
 
-    static bool is_later(const Open& left, const Open& right);
     std::int64_t cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const;
     void search(RobotId robot, VertexId start, VertexId target,
                 std::span<const std::int32_t> to_go);

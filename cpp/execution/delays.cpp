@@ -65,18 +65,18 @@ Delays::Delays(const ActionDependencyGraph& plan, std::span<const double> pace,
       delays_(std::move(delays)),
       first_stoppage_(std::move(first_stoppage)),
       stoppages_(std::move(stoppages)) {
-    check(static_cast<std::size_t>(plan.n_robots()));
+    require_length("pace", pace_.size(), static_cast<std::size_t>(plan.n_robots()));
+    require_stoppages(first_stoppage_, pace_.size(), stoppages_.size());
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         makespan_ = std::max(makespan_, plan.planned_completion(r));
     }
 }
 
-void Delays::check(std::size_t n_robots) const {
-    require_length("pace", pace_.size(), n_robots);
-    require_length("first_stoppage", first_stoppage_.size(), n_robots + 1);
-    if (first_stoppage_.front() != 0 ||
-        static_cast<std::size_t>(first_stoppage_.back()) != stoppages_.size() ||
-        !std::is_sorted(first_stoppage_.begin(), first_stoppage_.end())) {
+void require_stoppages(std::span<const std::int32_t> first, std::size_t n_robots,
+                       std::size_t n_stoppages) {
+    require_length("first_stoppage", first.size(), n_robots + 1);
+    if (first.front() != 0 || static_cast<std::size_t>(first.back()) != n_stoppages ||
+        !std::is_sorted(first.begin(), first.end())) {
         throw std::invalid_argument("first_stoppage: does not rise from 0 to their number");
     }
 }

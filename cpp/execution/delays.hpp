@@ -45,6 +45,10 @@ struct DelaySample {
     std::vector<Stoppage> stoppages;           // of each robot, by tick; none overlap
 };
 
+// Throws std::invalid_argument unless robot r can own stoppages first[r] .. first[r + 1] - 1.
+void require_stoppages(std::span<const std::int32_t> first, std::size_t n_robots,
+                       std::size_t n_stoppages);
+
 class Delays {
   public:
     // `pace` has one entry for each robot; `stoppages` are those of every run, as in DelaySample.
@@ -58,7 +62,6 @@ class Delays {
     void draw(std::uint64_t seed, std::uint64_t run, DelaySample& out) const;
 
   private:
-    void check(std::size_t n_robots) const;
     void draw_stoppages(RobotId robot, Random& random, DelaySample& out) const;
     void draw_durations(RobotId robot, Random& random, DelaySample& out) const;
     std::pair<double, Tick> draw_visit(Random& random) const;

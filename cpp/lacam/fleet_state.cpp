@@ -1,6 +1,7 @@
 #include "lacam/fleet_state.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/random.hpp"
 
@@ -50,10 +51,6 @@ FleetState::FleetState(const Problem& problem)
     }
 }
 
-bool FleetState::is_later(const Event& left, const Event& right) {
-    return left.tick != right.tick ? left.tick > right.tick : left.robot > right.robot;
-}
-
 std::uint64_t FleetState::key(RobotId robot) const {
     const Robot& r = robots_[robot];
     const auto pack = [](std::int32_t high, std::int32_t low) {
@@ -67,7 +64,7 @@ void FleetState::set_busy(RobotId robot, Tick until) {
     robots_[robot].ready = until;
     sum_busy_ += key(robot) * base_to_now_ * power(base, until - now_);
     events_.push_back({until, robot});
-    std::push_heap(events_.begin(), events_.end(), is_later);
+    std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
 void FleetState::set_free(RobotId robot) {
@@ -130,7 +127,7 @@ bool FleetState::advance() {
     back_to_now_ *= power(back, ticks);
     finished_.clear();
     while (!events_.empty() && events_.front().tick == now_) {
-        std::pop_heap(events_.begin(), events_.end(), is_later);
+        std::pop_heap(events_.begin(), events_.end(), std::greater<>());
         finished_.push_back(events_.back().robot);
         events_.pop_back();
     }

@@ -6,6 +6,7 @@
 // there is.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -74,9 +75,9 @@ class FleetState {
     struct Event {
         Tick tick;
         RobotId robot;
+        auto operator<=>(const Event&) const = default;
     };
 
-    static bool is_later(const Event& left, const Event& right);
     std::uint64_t key(RobotId robot) const;
     void set_busy(RobotId robot, Tick until);
     void set_free(RobotId robot);

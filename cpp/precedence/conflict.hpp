@@ -1,8 +1,7 @@
 // The two kinds of conflict.
 //
-// A vertex conflict is an overlap
-// of two bookings of one vertex by different robots. A swap conflict is two robots exchanging two
-// vertices at one instant without any such overlap.
+// A vertex conflict is an overlap of two bookings of one vertex by different robots. A swap
+// conflict is two robots exchanging two vertices at one instant without any such overlap.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "precedence/earliest_conflicts.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace rightofway {
 
@@ -33,7 +34,7 @@ std::optional<Conflict> EarliestConflicts::next() {
         if (is_current(top)) {
             return top.conflict;
         }
-        std::pop_heap(known_.begin(), known_.end(), is_later);
+        std::pop_heap(known_.begin(), known_.end(), std::greater<>());
         known_.pop_back();
         if (top.at == looked_up_[top.robot]) {  // else it is known anew
             look_up(top.robot);
@@ -50,14 +51,9 @@ bool EarliestConflicts::is_current(const Known& known) const {
 void EarliestConflicts::look_up(RobotId robot) {
     looked_up_[robot] = ++now_;
     if (const auto found = search(robot, [this](VisitId x) { return index_.earliest(x); })) {
-        known_.push_back({*found, robot, now_});
-        std::push_heap(known_.begin(), known_.end(), is_later);
+        known_.push_back({*found, now_, robot});
+        std::push_heap(known_.begin(), known_.end(), std::greater<>());
     }
-}
-
-// A total order: no two entries were looked up at one time.
-bool EarliestConflicts::is_later(const Known& left, const Known& right) {
-    return left.conflict == right.conflict ? left.at > right.at : right.conflict < left.conflict;
 }
 
 std::optional<Conflict> EarliestConflicts::between(RobotId robot, RobotId other) const {

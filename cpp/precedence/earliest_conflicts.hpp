@@ -34,11 +34,11 @@ class EarliestConflicts {
   private:
     struct Known {
         Conflict conflict;
+        std::int64_t at;  // when it was looked up; differs between all entries
         RobotId robot;
-        std::int64_t at;  // when it was looked up
+        auto operator<=>(const Known&) const = default;
     };
 
-    static bool is_later(const Known& left, const Known& right);
     void look_up(RobotId robot);
     bool is_current(const Known& known) const;
     template <class Find>

@@ -39,9 +39,6 @@ class PeriodicSearch {
     // as early as it can be. Throws std::invalid_argument if roads and circle do not fit together.
     bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over);
 
-    // How many states all searches have expanded.
-    std::int64_t n_expanded() const { return n_expanded_; }
-
   private:
     struct Node {
         Tick enter;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "lns/adaptive_choice.hpp"
+#include "lns/neighbourhoods.hpp"
 
 namespace {
 
