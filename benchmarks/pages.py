@@ -360,14 +360,14 @@ def laps_tables(rows: Sequence[Row]) -> dict[str, str]:
         "paper": paper_table(),
         "how long": table(
             (
-                "fleet", "rule", "groups", "repeat", "standstill", "open", "somebody starves",
+                "fleet", "rule", "groups", "repeat", "standstill", "open", "a robot starves",
                 "transient [laps]", "period [laps]",
             ), how_long,
         ),
         "where": table(
             (
                 "fleet", "rule", "pairs and places in first laps", "in each period",
-                "first ones that come again", "periodic ones that are new", "no wait at all",
+                "first ones that repeat", "periodic ones that are new", "no wait at all",
                 "waiting",
             ), where,
         ),
