@@ -216,8 +216,8 @@ def report(family: Family, kinds: Mapping[str, Groups], unproven: int) -> str:
         optima = groups["optimum"]
         easy = sum(case.optimum == case.alone for case in optima)
         lines.append(
-            f"On {kind} routes {len(optima)} of them have a plan; in {easy} of these nobody has to"
-            " wait in the best one."
+            f"On {kind} routes {len(optima)} of them have a plan; in {easy} of these no robot"
+            " has to wait in the best plan."
         )
     everywhere = {kind: where_all_solve(groups) for kind, groups in kinds.items()}
     also = "The same on those fleets only that all methods on these routes solve:"
