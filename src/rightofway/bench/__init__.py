@@ -7,14 +7,13 @@ matplotlib, only Parquet files pyarrow, only clusters distributed; they are impo
 from rightofway.bench.cluster import run_on_cluster
 from rightofway.bench.process import machine, run_here
 from rightofway.bench.report import write_report
-from rightofway.bench.results import COLUMNS, Column, Results, Row, need
+from rightofway.bench.results import COLUMNS, Results, Row, need
 from rightofway.bench.suite import Case, read_suite
 from rightofway.bench.summary import Group, Quantiles, by_planner
 
 __all__ = [
     "COLUMNS",
     "Case",
-    "Column",
     "Group",
     "Quantiles",
     "Results",
