@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
-from rightofway.io.scenario.places import find_place
+from rightofway.io.scenario.maps import find_place
 from rightofway.model import VertexId
 from rightofway.model.places import as_place
 from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
