@@ -3,6 +3,12 @@
 Whenever a robot is later than last expected, the monitor makes a forecast: rights of way are
 switched, and where the whole fleet has fallen behind, the rest is replanned. It is replanned as
 well whenever a robot breaks down. Only what has happened by the instant decides.
+
+References
+----------
+Berndt, van Duijkeren, Palmieri & Keviczky, *A feedback scheme to reorder a multi-agent execution
+schedule by persistently optimizing a switchable action dependency graph*, 2020. They solve an
+integer program over a horizon at each look ahead; switching here is a descent over the whole rest.
 """
 
 from __future__ import annotations
@@ -13,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.forecast import Forecast
-from rightofway.execution.reorder import reordered
 from rightofway.execution.replan import replan
 from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
-from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.planners.local_search import LocalSearch
+from rightofway.planners.task import Task
+from rightofway.precedence import ActionDependencyGraph, RunBatch, order_of
 
 __all__ = ["SHARE", "ExecutionMonitor", "ExecutionPolicy"]
 
@@ -165,7 +172,7 @@ class ExecutionMonitor:
             if lost:
                 self._replan(forecast, NEVER)
                 continue
-            switched = reordered(forecast) if self.policy.switch else None
+            switched = _switched(forecast) if self.policy.switch else None
             if switched is not None:
                 self.switches += 1
                 self.adg, self.expected = switched, forecast.times()
@@ -192,3 +199,23 @@ class ExecutionMonitor:
             self.adg, self.delay_sample, self.execution = found.adg, sample, execution
             self.stages, self.cut_off = found.stages, self.cut_off | found.cut_off
             self.expected, self.last_tried = new.times(), flowtime
+
+
+def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
+    """Flip rights of way of visits that have not begun; None if no other order helps.
+
+    Each is flipped for a whole segment, as long as that lowers the expected flowtime. The graph of
+    the forecast refuses every flip that closes a cycle; it gets the new order, if there is one.
+    """
+    adg, booked = forecast.adg, forecast.booked
+    mark = forecast.graph.checkpoint()
+    task = Task(scenario=adg.scenario)
+    LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
+    before = order_of(adg.vertex, forecast.times())
+    # A visit that has begun must not wait for one that has not.
+    waits_for = before[booked]
+    is_allowed = booked[waits_for[waits_for >= 0]].all()
+    if np.array_equal(before, adg.before) or not is_allowed:
+        forecast.graph.rollback(mark)
+        return None
+    return adg.reordered(before, np.where(booked, adg.since, forecast.now))

@@ -47,12 +47,8 @@ def payload_of(
 
     Parameters
     ----------
-    plan
-        The plan; times in the result are ticks.
-    steady
-        Where the plan repeats itself, unless it says so itself.
-    actual
-        An execution of the plan.
+    plan, steady, actual
+        As for `page_of`; times in the result are ticks.
 
     Raises
     ------
