@@ -60,28 +60,14 @@ Stages = tuple[Stage, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Commitment:
-    """What one robot keeps of its route, and what is left for it to do.
+    """What one robot keeps of its route, and what is left for it to do."""
 
-    Attributes
-    ----------
-    visit
-        The last visit that it has booked; index in its route.
-    vertex
-        The vertex of that visit.
-    busy
-        How long it is expected to be busy until that visit is done, from now [ticks].
-    drives_to
-        The vertex that it drives to without having booked it (``occupancy: one``), or None.
-    begun, left
-        The stages served until then, and those after that.
-    """
-
-    visit: int
-    vertex: VertexId
-    busy: Tick
-    drives_to: VertexId | None = None
-    begun: tuple[Stage, ...] = ()
-    left: tuple[Stage, ...] = ()
+    visit: int  # the last one that it has booked; index in its route
+    vertex: VertexId  # of that visit
+    busy: Tick  # until that visit is expected to be done, from now
+    drives_to: VertexId | None = None  # without having booked it (``occupancy: one``)
+    begun: Stages = ()  # served until that visit is done
+    left: Stages = ()
 
     @property
     def free_from(self) -> VertexId:
@@ -137,21 +123,11 @@ def closures_of(forecast: Forecast) -> frozenset[VertexId]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Replanned:
-    """A new plan during execution.
+    """A new plan during execution."""
 
-    Attributes
-    ----------
-    adg
-        What has begun, followed by the new plan of the rest.
-    stages
-        For each robot all stages that its route serves.
-    cut_off
-        Robots that are not brought to all their places.
-    """
-
-    adg: ActionDependencyGraph
-    stages: tuple[Stages, ...]
-    cut_off: frozenset[int]
+    adg: ActionDependencyGraph  # what has begun, followed by the new plan of the rest
+    stages: tuple[Stages, ...]  # all that the route of each robot serves
+    cut_off: frozenset[int]  # robots that are not brought to all their places
 
 
 def replan(

@@ -16,23 +16,13 @@ __all__ = ["Bookings", "Collision", "bookings_of", "collisions", "free_running"]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Bookings:
-    """All bookings of a fleet, by vertex, then by start; each array has shape (n,).
+    """All bookings of a fleet, by vertex, then by start; each array has shape (n,)."""
 
-    Attributes
-    ----------
-    visit
-        For which visit, counted robot by robot along the tracks.
-    robot, vertex
-        Who books what.
-    start, end
-        From when to when [ticks]; int64.
-    """
-
-    visit: NDArray[np.int64]
+    visit: NDArray[np.int64]  # counted robot by robot along the tracks
     robot: NDArray[np.int64]
     vertex: NDArray[np.int32]
-    start: NDArray[np.int64]
-    end: NDArray[np.int64]
+    start: NDArray[np.int64]  # [ticks]
+    end: NDArray[np.int64]  # [ticks]
 
 
 def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Bookings:

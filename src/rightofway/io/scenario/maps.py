@@ -42,24 +42,12 @@ Point = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedMap:
-    """A roadmap, and what its document says beyond it; places are looked up here.
-
-    Attributes
-    ----------
-    roadmap
-        The graph that robots drive on.
-    lines
-        The rows of a grid as they were written; empty on other roadmaps.
-    floor
-        The floor that the grid was cut from, if any.
-    file
-        The file it was read from, if any.
-    """
+    """A roadmap, and what its document says beyond it."""
 
     roadmap: Roadmap
-    lines: tuple[str, ...] = ()
-    floor: Floor | None = None
-    file: Path | None = None
+    lines: tuple[str, ...] = ()  # of a grid, as they were written
+    floor: Floor | None = None  # that the grid was cut from
+    file: Path | None = None  # that the grid was read from
 
 
 def find_place(place: Place, on: LoadedMap) -> VertexId:
