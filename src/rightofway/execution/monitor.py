@@ -51,17 +51,8 @@ class ExecutionPolicy(NamedTuple):
 class ExecutionMonitor:
     """One run of a plan, changed during execution.
 
-    Parameters
-    ----------
-    adg
-        The plan.
-    policy
-        What may be changed.
-    seed, run
-        Delays are those of this run, as for `ActionDependencyGraph.delay_sample`; the n-th visit of
-        a robot meets the same delay in every plan. The seed is the planner's, too.
-    deadline
-        When to stop replanning.
+    Delays are those of a run of a seed, as for `ActionDependencyGraph.delay_sample`; the n-th visit
+    of a robot meets the same delay in every plan. The seed is the planner's, too.
 
     Attributes
     ----------
@@ -69,10 +60,9 @@ class ExecutionMonitor:
         The plan as it is in the end, its delays, and the times that follow.
     switches, replans
         How often rights of way were switched, and how often the rest was replanned.
-    broken, lost
-        Robots that have broken down, and those of them that had not completed before.
-    cut_off
-        Robots that a replanning did not bring to all their places.
+    broken, lost, cut_off
+        Robots that have broken down, those of them that had not completed before, and robots that a
+        replanning did not bring to all their places.
     """
 
     def __init__(
@@ -104,13 +94,9 @@ class ExecutionMonitor:
         return completion
 
     def batch(self, kept: RunBatch) -> RunBatch:
-        """Return this run as a batch of one.
+        """Return this run as a batch of one; ``kept`` is the same run of the plan as it was.
 
-        Parameters
-        ----------
-        kept
-            The same run of the plan as it was at first. Where the rest was replanned, the sources
-            of lateness are not known and left out.
+        Where the rest was replanned, the sources of lateness are not known and left out.
         """
         if not self.replans:
             return self.adg.runs(self.seed, self.run, 1)

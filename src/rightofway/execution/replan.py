@@ -76,16 +76,9 @@ class Commitment:
 
 
 def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
-    """Return what a robot has begun at the instant of a forecast.
+    """Return what a robot, whose route serves all these stages, has begun at a forecast's instant.
 
-    Parameters
-    ----------
-    forecast
-        The expectation.
-    robot
-        Its index. A broken one keeps its bookings and has nothing left.
-    stages
-        All that its route serves.
+    A broken one keeps its bookings and has nothing left.
     """
     adg, route = forecast.adg, forecast.adg.routes[robot]
     first, end = adg.first_visit[robot : robot + 2].tolist()
@@ -135,21 +128,8 @@ def replan(
 ) -> Replanned | None:
     """Replan the rest, so that as many robots as possible complete, with a low flowtime.
 
-    Parameters
-    ----------
-    forecast
-        What is expected of going on by right of way; it names the broken robots.
-    stages
-        For each robot all stages that its route serves.
-    seed
-        For the planners.
-    deadline
-        When to stop.
-
-    Returns
-    -------
-    Replanned or None
-        None if no plan was found, or time ran out before.
+    ``stages`` are all that the route of each robot serves. The result is None if no plan was found,
+    or time ran out before.
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]

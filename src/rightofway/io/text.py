@@ -110,7 +110,11 @@ def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
     try:
-        data = _read(path, MAX_BYTES + 1)
+        if source == "-":
+            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        else:
+            with path.open("rb") as file:
+                data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         raise InputError.at("", _why_unreadable(error), source) from None
     if not data.strip():
@@ -119,13 +123,6 @@ def read_text(path: Path) -> str:
         message = f"the file is longer than {MAX_BYTES} bytes (is it the right one?)"
         raise InputError.at("", message, source)
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _read(path: Path, size: int) -> bytes:
-    if str(path) == "-":
-        return sys.stdin.buffer.read(size)
-    with path.open("rb") as file:
-        return file.read(size)
 
 
 def _why_unreadable(error: Exception) -> str:
