@@ -157,35 +157,25 @@ def _moves(visits: Visits) -> Indices:
 def _opposite(visits: Visits) -> tuple[Indices, Indices, Indices]:
     """Return moves in an order in which the moves opposite to move i are begin[i] to after[i].
 
-    Each pair comes up once: moves to a smaller vertex have an empty range.
-    """
-    move, new_group = _at_once(visits)
-    group = np.cumsum(new_group) - 1
-    upwards = visits.vertex[move] < visits.vertex[move + 1]
-    begin = np.flatnonzero(new_group)
-    after = begin + np.bincount(group, weights=~upwards).astype(np.int64)
-    return move, begin[group], np.where(upwards, after[group], begin[group])
-
-
-def _at_once(visits: Visits) -> tuple[Indices, NDArray[np.bool_]]:
-    """Return moves between the same two vertices at one instant, and where each group begins.
-
-    In a group, moves to a smaller vertex come first. Nearly all moves are alone in their group;
-    these are left out. Rows are sorted by few columns before the exact order is made of the rest.
+    Each pair comes up once: moves to a smaller vertex have an empty range. Nearly all moves are
+    alone between their vertices at their instant; these are left out. Moves are sorted by few
+    columns before the exact order is made of the rest.
     """
     move = _moves(visits)
     low = np.minimum(visits.vertex[move], visits.vertex[move + 1])
     order = order_by(low, visits.leave[move])
     move, low = move[order], low[order]
-    leave = visits.leave[move]
-    maybe, _ = _alike(low, leave)
-    move, low, leave = move[maybe], low[maybe], leave[maybe]
-    tail, head = visits.vertex[move], visits.vertex[move + 1]
-    high = np.maximum(tail, head)
-    order = order_by(low, high, leave, tail < head)
-    move, low, high, leave = move[order], low[order], high[order], leave[order]
-    shared, begins = _alike(low, high, leave)
-    return move[shared], begins[shared]
+    maybe, _ = _alike(low, visits.leave[move])
+    move, low = move[maybe], low[maybe]
+    tail, head, leave = visits.vertex[move], visits.vertex[move + 1], visits.leave[move]
+    columns = (low, np.maximum(tail, head), leave)
+    order = order_by(*columns, tail < head)  # in a group, moves to a smaller vertex come first
+    shared, begins = _alike(*(column[order] for column in columns))
+    upwards = (tail < head)[order][shared]
+    group = np.cumsum(begins[shared]) - 1
+    begin = np.flatnonzero(begins[shared])
+    after = begin + np.bincount(group, weights=~upwards).astype(np.int64)
+    return move[order][shared], begin[group], np.where(upwards, after[group], begin[group])
 
 
 def _alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
