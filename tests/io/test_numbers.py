@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rightofway.io.numbers import decimal, whole
+from rightofway.io.text import decimal, whole
 from rightofway.model.values import COORDINATE_DIGITS, exact, written
 
 

@@ -149,3 +149,11 @@ def test_whatever_can_be_written_down_is_judged(
     report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="nobody")))
     assert report.total == len(report.faults)
     assert all(fault.message for fault in report.faults)
+
+
+def test_ticks_beyond_64_bits_that_lie_close_together_are_judged() -> None:
+    """Their differences fit into 64 bits, so that they are packed into one integer for sorting."""
+    scenario = grid_fleet([".."], [("N0", "N1"), ("N1", "N0")])
+    tracks = (Track.of([1], [2**63 - 2]), Track.of([1], [2**63 - 1]))
+    report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="nobody")))
+    assert report.counts["vertex conflict"] == 1

@@ -22,8 +22,7 @@ from rightofway.io import (
     scenario_of,
     schema,
 )
-from rightofway.io.text import parse_json, read_document
-from rightofway.io.yaml_text import parse_yaml
+from rightofway.io.text import parse_json, parse_yaml, read_document
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]

@@ -3,7 +3,48 @@
 It reads the scenario in ticks and the tracks, nothing else: no planner, no search, no native core.
 """
 
-from rightofway.check.faults import Fault, FaultKind, Report
-from rightofway.check.judge import check
+from __future__ import annotations
+
+from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
+from rightofway.check.tracks import judge_drives, judge_trips
+from rightofway.check.visits import visits_of
+from rightofway.model import Plan
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
+
+
+def check(plan: Plan, *, limit: int = 1000) -> Report:
+    """Judge a plan.
+
+    Parameters
+    ----------
+    plan
+        Any plan; however wrong it is, it is judged and not refused.
+    limit
+        How many faults to list, the earliest first; all are counted.
+
+    Returns
+    -------
+    Report
+        Its `ok` is true if the plan keeps every rule.
+
+    Notes
+    -----
+    A visit books its vertex for ``[enter - approach, leave + headway)``. The approach is the drive
+    into the vertex where robots book both ends of an edge, else nothing; a first visit has none,
+    and a last visit never ends. Bookings of one vertex by different robots must not overlap.
+
+    Stops are matched to visits greedily: a robot works as early as it can, on several stops in one
+    visit if they follow each other at one vertex. A visit too short for that is only passing.
+    """
+    visits = visits_of(plan)
+    names = Names(plan.scenario)
+    collector = FaultCollector(limit)
+    judge_drives(visits, names, collector)
+    judge_trips(plan, visits, names, collector)
+    judge_bookings(plan, visits, names, collector)
+    judge_swaps(visits, names, collector)
+    if not plan.scenario.rules.rotations:
+        judge_rotations(visits, names, collector)
+    return collector.report()

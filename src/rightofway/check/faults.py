@@ -114,13 +114,7 @@ class Report:
 
 
 class FaultCollector:
-    """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions.
-
-    Parameters
-    ----------
-    limit
-        How many to keep.
-    """
+    """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions."""
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
@@ -139,18 +133,10 @@ class FaultCollector:
         robots: tuple[NDArray[Any], ...],
         fault_at: Callable[[int], Fault],
     ) -> None:
-        """Add many faults of a kind.
+        """Add many faults of a kind that begin at ``ticks``; arrays have shape (n,).
 
-        Parameters
-        ----------
-        kind
-            Their kind.
-        ticks
-            When they begin [ticks]; shape (n,).
-        robots
-            Their robots, as in `Fault`, one array of shape (n,) for each place in the tuple.
-        fault_at
-            Makes the fault of a position in these arrays; called for the earliest only.
+        ``robots`` are as in `Fault`, one array for each place in the tuple. ``fault_at`` makes the
+        fault of a position in these arrays; it is called for the earliest only.
         """
         if len(ticks):
             self._counts[kind] += len(ticks)

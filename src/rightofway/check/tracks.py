@@ -18,27 +18,43 @@ __all__ = ["judge_drives", "judge_trips"]
 
 def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
-    stay = visits.leave - visits.enter
-    moves = ~visits.last
-    joined = visits.edge >= 0
-    both_known = visits.known & np.roll(visits.known, -1)
-    judgement = _Drives(visits, names, collector)
-    judgement.report("unknown vertex", ~visits.known, judgement.unknown)
-    judgement.report("backwards", moves & (stay < 0), judgement.backwards)
-    judgement.report("jump", moves & both_known & ~joined, judgement.jump)
-    judgement.report("too fast", joined & (stay >= 0) & (stay < visits.drive), judgement.too_fast)
 
+    def robot(visit: int) -> str:
+        return names.robot(int(visits.robot[visit]))
 
-class _Drives:
-    """Reports visits, and the moves that end them."""
+    def vertex(visit: int) -> str:
+        return names.vertex(int(visits.vertex[visit]))
 
-    def __init__(self, visits: Visits, names: Names, collector: FaultCollector) -> None:
-        self._visits, self._names, self._collector = visits, names, collector
+    def unknown(visit: int) -> str:
+        n_vertices = names.scenario.roadmap.n_vertices
+        return (
+            f"{robot(visit)} enters {vertex(visit)}, which is not on the roadmap"
+            f" (its vertices are 0 to {n_vertices - 1})"
+        )
 
-    def report(
-        self, kind: FaultKind, broken: NDArray[np.bool_], message: Callable[[int], str]
-    ) -> None:
-        visits, where = self._visits, np.flatnonzero(broken)
+    def backwards(visit: int) -> str:
+        return (
+            f"{robot(visit)} enters {vertex(visit)} at tick {visits.enter[visit]}, but"
+            f" {vertex(visit + 1)} after it at tick {visits.leave[visit]}"
+            f" (later visits have later ticks)"
+        )
+
+    def jump(visit: int) -> str:
+        tail, head = vertex(visit), vertex(visit + 1)
+        if tail == head:
+            return f"{robot(visit)} enters {tail} twice in a row (make it one visit)"
+        return f"{robot(visit)} goes from {tail} to {head}, no edge leads there (use edges)"
+
+    def too_fast(visit: int) -> str:
+        drive = visits.drive[visit]
+        return (
+            f"{robot(visit)} drives from {vertex(visit)} to {vertex(visit + 1)}"
+            f" in {ticks(stay[visit])}, it needs {drive} (enter at tick"
+            f" {visits.enter[visit] + drive} or later)"
+        )
+
+    def report(kind: FaultKind, broken: NDArray[np.bool_], message: Callable[[int], str]) -> None:
+        where = np.flatnonzero(broken)
         # An unknown vertex is wrong as soon as it is entered, a move at the instant it is made.
         times, ends = (visits.enter, 1) if kind == "unknown vertex" else (visits.leave, 2)
 
@@ -52,43 +68,14 @@ class _Drives:
                 message=message(visit),
             )
 
-        self._collector.add_all(kind, times[where], (visits.robot[where],), fault)
+        collector.add_all(kind, times[where], (visits.robot[where],), fault)
 
-    def unknown(self, visit: int) -> str:
-        n_vertices = self._names.scenario.roadmap.n_vertices
-        return (
-            f"{self._robot(visit)} enters {self._vertex(visit)}, which is not on the roadmap"
-            f" (its vertices are 0 to {n_vertices - 1})"
-        )
-
-    def backwards(self, visit: int) -> str:
-        enter = self._visits.enter[visit]
-        return (
-            f"{self._robot(visit)} enters {self._vertex(visit)} at tick {enter}, but"
-            f" {self._vertex(visit + 1)} after it at tick {self._visits.leave[visit]}"
-            f" (later visits have later ticks)"
-        )
-
-    def jump(self, visit: int) -> str:
-        tail, head = self._vertex(visit), self._vertex(visit + 1)
-        if tail == head:
-            return f"{self._robot(visit)} enters {tail} twice in a row (make it one visit)"
-        return f"{self._robot(visit)} goes from {tail} to {head}, no edge leads there (use edges)"
-
-    def too_fast(self, visit: int) -> str:
-        visits = self._visits
-        stay, drive = visits.leave[visit] - visits.enter[visit], visits.drive[visit]
-        return (
-            f"{self._robot(visit)} drives from {self._vertex(visit)} to {self._vertex(visit + 1)}"
-            f" in {ticks(stay)}, it needs {drive} (enter at tick {visits.enter[visit] + drive}"
-            f" or later)"
-        )
-
-    def _robot(self, visit: int) -> str:
-        return self._names.robot(int(self._visits.robot[visit]))
-
-    def _vertex(self, visit: int) -> str:
-        return self._names.vertex(int(self._visits.vertex[visit]))
+    stay, moves, joined = visits.leave - visits.enter, ~visits.last, visits.edge >= 0
+    both_known = visits.known & np.roll(visits.known, -1)
+    report("unknown vertex", ~visits.known, unknown)
+    report("backwards", moves & (stay < 0), backwards)
+    report("jump", moves & both_known & ~joined, jump)
+    report("too fast", joined & (stay >= 0) & (stay < visits.drive), too_fast)
 
 
 def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:

@@ -23,32 +23,18 @@ Python integers, which is slower."""
 class Visits:
     """The visits of all robots, in the order of the robots and of their tracks.
 
-    Times are int64, or Python integers where the plan has times too large for that.
-
-    Attributes
-    ----------
-    robot, vertex
-        Who and where; int64, shape (n,).
-    enter, leave
-        From when to when [ticks]; shape (n,). A last visit leaves later than anything happens.
-    last
-        Whether it is its robot's last visit; bool, shape (n,).
-    known
-        Whether the roadmap has the vertex; bool, shape (n,).
-    edge
-        The edge to the robot's next visit, -1 without one; int64, shape (n,).
-    drive
-        Ticks of that edge for that robot, 0 without one; shape (n,).
+    All arrays have shape (n,). Times are int64, or Python integers where the plan has times too
+    large for that.
     """
 
     robot: NDArray[np.int64]
     vertex: NDArray[np.int64]
-    enter: NDArray[Any]
-    leave: NDArray[Any]
-    last: NDArray[np.bool_]
-    known: NDArray[np.bool_]
-    edge: NDArray[np.int64]
-    drive: NDArray[Any]
+    enter: NDArray[Any]  # [ticks]
+    leave: NDArray[Any]  # [ticks]; a last visit leaves later than anything happens
+    last: NDArray[np.bool_]  # whether it is its robot's last visit
+    known: NDArray[np.bool_]  # whether the roadmap has the vertex
+    edge: NDArray[np.int64]  # to the robot's next visit, -1 without one
+    drive: NDArray[Any]  # of that edge for that robot, 0 without one [ticks]
 
 
 def visits_of(plan: Plan) -> Visits:

@@ -23,16 +23,10 @@ Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
 
 class Forecast:
-    """What is expected at an instant, and what can still be changed.
+    """What is expected at a tick, and what can still be changed.
 
-    Parameters
-    ----------
-    adg, delay_sample, execution
-        A plan, its delays, and the times that follow; later times than ``now`` are not looked at.
-    now
-        The instant [ticks].
-    broken
-        Robots known to stand still for ever; nothing more is expected of them.
+    Later times of the execution than ``now`` are not looked at. Of robots that are known to be
+    broken nothing more is expected.
 
     Attributes
     ----------

@@ -3,6 +3,12 @@
 Whenever a robot is later than last expected, the monitor makes a forecast: rights of way are
 switched, and where the whole fleet has fallen behind, the rest is replanned. It is replanned as
 well whenever a robot breaks down. Only what has happened by the instant decides.
+
+References
+----------
+Berndt, van Duijkeren, Palmieri & Keviczky, *A feedback scheme to reorder a multi-agent execution
+schedule by persistently optimizing a switchable action dependency graph*, 2020. They solve an
+integer program over a horizon at each look ahead; switching here is a descent over the whole rest.
 """
 
 from __future__ import annotations
@@ -13,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.execution.forecast import Forecast
-from rightofway.execution.reorder import reordered
 from rightofway.execution.replan import replan
 from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
-from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.planners.local_search import LocalSearch
+from rightofway.planners.task import Task
+from rightofway.precedence import ActionDependencyGraph, RunBatch, order_of
 
 __all__ = ["SHARE", "ExecutionMonitor", "ExecutionPolicy"]
 
@@ -44,17 +51,8 @@ class ExecutionPolicy(NamedTuple):
 class ExecutionMonitor:
     """One run of a plan, changed during execution.
 
-    Parameters
-    ----------
-    adg
-        The plan.
-    policy
-        What may be changed.
-    seed, run
-        Delays are those of this run, as for `ActionDependencyGraph.delay_sample`; the n-th visit of
-        a robot meets the same delay in every plan. The seed is the planner's, too.
-    deadline
-        When to stop replanning.
+    Delays are those of a run of a seed, as for `ActionDependencyGraph.delay_sample`; the n-th visit
+    of a robot meets the same delay in every plan. The seed is the planner's, too.
 
     Attributes
     ----------
@@ -62,10 +60,9 @@ class ExecutionMonitor:
         The plan as it is in the end, its delays, and the times that follow.
     switches, replans
         How often rights of way were switched, and how often the rest was replanned.
-    broken, lost
-        Robots that have broken down, and those of them that had not completed before.
-    cut_off
-        Robots that a replanning did not bring to all their places.
+    broken, lost, cut_off
+        Robots that have broken down, those of them that had not completed before, and robots that a
+        replanning did not bring to all their places.
     """
 
     def __init__(
@@ -97,13 +94,9 @@ class ExecutionMonitor:
         return completion
 
     def batch(self, kept: RunBatch) -> RunBatch:
-        """Return this run as a batch of one.
+        """Return this run as a batch of one; ``kept`` is the same run of the plan as it was.
 
-        Parameters
-        ----------
-        kept
-            The same run of the plan as it was at first. Where the rest was replanned, the sources
-            of lateness are not known and left out.
+        Where the rest was replanned, the sources of lateness are not known and left out.
         """
         if not self.replans:
             return self.adg.runs(self.seed, self.run, 1)
@@ -165,7 +158,7 @@ class ExecutionMonitor:
             if lost:
                 self._replan(forecast, NEVER)
                 continue
-            switched = reordered(forecast) if self.policy.switch else None
+            switched = _switched(forecast) if self.policy.switch else None
             if switched is not None:
                 self.switches += 1
                 self.adg, self.expected = switched, forecast.times()
@@ -192,3 +185,23 @@ class ExecutionMonitor:
             self.adg, self.delay_sample, self.execution = found.adg, sample, execution
             self.stages, self.cut_off = found.stages, self.cut_off | found.cut_off
             self.expected, self.last_tried = new.times(), flowtime
+
+
+def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
+    """Flip rights of way of visits that have not begun; None if no other order helps.
+
+    Each is flipped for a whole segment, as long as that lowers the expected flowtime. The graph of
+    the forecast refuses every flip that closes a cycle; it gets the new order, if there is one.
+    """
+    adg, booked = forecast.adg, forecast.booked
+    mark = forecast.graph.checkpoint()
+    task = Task(scenario=adg.scenario)
+    LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
+    before = order_of(adg.vertex, forecast.times())
+    # A visit that has begun must not wait for one that has not.
+    waits_for = before[booked]
+    is_allowed = booked[waits_for[waits_for >= 0]].all()
+    if np.array_equal(before, adg.before) or not is_allowed:
+        forecast.graph.rollback(mark)
+        return None
+    return adg.reordered(before, np.where(booked, adg.since, forecast.now))

@@ -60,28 +60,14 @@ Stages = tuple[Stage, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Commitment:
-    """What one robot keeps of its route, and what is left for it to do.
+    """What one robot keeps of its route, and what is left for it to do."""
 
-    Attributes
-    ----------
-    visit
-        The last visit that it has booked; index in its route.
-    vertex
-        The vertex of that visit.
-    busy
-        How long it is expected to be busy until that visit is done, from now [ticks].
-    drives_to
-        The vertex that it drives to without having booked it (``occupancy: one``), or None.
-    begun, left
-        The stages served until then, and those after that.
-    """
-
-    visit: int
-    vertex: VertexId
-    busy: Tick
-    drives_to: VertexId | None = None
-    begun: tuple[Stage, ...] = ()
-    left: tuple[Stage, ...] = ()
+    visit: int  # the last one that it has booked; index in its route
+    vertex: VertexId  # of that visit
+    busy: Tick  # until that visit is expected to be done, from now
+    drives_to: VertexId | None = None  # without having booked it (``occupancy: one``)
+    begun: Stages = ()  # served until that visit is done
+    left: Stages = ()
 
     @property
     def free_from(self) -> VertexId:
@@ -90,16 +76,9 @@ class Commitment:
 
 
 def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
-    """Return what a robot has begun at the instant of a forecast.
+    """Return what a robot, whose route serves all these stages, has begun at a forecast's instant.
 
-    Parameters
-    ----------
-    forecast
-        The expectation.
-    robot
-        Its index. A broken one keeps its bookings and has nothing left.
-    stages
-        All that its route serves.
+    A broken one keeps its bookings and has nothing left.
     """
     adg, route = forecast.adg, forecast.adg.routes[robot]
     first, end = adg.first_visit[robot : robot + 2].tolist()
@@ -137,21 +116,11 @@ def closures_of(forecast: Forecast) -> frozenset[VertexId]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Replanned:
-    """A new plan during execution.
+    """A new plan during execution."""
 
-    Attributes
-    ----------
-    adg
-        What has begun, followed by the new plan of the rest.
-    stages
-        For each robot all stages that its route serves.
-    cut_off
-        Robots that are not brought to all their places.
-    """
-
-    adg: ActionDependencyGraph
-    stages: tuple[Stages, ...]
-    cut_off: frozenset[int]
+    adg: ActionDependencyGraph  # what has begun, followed by the new plan of the rest
+    stages: tuple[Stages, ...]  # all that the route of each robot serves
+    cut_off: frozenset[int]  # robots that are not brought to all their places
 
 
 def replan(
@@ -159,21 +128,8 @@ def replan(
 ) -> Replanned | None:
     """Replan the rest, so that as many robots as possible complete, with a low flowtime.
 
-    Parameters
-    ----------
-    forecast
-        What is expected of going on by right of way; it names the broken robots.
-    stages
-        For each robot all stages that its route serves.
-    seed
-        For the planners.
-    deadline
-        When to stop.
-
-    Returns
-    -------
-    Replanned or None
-        None if no plan was found, or time ran out before.
+    ``stages`` are all that the route of each robot serves. The result is None if no plan was found,
+    or time ran out before.
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]

@@ -5,13 +5,13 @@
 else in the package.
 """
 
-from rightofway.io.delays import DELAY_FILES, load_delays
 from rightofway.io.formats import schema
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
 from rightofway.io.scenario.reader import Loaded, load, load_with_notes, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, write_scenario
+from rightofway.io.text import DELAY_FILES, load_delays
 
 __all__ = [
     "DELAY_FILES",

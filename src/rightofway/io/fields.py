@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import (
@@ -23,7 +24,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
-from rightofway.io.scenario.places import find_place
+from rightofway.io.scenario.maps import find_place
 from rightofway.model import VertexId
 from rightofway.model.places import as_place
 from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
@@ -60,17 +61,9 @@ Schema = dict[str, Any]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kind:
-    """What pydantic needs to know of a kind of values.
+    """What pydantic needs to know of a kind of values."""
 
-    Attributes
-    ----------
-    read
-        Returns the value of what was written, or raises a ValueError with the message.
-    schema
-        The JSON Schema of what may be written.
-    """
-
-    read: Callable[[Any], Any]
+    read: Callable[[Any], Any]  # raises a ValueError with the message for what does not fit
     schema: Schema
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
@@ -146,10 +139,6 @@ def _coordinate(value: object) -> Fraction:
     return number
 
 
-def _tick_length(value: object) -> Fraction:
-    return exact(value, digits=COORDINATE_DIGITS)
-
-
 def _number_schema(**bounds: int) -> Schema:
     pattern = PATTERN.replace("[+-]?", "[+]?" if bounds else "[+-]?", 1)
     return {"anyOf": [{"type": "number", **bounds}, {"type": "string", "pattern": f"^{pattern}$"}]}
@@ -161,7 +150,7 @@ _POSITIVE = _number_schema(exclusiveMinimum=0)
 
 Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
-TickLength = Annotated[Fraction, Kind(_tick_length, _ANY)]
+TickLength = Annotated[Fraction, Kind(partial(exact, digits=COORDINATE_DIGITS), _ANY)]
 Count = Annotated[int, Field(ge=1)]
 Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]
 

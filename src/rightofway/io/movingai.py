@@ -28,23 +28,11 @@ _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optima
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScenRow:
-    """One robot of a `.scen` file.
+    """One robot of a `.scen` file; start and goal are (row, column) of cells."""
 
-    Attributes
-    ----------
-    line
-        Where it stands in the file, from 1.
-    map_name
-        The map it belongs to, as it is written there.
-    width, height
-        Size of that map [cells].
-    start, goal
-        (row, column) of the cells it starts from and goes to.
-    """
-
-    line: int
+    line: int  # in the file, from 1
     map_name: str
-    width: int
+    width: int  # of the map [cells]
     height: int
     start: tuple[int, int]
     goal: tuple[int, int]

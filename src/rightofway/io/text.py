@@ -1,37 +1,60 @@
-"""Text files to plain data and back: UTF-8, JSON and TOML read strictly, JSON laid out for people.
+"""Text files to plain data and back: YAML, JSON and TOML read strictly, JSON laid out for people.
 
 Plain data are mappings, lists, text, whole numbers, decimals, true, false and nothing. Whatever a
-file holds instead is an InputError with its place. YAML has a module of its own.
+file holds instead is an InputError with its place. YAML is built from the parser's events, not by
+its constructors: those accept tags that make objects, keys that are no text, the later of two equal
+keys, decimals as floats, and aliases that expand without end ("billion laughs").
 """
 
 from __future__ import annotations
 
 import json
+import math
 import re
 import sys
 import tomllib
 from collections import Counter
+from dataclasses import dataclass, field
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, InputFault, shown
-from rightofway.io.faults import place_of
-from rightofway.io.numbers import decimal, whole
-from rightofway.io.yaml_text import MAX_DEPTH, parse_yaml
+from rightofway.io.faults import blaming, place_of
 
 __all__ = [
+    "DELAY_FILES",
+    "MAX_ALIASED",
     "MAX_BYTES",
-    "Rendered",
+    "decimal",
     "json_line",
     "json_text",
+    "load_delays",
     "parse_json",
     "parse_toml",
+    "parse_yaml",
     "read_document",
     "read_text",
+    "whole",
 ]
 
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
+
+MAX_ALIASED = 100_000
+"""The most values that may be reached through aliases."""
+
+MAX_DEPTH = 64
+"""Mappings and lists inside each other, at most; ours need a dozen."""
+
+LONGEST_TOKEN = 40
+"""A number of more characters stays text when a file is read, and is refused as a number."""
+
+LARGEST_EXPONENT = 400
+"""A decimal with a larger exponent stays text, too."""
+
+DELAY_FILES = (".yaml", ".yml", ".json")
+"""How the names of such files end."""
 
 SPREAD_KEYS = {"scenario", "map", "grid", "roadmap", "vertices", "edges", "robots"}
 SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
@@ -40,11 +63,14 @@ SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
 _ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _TOML_PLACE = re.compile(r"(?P<what>.*) \((?P<place>at .*)\)", re.DOTALL)
 
-
-class Rendered(str):
-    """JSON text that stands in a document in place of its value."""
-
-    __slots__ = ()
+# What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
+_INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]*)")
+_DECIMAL = re.compile(r"([+-]?[0-9]+\.[0-9]*|\.[0-9]+)([eE][+-][0-9]+)?")
+_WORDS = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+}
 
 
 def read_document(path: Path) -> Any:
@@ -62,11 +88,33 @@ def read_document(path: Path) -> Any:
     return parse_json(text) if is_json else parse_yaml(text)
 
 
+def load_delays(path: Path | str) -> tuple[str, ...]:
+    """Return the lines of a YAML or JSON file with a list of delays, or one under ``delays``.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or no list of texts in it.
+    """
+    with blaming(str(path)):
+        found = read_document(Path(path))
+        if isinstance(found, dict) and list(found) == ["delays"]:
+            found = found["delays"]
+        if not (isinstance(found, list) and all(isinstance(one, str) for one in found)):
+            message = "is no list of delays (write lines like - exponential:0.2)"
+            raise InputError.at("", message)
+        return tuple(found)
+
+
 def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
     try:
-        data = _read(path, MAX_BYTES + 1)
+        if source == "-":
+            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        else:
+            with path.open("rb") as file:
+                data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         raise InputError.at("", _why_unreadable(error), source) from None
     if not data.strip():
@@ -75,13 +123,6 @@ def read_text(path: Path) -> str:
         message = f"the file is longer than {MAX_BYTES} bytes (is it the right one?)"
         raise InputError.at("", message, source)
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _read(path: Path, size: int) -> bytes:
-    if str(path) == "-":
-        return sys.stdin.buffer.read(size)
-    with path.open("rb") as file:
-        return file.read(size)
 
 
 def _why_unreadable(error: Exception) -> str:
@@ -105,6 +146,19 @@ def _decoded(data: bytes, source: str) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         message = f"line {line}: byte {data[error.start]:#x} is not UTF-8 (save the file as UTF-8)"
         raise InputError.at("", message, source) from None
+
+
+def whole(token: str) -> int | str:
+    """Return a whole number of a file, or its text where it is too long."""
+    return int(token) if len(token) <= LONGEST_TOKEN else token
+
+
+def decimal(token: str) -> Decimal | str:
+    """Return a decimal of a file exactly, or its text where no float comes near it."""
+    _, _, exponent = token.lower().partition("e")
+    if len(token) > LONGEST_TOKEN or abs(int(exponent or "0")) > LARGEST_EXPONENT:
+        return token
+    return Decimal(token) if math.isfinite(float(token)) else token
 
 
 def parse_json(text: str) -> Any:
@@ -174,6 +228,140 @@ def _too_deep() -> InputError:
     return InputError.at("", message)
 
 
+def parse_toml(text: str) -> dict[str, Any]:
+    """Return the data of a TOML text."""
+    try:
+        return tomllib.loads(text, parse_float=decimal)
+    except RecursionError:
+        raise InputError.at("", "it is nested too deeply (make it flatter)") from None
+    except ValueError as error:
+        found = _TOML_PLACE.fullmatch(str(error))
+        what, place = (found["what"], found["place"]) if found else (str(error), "")
+        message = f"this is no TOML: {what[:1].lower()}{what[1:]} (mend it)"
+        raise InputError.at(place.removeprefix("at "), message) from None
+
+
+def parse_yaml(text: str) -> Any:
+    """Return the data of a YAML text, decimals exactly as they are written."""
+    import yaml
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    builder = _Builder()
+    try:
+        for event in yaml.parse(text, Loader=loader):
+            builder.take(event)
+    except InputError:
+        raise
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise _fault(line, f"{error.problem} (check the YAML there)") from None
+    except (yaml.YAMLError, ValueError, OverflowError) as error:
+        reason = getattr(error, "reason", None) or "characters that no YAML file may hold"
+        raise InputError.at("", f"{reason} (save the file as plain text)") from None
+    return builder.data
+
+
+def _fault(line: int, message: str) -> InputError:
+    return InputError.at("", f"line {line}: {message}")
+
+
+@dataclass(slots=True)
+class _Open:
+    """A mapping or list that is not closed yet."""
+
+    value: dict[str, Any] | list[Any]
+    anchor: str | None
+    key: str | None = None  # of a mapping: the key whose value comes next
+    size: int = 1  # values in it, aliases counted in full
+
+
+@dataclass(slots=True)
+class _Builder:
+    """Takes events one by one; `data` is what they make."""
+
+    data: Any = None
+    documents: int = 0
+    aliased: int = 0
+    open: list[_Open] = field(default_factory=list)
+    anchored: dict[str, tuple[Any, int]] = field(default_factory=dict)
+
+    def take(self, event: Any) -> None:
+        """Take the next event of the parser."""
+        line, tag = event.start_mark.line + 1, getattr(event, "tag", None)
+        if tag is not None:
+            raise _fault(line, f"the tag {shown(tag)} is not allowed (take it out)")
+        match type(event).__name__:
+            case "DocumentStartEvent":
+                self.documents += 1
+                if self.documents > 1:
+                    raise _fault(line, "a second document begins (keep one in a file)")
+            case "ScalarEvent":
+                self._add(_scalar(event), 1, event.anchor, line)
+            case "AliasEvent":
+                value, size = self._named(event.anchor, line)
+                self._add(value, size, None, line)
+            case "SequenceStartEvent":
+                self._begin(_Open([], event.anchor), line)
+            case "MappingStartEvent":
+                self._begin(_Open({}, event.anchor), line)
+            case "SequenceEndEvent" | "MappingEndEvent":
+                closed = self.open.pop()
+                self._add(closed.value, closed.size, closed.anchor, line)
+
+    def _begin(self, opened: _Open, line: int) -> None:
+        if len(self.open) == MAX_DEPTH:
+            message = f"values are nested more than {MAX_DEPTH} deep"
+            raise _fault(line, f"{message} (a document needs no such depth)")
+        if opened.anchor is not None:
+            self.anchored.pop(opened.anchor, None)
+        self.open.append(opened)
+
+    def _named(self, anchor: str, line: int) -> tuple[Any, int]:
+        """Return the value that an alias stands for, and its size."""
+        if anchor not in self.anchored:
+            inside = any(opened.anchor == anchor for opened in self.open)
+            what = "stands inside what it names" if inside else "names nothing before it"
+            raise _fault(line, f"the alias *{anchor} {what} (write the value out)")
+        self.aliased += self.anchored[anchor][1]
+        if self.aliased > MAX_ALIASED:
+            message = f"aliases stand for more than {MAX_ALIASED} values (write out what is meant)"
+            raise _fault(line, message)
+        return self.anchored[anchor]
+
+    def _add(self, value: Any, size: int, anchor: str | None, line: int) -> None:
+        if anchor is not None:
+            self.anchored[anchor] = (value, size)
+        if not self.open:
+            self.data = value
+            return
+        parent = self.open[-1]
+        parent.size += size
+        if isinstance(parent.value, list):
+            parent.value.append(value)
+        elif parent.key is not None:
+            parent.value[parent.key] = value
+            parent.key = None
+        elif not isinstance(value, str):
+            message = f"the key {shown(value)} is not text"
+            raise _fault(line, f"{message} (put it in quotes, or add what is missing)")
+        elif value in parent.value:
+            raise _fault(line, f"the key {shown(value)} is given twice (take one out)")
+        else:
+            parent.key = value
+
+
+def _scalar(event: Any) -> Any:
+    text: str = event.value
+    is_plain, _ = event.implicit
+    if not is_plain:
+        return text
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return whole(text)
+    return decimal(text) if _DECIMAL.fullmatch(text) else text
+
+
 def json_text(document: dict[str, Any]) -> str:
     """Return a document as JSON text with one row, robot or edge on a line."""
     return _spread(document, "\n") + "\n"
@@ -193,17 +381,4 @@ def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
 
 def json_line(value: Any) -> str:
     """Return a value as JSON text on one line."""
-    return value if isinstance(value, Rendered) else _ENCODER.encode(value)
-
-
-def parse_toml(text: str) -> dict[str, Any]:
-    """Return the data of a TOML text."""
-    try:
-        return tomllib.loads(text, parse_float=decimal)
-    except RecursionError:
-        raise InputError.at("", "it is nested too deeply (make it flatter)") from None
-    except ValueError as error:
-        found = _TOML_PLACE.fullmatch(str(error))
-        what, place = (found["what"], found["place"]) if found else (str(error), "")
-        message = f"this is no TOML: {what[:1].lower()}{what[1:]} (mend it)"
-        raise InputError.at(place.removeprefix("at "), message) from None
+    return _ENCODER.encode(value)

@@ -1,16 +1,45 @@
-"""What would happen if nobody waited: the paper's planned rows, and where they collide."""
+"""When robots book vertices, and where the paper's planned rows collide: nobody waits in those."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rightofway.metrics.bookings import Bookings, bookings_of
-from rightofway.model import NEVER, Plan, Scenario, Tick, Track, VertexId, stays_of
+from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model.sorting import order_by
 
-__all__ = ["Collision", "collisions", "free_running"]
+__all__ = ["Bookings", "Collision", "bookings_of", "collisions", "free_running"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Bookings:
+    """All bookings of a fleet, by vertex, then by start; each array has shape (n,)."""
+
+    visit: NDArray[np.int64]  # counted robot by robot along the tracks
+    robot: NDArray[np.int64]
+    vertex: NDArray[np.int32]
+    start: NDArray[np.int64]  # [ticks]
+    end: NDArray[np.int64]  # [ticks]
+
+
+def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]) -> Bookings:
+    """Return what a fleet books under the scenario's rules."""
+    lengths = [len(track) for track in tracks]
+    last = np.cumsum(lengths) - 1
+    enter = np.concatenate([track.enter for track in tracks])
+    end = np.append(enter[1:] + scenario.problem.headway, NEVER)
+    end[last] = NEVER
+    vertex = np.concatenate([track.vertices for track in tracks])
+    robot = np.repeat(np.arange(len(tracks)), lengths)
+    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
+    start = enter - drive_in * scenario.rules.books_ahead
+    order = order_by(vertex, start)  # stable, so by robot where all else is equal
+    return Bookings(
+        visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]
+    )
 
 
 def free_running(plan: Plan) -> tuple[Track, ...]:
@@ -52,26 +81,20 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
     The paper's list counts the ticks of these intervals one by one.
     """
     bookings = bookings_of(scenario, tracks, stays_of(scenario, tracks))
-    found = _overlaps(bookings)
-    return tuple(sorted(found, key=lambda each: (each.start, each.robots, each.vertex)))
-
-
-def _overlaps(bookings: Bookings) -> Iterator[Collision]:
-    """Go through the bookings, vertex by vertex, with those that have not ended yet."""
-    going_on: list[tuple[int, int, int]] = []
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
+    found: list[Collision] = []
+    open_bookings: list[tuple[int, int, int]] = []  # of the vertex, those that have not ended yet
     for vertex, start, end, robot in zip(*(column.tolist() for column in columns), strict=True):
-        going_on = [one for one in going_on if one[0] == vertex and one[1] > start]
-        for _, until, other in going_on:
+        open_bookings = [one for one in open_bookings if one[0] == vertex and one[1] > start]
+        for _, other_end, other in open_bookings:
+            until = min(end, other_end)
             if other != robot:
-                yield _collision((robot, other), vertex, start, min(end, until))
-        going_on.append((vertex, end, robot))
-
-
-def _collision(robots: tuple[int, int], vertex: int, start: int, end: int) -> Collision:
-    return Collision(
-        robots=(min(robots), max(robots)),
-        vertex=VertexId(vertex),
-        start=Tick(start),
-        end=None if end == NEVER else Tick(end),
-    )
+                collision = Collision(
+                    robots=(min(robot, other), max(robot, other)),
+                    vertex=VertexId(vertex),
+                    start=Tick(start),
+                    end=None if until == NEVER else Tick(until),
+                )
+                found.append(collision)
+        open_bookings.append((vertex, end, robot))
+    return tuple(sorted(found, key=lambda each: (each.start, each.robots, each.vertex)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.metrics.bookings import Bookings, bookings_of
+from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
 
 __all__ = ["Wait", "waits", "waits_in"]
@@ -54,15 +54,7 @@ def waits(plan: Plan) -> tuple[Wait, ...]:
 def waits_in(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[Wait, ...]:
-    """Return all waits of tracks that keep the rules, where it is known what their visits are for.
-
-    Parameters
-    ----------
-    scenario
-        The fleet.
-    tracks, stays
-        One of both for each robot.
-    """
+    """Return all waits of tracks that keep the rules, given the parts of their visits."""
     lengths = [len(track) for track in tracks]
     waiting = np.concatenate([stay.waits for stay in stays])
     enter = np.concatenate([track.enter for track in tracks])

@@ -10,12 +10,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rightofway.viz.page import frame_of, page_of, payload_of, write_page
-    from rightofway.viz.raster import Film, write_gif, write_png
+    from rightofway.viz.page.document import frame_of, page_of, write_page
+    from rightofway.viz.page.payload import payload_of
+    from rightofway.viz.raster.picture import Film, write_gif, write_png
 
-_LATER = dict.fromkeys(("Film", "write_gif", "write_png"), "raster") | dict.fromkeys(
-    ("frame_of", "page_of", "payload_of", "write_page"), "page"
-)
+_MODULES = {
+    "page.document": ("frame_of", "page_of", "write_page"),
+    "page.payload": ("payload_of",),
+    "raster.picture": ("Film", "write_gif", "write_png"),
+}
 
 __all__ = [
     "Film",
@@ -29,6 +32,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _LATER:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -28,47 +28,23 @@ class Activity(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Moment:
-    """One robot at one instant.
-
-    Attributes
-    ----------
-    tail, head
-        The vertices it is between; the same while it does not drive.
-    activity
-        What it does.
-    share
-        How much of that is over, 0 to 1.
-    """
+    """One robot at one instant, between two vertices; tail is head while it does not drive."""
 
     tail: int
     head: int
     activity: Activity
-    share: float
+    share: float  # of the activity that is over, 0 to 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """A track with what the robot does during each visit.
-
-    Attributes
-    ----------
-    vertices
-        The route.
-    enter
-        When each visit begins [ticks].
-    drive
-        Ticks of the edge driven into each visit; 0 for the first.
-    stages
-        What the robot has to do.
-    served
-        The visit that serves each stage, -1 for a stage that the track leaves out.
-    """
+    """A track with what the robot does during each visit."""
 
     vertices: tuple[int, ...]
-    enter: tuple[int, ...]
-    drive: tuple[int, ...]
+    enter: tuple[int, ...]  # when each visit begins [ticks]
+    drive: tuple[int, ...]  # of the edge into each visit, 0 for the first [ticks]
     stages: tuple[Stage, ...]
-    served: tuple[int, ...]
+    served: tuple[int, ...]  # the visit that serves each stage, -1 for one that is left out
 
     def at(self, tick: float) -> Moment:
         """Return where the robot is at an instant."""

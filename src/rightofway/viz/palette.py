@@ -96,13 +96,7 @@ DARK = Theme(
 
 
 def robot_colours(count: int) -> tuple[str, ...]:
-    """Return a colour for each robot; a robot's colour does not depend on how many there are.
-
-    Parameters
-    ----------
-    count
-        Number of robots.
-    """
+    """Return a colour for each robot; a robot's colour does not depend on how many there are."""
     return tuple(
         _hex_of_oklch(LIGHTNESS[index % len(LIGHTNESS)], CHROMA, FIRST_HUE + index * GOLDEN_ANGLE)
         for index in range(count)

@@ -22,18 +22,9 @@ MAX_VERTICES = 40
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Plane:
-    """A roadmap laid out for drawing.
+    """A roadmap laid out for drawing from -0.5 to ``width - 0.5`` and ``height - 0.5`` [units]."""
 
-    Attributes
-    ----------
-    points
-        Where each vertex is, x to the right and y down [units]; float64, shape (V, 2). On a grid
-        these are (column, row).
-    width, height
-        The drawing spans -0.5 to ``width - 0.5`` and to ``height - 0.5`` [units].
-    """
-
-    points: NDArray[np.float64]
+    points: NDArray[np.float64]  # of each vertex, x right and y down [units]; shape (V, 2)
     width: float
     height: float
 

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
-from rightofway.io.scenario.maps import LoadedMap
-from rightofway.io.scenario.places import find_place
+from rightofway.io.scenario.maps import LoadedMap, find_place
 from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario
 from rightofway.io.text import read_document
 from rightofway.model import (
@@ -33,7 +31,6 @@ if TYPE_CHECKING:
 
     from rightofway.io.plan.shape import (
         DecisionDocument,
-        RerouteDocument,
         SteadyDocument,
         TrackDocument,
     )
@@ -107,8 +104,10 @@ def plan_of(document: Any, source: str = "") -> Plan:
         run = faults.part(document, "planner", _run, names)
         tracks = faults.part(document, "robots", _tracks, names)
         steady = faults.part(document, "steady", _steady, names) or ()
-        if frame and loaded:
-            faults.attempt("tick", _check_tick, frame.tick, loaded.scenario)
+        tick = loaded and loaded.scenario.problem.clock.tick
+        if frame and tick and frame.tick != tick:
+            remedy = "plan the scenario again; these times mean something else"
+            faults.note("tick", f"{shown(frame.tick)}, but the scenario's is {tick} ({remedy})")
         faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert run is not None, "or there was a fault"
@@ -147,13 +146,6 @@ class _Names:
             with under(place):
                 self.vertices[name] = find_place(name, self.on)
         return self.vertices[name]
-
-
-def _check_tick(tick: Fraction, scenario: Scenario) -> None:
-    own = scenario.problem.clock.tick
-    if tick != own:
-        remedy = "plan the scenario again; these times mean something else"
-        raise InputError.at("", f"{shown(tick)}, but the scenario's is {own} ({remedy})")
 
 
 def _each(
@@ -204,12 +196,13 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     document = checked(PlannerDocument, data)
     if names is None:
         return None
-    faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute | None]()
+    faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute]()
     for index, decision in enumerate(document.decisions):
         place = f"decisions[{index}]"
         decisions.append(faults.attempt(place, _decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
-        reroutes.append(faults.attempt(f"reroutes[{index}]", _reroute, reroute, names))
+        robot = faults.attempt(f"reroutes[{index}]", names.robot, "robot", reroute.robot)
+        reroutes.append(Reroute(robot=robot or 0, because=reroute.because))
     faults.stop()
     return PlannerRun(
         name=document.name,
@@ -218,7 +211,7 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         status=document.status,
         seconds=None if document.seconds is None else float(document.seconds),
         decisions=tuple(decision for decision in decisions if decision),
-        reroutes=tuple(reroute for reroute in reroutes if reroute),
+        reroutes=tuple(reroutes),
     )
 
 
@@ -248,10 +241,6 @@ def _decision(document: DecisionDocument, names: _Names) -> Decision:
 def _pair(numbers: Sequence[int | None]) -> tuple[int | None, int | None]:
     first, second = numbers
     return first, second
-
-
-def _reroute(document: RerouteDocument, names: _Names) -> Reroute:
-    return Reroute(robot=names.robot("robot", document.robot), because=document.because)
 
 
 def _steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:

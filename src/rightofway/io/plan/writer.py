@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
-from rightofway.io.text import Rendered, json_line, json_text
+from rightofway.io.text import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.values import written
 
@@ -34,17 +31,31 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     InputError
         If a track leads through a vertex that the roadmap does not have.
     """
-    names = _vertex_names(plan)
-    rows = zip(plan.scenario.robots, plan.tracks, strict=True)
-    robots = [
-        {
-            "name": robot.name,
-            "vertices": [names[vertex] for vertex in track.vertices.tolist()],
-            "enter": track.enter.tolist(),
-        }
-        for robot, track in rows
-    ]
-    return _document(plan, robots, seconds=seconds)
+    scenario = plan.scenario
+    n_vertices = scenario.roadmap.n_vertices
+    for index, track in enumerate(plan.tracks):
+        if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
+            message = f"a vertex is not on the roadmap (give 0 to {n_vertices - 1})"
+            raise InputError.at(f"robots[{index}].vertices", message)
+    names = [scenario.roadmap.name(vertex) for vertex in range(n_vertices)]
+    document = {
+        "format": PLAN_FORMAT,
+        "scenario": dump_scenario(scenario),
+        "tick": written(scenario.problem.clock.tick),
+        "planner": _planner(plan.run, scenario, seconds=seconds),
+        "metrics": _metrics(plan),
+        "robots": [
+            {
+                "name": robot.name,
+                "vertices": [names[vertex] for vertex in track.vertices.tolist()],
+                "enter": track.enter.tolist(),
+            }
+            for robot, track in zip(scenario.robots, plan.tracks, strict=True)
+        ],
+    }
+    if plan.steady:
+        document["steady"] = [_steady(group, scenario) for group in plan.steady]
+    return document
 
 
 def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
@@ -67,39 +78,7 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
 
 def plan_text(plan: Plan, *, seconds: bool = False) -> str:
     """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`."""
-    quoted = np.array([json_line(name) for name in _vertex_names(plan)], object)
-    rows = zip(plan.scenario.robots, plan.tracks, strict=True)
-    robots = [
-        Rendered(
-            f'{{"name": {json_line(robot.name)}, "vertices": [{", ".join(quoted[track.vertices])}],'
-            f' "enter": {track.enter.tolist()}}}'
-        )
-        for robot, track in rows
-    ]
-    return json_text(_document(plan, robots, seconds=seconds))
-
-
-def _vertex_names(plan: Plan) -> list[str]:
-    """Return the names of all vertices; InputError if a track visits any other."""
-    n_vertices = plan.scenario.roadmap.n_vertices
-    for index, track in enumerate(plan.tracks):
-        if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
-            message = f"a vertex is not on the roadmap (give 0 to {n_vertices - 1})"
-            raise InputError.at(f"robots[{index}].vertices", message)
-    return [plan.scenario.roadmap.name(vertex) for vertex in range(n_vertices)]
-
-
-def _document(plan: Plan, robots: Sequence[Any], *, seconds: bool) -> dict[str, Any]:
-    scenario = plan.scenario
-    return {
-        "format": PLAN_FORMAT,
-        "scenario": dump_scenario(scenario),
-        "tick": written(scenario.problem.clock.tick),
-        "planner": _planner(plan.run, scenario, seconds=seconds),
-        "metrics": _metrics(plan),
-        "robots": robots,
-        **({"steady": [_steady(group, scenario) for group in plan.steady]} if plan.steady else {}),
-    }
+    return json_text(dump_plan(plan, seconds=seconds))
 
 
 def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:

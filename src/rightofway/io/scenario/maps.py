@@ -1,4 +1,4 @@
-"""Maps of scenario documents made into roadmaps: grids, files, floors and drawn roadmaps."""
+"""Maps of scenario documents made into roadmaps, and places found on them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from rightofway.io.movingai import load_map
 from rightofway.model import (
     Edge,
     Floor,
+    Grid,
     Obstacle,
     Roadmap,
+    VertexId,
     cluster,
     node_length,
     roadmap_of_edges,
@@ -23,6 +25,7 @@ from rightofway.model import (
     straight_length,
 )
 from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.places import Place, vertex_at
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import (
@@ -32,31 +35,44 @@ if TYPE_CHECKING:
         RoadmapDocument,
     )
 
-__all__ = ["LoadedMap", "file_beside", "map_of"]
+__all__ = ["LoadedMap", "file_beside", "find_place", "map_of"]
 
 Point = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedMap:
-    """A roadmap, and what its document says beyond it; places are looked up here.
-
-    Attributes
-    ----------
-    roadmap
-        The graph that robots drive on.
-    lines
-        The rows of a grid as they were written; empty on other roadmaps.
-    floor
-        The floor that the grid was cut from, if any.
-    file
-        The file it was read from, if any.
-    """
+    """A roadmap, and what its document says beyond it."""
 
     roadmap: Roadmap
-    lines: tuple[str, ...] = ()
-    floor: Floor | None = None
-    file: Path | None = None
+    lines: tuple[str, ...] = ()  # of a grid, as they were written
+    floor: Floor | None = None  # that the grid was cut from
+    file: Path | None = None  # that the grid was read from
+
+
+def find_place(place: Place, on: LoadedMap) -> VertexId:
+    """Return the vertex at a place of a map, or raise an InputError that says what is there."""
+
+    def what_blocks(row: int, column: int) -> str:
+        grid, floor = on.roadmap.grid, on.floor
+        obstacle = _obstacle(row, column, floor, grid) if floor and grid else ""
+        return obstacle or repr(on.lines[row][column])
+
+    return vertex_at(on.roadmap, place, what_blocks=what_blocks)
+
+
+def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
+    """Return what stands on a cell of a floor."""
+    size = grid.cell_size
+    for index, it in enumerate(floor.obstacles):
+        if (
+            it.x < (column + 1) * size
+            and column * size < it.x + it.width
+            and it.y < (row + 1) * size
+            and row * size < it.y + it.height
+        ):
+            return it.name or f"obstacles[{index}]"
+    return ""
 
 
 def map_of(

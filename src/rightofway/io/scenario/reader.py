@@ -18,8 +18,7 @@ from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
-from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
-from rightofway.io.scenario.places import find_place
+from rightofway.io.scenario.maps import LoadedMap, file_beside, find_place, map_of
 from rightofway.io.text import read_document
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST

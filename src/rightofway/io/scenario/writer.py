@@ -9,7 +9,7 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
-from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Turn
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn
 from rightofway.model.values import written
 
 __all__ = ["dump_scenario", "write_scenario"]
@@ -23,10 +23,12 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     Reading the document gives an equal scenario, where robots and vertices have printable names,
     numbers have at most 18 digits, and a roadmap without a grid has labels.
     """
-    roadmap = scenario.roadmap
+    roadmap, grid = scenario.roadmap, scenario.roadmap.grid
     return {
         "format": SCENARIO_FORMAT,
-        "map": _grid(roadmap.grid) if roadmap.grid else {"roadmap": _roadmap(roadmap)},
+        "map": {"grid": list(grid.lines()), "cell_size": written(grid.cell_size)}
+        if grid
+        else {"roadmap": _roadmap(roadmap)},
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
         "rules": _rules(scenario.rules),
     }
@@ -75,10 +77,6 @@ def _yaml_text(document: dict[str, Any]) -> str:
             width=float("inf"),
         )
     )
-
-
-def _grid(grid: Grid) -> dict[str, Any]:
-    return {"grid": list(grid.lines()), "cell_size": written(grid.cell_size)}
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:

@@ -99,20 +99,15 @@ def write_page(
 
     Parameters
     ----------
-    plan
-        The plan.
+    plan, steady, actual
+        As for `page_of`.
     path
         Where, usually ``….html``.
-    steady
-        Where the plan repeats itself, unless it says so itself: the page marks the periods and
-        repeats one endlessly.
-    actual
-        An execution of the plan: the page shows it beside the plan.
 
     Raises
     ------
     InputError
-        If the file cannot be written, or ``steady`` or ``actual`` are not of this plan.
+        As for `page_of`, or if the file cannot be written.
     """
     write_whole(path, page_of(plan, steady=steady, actual=actual))
 
@@ -128,14 +123,10 @@ def frame_of(
 
     Parameters
     ----------
-    plan
-        The plan.
+    plan, steady, actual
+        As for `page_of`.
     height
         Height of the frame [pixels].
-    steady
-        Where the plan repeats itself, unless it says so itself.
-    actual
-        An execution of the plan.
 
     Notes
     -----

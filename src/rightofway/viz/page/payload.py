@@ -47,12 +47,8 @@ def payload_of(
 
     Parameters
     ----------
-    plan
-        The plan; times in the result are ticks.
-    steady
-        Where the plan repeats itself, unless it says so itself.
-    actual
-        An execution of the plan.
+    plan, steady, actual
+        As for `page_of`; times in the result are ticks.
 
     Raises
     ------
@@ -196,29 +192,25 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
     still = actual.stoppages or ((),) * len(trips)
     stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
     driven = trips_of(replace(plan, tracks=actual.tracks, steady=()))
+    robots = []
+    for planned, taken, dwell, drive, stoppages, completion in zip(
+        trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
+    ):
+        is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
+        robot = {
+            "stages": _executed_stages(planned if is_planned else taken, dwell),
+            **({} if is_planned else {"vertices": _differences(taken.vertices)}),
+            "enter": _differences(taken.enter),
+            "drive": drive.tolist(),
+            "still": [list(stoppage) for stoppage in stoppages],
+            "completion": completion,
+        }
+        robots.append(robot)
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
-        "robots": [
-            {
-                **_executed_route(planned, taken, dwell),
-                "enter": _differences(taken.enter),
-                "drive": drive.tolist(),
-                "still": [list(stoppage) for stoppage in stoppages],
-                "completion": completion,
-            }
-            for planned, taken, dwell, drive, stoppages, completion in zip(
-                trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
-            )
-        ],
+        "robots": robots,
         "waits": [_wait(wait) for wait in waits_in(plan.scenario, actual.tracks, stays)],
     }
-
-
-def _executed_route(planned: Trip, taken: Trip, dwell: NDArray[np.int64]) -> dict[str, Any]:
-    """Return the stages of a robot's route, and its vertices where they are not the plan's."""
-    if taken.vertices == planned.vertices[: len(taken.vertices)]:
-        return {"stages": _executed_stages(planned, dwell)}
-    return {"stages": _executed_stages(taken, dwell), "vertices": _differences(taken.vertices)}
 
 
 def _executed_stays(

@@ -24,19 +24,7 @@ CORNER = 0.16
 
 
 class Scene:
-    """A plan prepared for drawing.
-
-    Attributes
-    ----------
-    trips, colours
-        What each robot does, and its colour.
-    end
-        The tick from which on nothing happens any more; at least 1.
-    plane, points
-        Where vertices are; the same as pairs.
-    ground
-        The colour under the robots.
-    """
+    """A plan prepared for drawing; from its tick `end` on nothing happens any more."""
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
         self.plan, self.theme = plan, theme
@@ -54,19 +42,10 @@ class Scene:
 
 
 class Pen:
-    """A drawing in its own units.
+    """A drawing in its own units: ``scale`` pixels of the picture each, from the pixel ``origin``.
 
-    Parameters
-    ----------
-    image
-        What to draw on, ``fineness`` times as large as the picture will be: a smooth picture is
-        drawn large, then reduced.
-    origin
-        Where the point (0, 0) is [pixels of the picture].
-    scale
-        Pixels of the picture in a unit.
-    fineness
-        How much larger ``image`` is than the picture.
+    The image is ``fineness`` times as large as the picture: a smooth picture is drawn large, then
+    reduced.
     """
 
     def __init__(self, image: Image.Image, *, origin: Point, scale: float, fineness: int) -> None:

@@ -44,12 +44,7 @@ STACK = (Activity.WORK, Activity.TURN, Activity.DRIVE, Activity.WAIT)
 class Diagram:
     """Places over time for a few robots, a row for each of some, a census of many.
 
-    Parameters
-    ----------
-    scene
-        What to draw.
-    width
-        Width with its margins [pixels].
+    The width [pixels] includes the margins.
     """
 
     def __init__(self, scene: Scene, width: float) -> None:

@@ -115,16 +115,14 @@ def write_gif(
 
     Parameters
     ----------
-    plan
-        The plan.
+    plan, theme
+        As for `write_png`.
     path
         Where, usually ``….gif``; the file is there whole or not at all.
     max_frames
         The most pictures. A long plan plays faster instead of becoming a large file.
     scale
         Pixels for a cell. None chooses so that the film is as wide as a column of text.
-    theme
-        Colours of everything but the robots.
 
     Returns
     -------

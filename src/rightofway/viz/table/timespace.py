@@ -107,13 +107,7 @@ class TimeSpaceTable:
         return range(self.first_tick, self.last_tick + 1)
 
     def refuse_more_than(self, columns: int) -> None:
-        """Make sure that the table can be written out.
-
-        Raises
-        ------
-        InputError
-            If it has more ticks than ``columns``, or more than `MAX_CELLS` cells.
-        """
+        """Raise an InputError for more ticks than ``columns``, or more than `MAX_CELLS` cells."""
         ticks, rows = len(self.ticks), len(self.rows)
         if ticks > columns:
             message = (

@@ -119,16 +119,13 @@ def write_xlsx(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    table
-        The table.
-    path
-        Where.
+    table, path
+        As for `write_csv`.
 
     Raises
     ------
     InputError
-        If the table is too large for a sheet, or the file cannot be written; one that was there
-        before is untouched.
+        As for `write_csv`, or if the table is too large for a sheet.
     """
     table.refuse_more_than(MAX_TICKS_OF_SHEET)
     from rightofway.viz.table.workbook import workbook_of
