@@ -24,7 +24,6 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from rightofway.errors import is_printable, shown
-from rightofway.io.scenario.maps import find_place
 from rightofway.model import VertexId
 from rightofway.model.places import as_place
 from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
@@ -205,7 +204,7 @@ def _place(value: object, info: ValidationInfo) -> VertexId:
     place = as_place(value)
     if place is None:
         raise ValueError(f"{shown(value)} is no place (give N<k>, [row, column] or a vertex name)")
-    return find_place(place, info.context) if info.context else VertexId(0)
+    return info.context.find(place) if info.context else VertexId(0)
 
 
 def _lines(value: object) -> object:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
-from rightofway.io.scenario.maps import LoadedMap, find_place
+from rightofway.io.scenario.maps import LoadedMap
 from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario
 from rightofway.io.text import read_document
 from rightofway.model import (
@@ -144,7 +144,7 @@ class _Names:
         """Return the vertex of a name; InputError if there is none."""
         if name not in self.vertices:
             with under(place):
-                self.vertices[name] = find_place(name, self.on)
+                self.vertices[name] = self.on.find(name)
         return self.vertices[name]
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
         RoadmapDocument,
     )
 
-__all__ = ["LoadedMap", "file_beside", "find_place", "map_of"]
+__all__ = ["LoadedMap", "file_beside", "map_of"]
 
 Point = tuple[Fraction, Fraction]
 
@@ -49,16 +49,15 @@ class LoadedMap:
     floor: Floor | None = None  # that the grid was cut from
     file: Path | None = None  # that the grid was read from
 
+    def find(self, place: Place) -> VertexId:
+        """Return the vertex at a place, or raise an InputError that says what is there."""
 
-def find_place(place: Place, on: LoadedMap) -> VertexId:
-    """Return the vertex at a place of a map, or raise an InputError that says what is there."""
+        def what_blocks(row: int, column: int) -> str:
+            grid, floor = self.roadmap.grid, self.floor
+            obstacle = _obstacle(row, column, floor, grid) if floor and grid else ""
+            return obstacle or repr(self.lines[row][column])
 
-    def what_blocks(row: int, column: int) -> str:
-        grid, floor = on.roadmap.grid, on.floor
-        obstacle = _obstacle(row, column, floor, grid) if floor and grid else ""
-        return obstacle or repr(on.lines[row][column])
-
-    return vertex_at(on.roadmap, place, what_blocks=what_blocks)
+        return vertex_at(self.roadmap, place, what_blocks=what_blocks)
 
 
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:

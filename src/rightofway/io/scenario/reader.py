@@ -18,7 +18,7 @@ from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
-from rightofway.io.scenario.maps import LoadedMap, file_beside, find_place, map_of
+from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.io.text import read_document
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -248,8 +248,8 @@ def _starts_and_goals(robots: _Rows, on: LoadedMap) -> list[tuple[VertexId, Vert
         for row in robots.rows:
             _check_map(row, on)  # stops at the first: the others are for the same map
         for row in robots.rows:
-            start = faults.attempt(f"line {row.line}, start", find_place, row.start, on)
-            goal = faults.attempt(f"line {row.line}, goal", find_place, row.goal, on)
+            start = faults.attempt(f"line {row.line}, start", on.find, row.start)
+            goal = faults.attempt(f"line {row.line}, goal", on.find, row.goal)
             if start is None or goal is None:
                 continue
             if taken.setdefault(start, row.line) != row.line:
