@@ -71,10 +71,8 @@ length_class : int32[E]
     The length class of each edge.
 pace : int32[C]
     What an edge of each length class takes. [ticks]
-home : int
-    The vertex at which the trip begins and ends.
 stage_vertex : int32[S]
-    The vertex of each stage, in order; the last one is the home.
+    The vertex of each stage, in order; the trip begins and ends at the last one.
 stage_work, stage_turn : int64[S], int64[S]
     How long the robot works there, and then turns. [ticks]
 stage_tables : list of int32[V]
@@ -93,12 +91,13 @@ using Route = std::tuple<ArrayOut<VertexId>, ArrayOut<Tick>, ArrayOut<Tick>, Arr
 std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<EdgeId>& indptr,
                                 const ArrayIn<VertexId>& indices,
                                 const ArrayIn<std::int32_t>& length_class,
-                                const ArrayIn<std::int32_t>& pace, VertexId home,
+                                const ArrayIn<std::int32_t>& pace,
                                 const ArrayIn<VertexId>& stage_vertex,
                                 const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn,
                                 const std::vector<ArrayIn<std::int32_t>>& stage_tables, Tick phase,
                                 std::optional<double> time_limit) {
     const Roads roads{{view(indptr), view(indices)}, view(length_class)};
+    const VertexId home = stage_vertex.size() == 0 ? 0 : view(stage_vertex).back();
     Trip trip{home, view(stage_vertex), view(stage_work), view(stage_turn), view(pace), {}};
     for (std::size_t k = 0; k < stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),
@@ -176,9 +175,9 @@ void bind_periodic_bookings(nb::module_& module) {
         .def("connect", &connect, array("vertex"), array("dwell"), array("drive"),
              nb::arg("begins"), nb::arg("until"), nb::arg("leave"), connect_doc)
         .def("find_route", &find_route, array("indptr"), array("indices"), array("length_class"),
-             array("pace"), nb::arg("home"), array("stage_vertex"), array("stage_work"),
-             array("stage_turn"), nb::arg("stage_tables"), nb::arg("phase"),
-             nb::arg("time_limit").none(), find_route_doc);
+             array("pace"), array("stage_vertex"), array("stage_work"), array("stage_turn"),
+             nb::arg("stage_tables"), nb::arg("phase"), nb::arg("time_limit").none(),
+             find_route_doc);
 }
 
 }  // namespace rightofway::bind

@@ -45,11 +45,6 @@ class RoundTrip:
     stages: tuple[Stage, ...]
     tables: tuple[NDArray[np.int32], ...]
 
-    @property
-    def home(self) -> VertexId:
-        """The vertex at which it begins and ends."""
-        return self.stages[-1].vertex
-
     @classmethod
     def of(
         cls, itinerary: Itinerary, distances: Distances, *, forbidden: Collection[int] = ()
@@ -178,7 +173,6 @@ class PeriodicBookings:
             trip.roadmap.heads,
             trip.roadmap.length_class,
             trip.pace,
-            int(trip.home),
             np.array([stage.vertex for stage in trip.stages], np.int32),
             np.array([stage.work for stage in trip.stages], np.int64),
             np.array([stage.turn for stage in trip.stages], np.int64),
