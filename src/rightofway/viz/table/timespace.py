@@ -148,32 +148,25 @@ def table_of(
     """
     scenario = plan.scenario
     shown = _indices(scenario, robots)
-    waiting: list[Spans] = [[] for _ in plan.tracks]
+    alone, nowhere = free_running(plan), [Spans() for _ in plan.tracks]
+    waiting = [Spans() for _ in plan.tracks]
     for wait in waits(plan):
         waiting[wait.robot].append((wait.tick, wait.tick + wait.ticks))
-    alone = free_running(plan)
     kinds: tuple[tuple[RowKind, Sequence[Track], list[Spans]], ...] = (
-        ("planned", alone, [[] for _ in plan.tracks]),
+        ("planned", alone, nowhere),
         ("final", plan.tracks, waiting),
     )
     ends = {kind: completions_of(scenario, tracks) for kind, tracks, _ in kinds}
     colliding = {kind: _colliding(scenario, tracks) for kind, tracks, _ in kinds}
     latest = max(ends[kind][robot] for kind in ends for robot in shown)
     first, last = _window(first_tick, last_tick, latest)
-    rows = (
-        Row(
-            robot=scenario.robots[robot].name,
-            kind=kind,
-            runs=tuple(
-                _runs(
-                    scenario.roadmap, tracks[robot], (first, min(last, ends[kind][robot]) + 1),
-                    colliding[kind][robot], waits_of[robot],
-                )
-            ),
-        )
-        for robot in shown
-        for kind, tracks, waits_of in kinds
-    )  # fmt: skip
+    rows: list[Row] = []
+    for robot in shown:
+        for kind, tracks, waits_of in kinds:
+            window = first, min(last, ends[kind][robot]) + 1
+            marked = colliding[kind][robot], waits_of[robot]
+            runs = tuple(_runs(scenario.roadmap, tracks[robot], window, *marked))
+            rows.append(Row(robot=scenario.robots[robot].name, kind=kind, runs=runs))
     tick = scenario.problem.clock.tick
     return TimeSpaceTable(first_tick=first, last_tick=last, tick=tick, rows=tuple(rows))
 
