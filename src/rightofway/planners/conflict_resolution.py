@@ -67,20 +67,11 @@ class Resolution:
 class PartialPlan:
     """A fleet on its routes, with the rights of way that are decided so far.
 
-    Parameters
+    Attributes
     ----------
-    task
-        The problem.
-    routes
-        One for each robot.
     sees_swaps
         Whether a swap is a conflict, and segments are decided at once; the published method does
         neither.
-    graph
-        The rights of way decided before; none if it is not given.
-
-    Attributes
-    ----------
     graph
         The rights of way.
     settled

@@ -7,9 +7,9 @@ from functools import partial
 from itertools import pairwise
 
 from rightofway.errors import NoPlanExists
-from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
+from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
 from rightofway.planners.task import Task
-from rightofway.search import Congestion, Distances, Path
+from rightofway.search import Congestion, Distances
 
 __all__ = [
     "chosen_routes",
@@ -55,9 +55,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
         leg = distances.path(place, stage, ticks)
         if stage == itinerary.home:
             back = distances.path(stage, place, ticks)[::-1]
-            if _is_path(distances.roadmap, back) and (
-                distances.cost(back, ticks) == distances.cost(leg, ticks)
-            ):
+            if distances.cost(back, ticks) == distances.cost(leg, ticks):
                 leg = back
         legs.append(leg)
     return route_along(distances.roadmap, itinerary, legs)
@@ -109,11 +107,6 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
     """Yield the place before each stage and the place of the stage."""
     return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
-
-
-def _is_path(roadmap: Roadmap, vertices: Path) -> bool:
-    """Return whether an edge leads from each vertex to the next; some edges are one-way."""
-    return all(roadmap.edge(tail, head) is not None for tail, head in pairwise(vertices))
 
 
 def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
