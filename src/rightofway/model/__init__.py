@@ -2,7 +2,7 @@
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
-from rightofway.model.problem import Itinerary, Problem, ProblemArrays, Stage, least_dwell
+from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.roadmap import (
     Edge,
     Grid,
@@ -47,7 +47,6 @@ __all__ = [
     "Plan",
     "PlannerRun",
     "Problem",
-    "ProblemArrays",
     "Reroute",
     "Roadmap",
     "Robot",
