@@ -88,13 +88,8 @@ def solve(
         remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
         raise InputError.at("scenario", f"{shown(scenario)} is no scenario ({remedy})")
     spec, limit = find(planner), checked_time_limit(time_limit)
-    task = Task(
-        scenario=scenario,
-        options=_settled(spec, options, named),
-        seed=_checked_seed(seed),
-        report=report or (lambda _: None),
-        keep_best=keep_best,
-    )
+    settled = _settled(spec, options, named, seed)
+    task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, task, limit, seconds_per_visit)
 
 
@@ -140,33 +135,30 @@ def improve(
     if not spec.improves:
         able = " or ".join(one.name for one in registered().values() if one.improves)
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
-    task = Task(
-        scenario=plan.scenario,
-        options=_settled(spec, options, named),
-        seed=_checked_seed(seed),
-        report=report or (lambda _: None),
-        keep_best=keep_best,
-        start=plan.tracks,
-    )
-    return _run(spec, task, limit, seconds_per_visit)
+    settled = _settled(spec, options, named, seed)
+    task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
+    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit)
+
+
+def _silent(_: str) -> None:
+    """Take a sentence on progress, and say nothing."""
 
 
 def _settled(
-    spec: PlannerSpec, options: PlannerOptions | Mapping[str, Any] | None, named: dict[str, Any]
-) -> dict[str, str | int]:
-    if options is None:
-        return spec.settle(named)
-    if named:
+    spec: PlannerSpec,
+    options: PlannerOptions | Mapping[str, Any] | None,
+    named: dict[str, Any],
+    seed: int,
+) -> dict[str, Any]:
+    """Return the options and the seed of a task, checked."""
+    if options is not None and named:
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
-    return spec.settle(options)
-
-
-def _checked_seed(seed: int) -> int:
-    if isinstance(seed, Integral) and 0 <= seed <= LARGEST_SEED:
-        return int(seed)
-    remedy = f"give a whole number from 0 to {LARGEST_SEED}"
-    raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
+    settled = spec.settle(named if options is None else options)
+    if not isinstance(seed, Integral) or not 0 <= seed <= LARGEST_SEED:
+        remedy = f"give a whole number from 0 to {LARGEST_SEED}"
+        raise InputError.at("seed", f"{shown(seed)} is no seed ({remedy})")
+    return {"options": settled, "seed": int(seed)}
 
 
 def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_visit: float) -> Plan:

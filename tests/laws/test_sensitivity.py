@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.precedence import TimedEventGraph, cycle_time_without, sensitivity
+from rightofway.precedence import TimedEventGraph, critical_circuit_without, sensitivity
 from tests.builders.periodic import patterns
 
 law = settings(max_examples=150, derandomize=True, deadline=None)
@@ -26,7 +26,7 @@ def test_gain_loss_and_reach_are_those_of_the_cycle_time_itself(
     effect = sensitivity(graph, share)
 
     def at(part: Fraction) -> Fraction:
-        return cycle_time_without(graph, share, part)
+        return critical_circuit_without(graph, share, part).cycle_time
 
     now = effect.cycle_time
     assert at(Fraction(0)) == now == graph.critical_circuit().cycle_time

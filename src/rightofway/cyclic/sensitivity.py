@@ -19,7 +19,7 @@ from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
 from rightofway.precedence import (
     Sensitivity,
     TimedEventGraph,
-    cycle_time_without,
+    critical_circuit_without,
     sensitivity,
     tight_arcs,
 )
@@ -98,7 +98,8 @@ def parameter_effects(
         if part <= effect.until:
             then = effect.cycle_time - effect.gain * part
         else:
-            then = cycle_time_without(graph, shares[key], part, time_limit=time_limit)
+            saved = critical_circuit_without(graph, shares[key], part, time_limit=time_limit)
+            then = saved.cycle_time
         kind, robot, stop = key
         one = ParameterEffect(kind=kind, robot=robot, stop=stop, effect=effect, ten_per_cent=then)
         found.append(one)

@@ -2,7 +2,7 @@
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
-from rightofway.model.problem import Itinerary, Problem, ProblemArrays, Stage, least_dwell
+from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.roadmap import (
     Edge,
     Grid,
@@ -15,21 +15,19 @@ from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
 from rightofway.model.route import (
     Lap,
     Route,
+    Stays,
+    completions_of,
     drives_along,
+    flowtime_of,
     lap_of,
     route_along,
     route_of,
     route_through,
+    serving_visits,
+    stays_of,
     visits_of_laps,
 )
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import (
-    Stays,
-    completions_of,
-    flowtime_of,
-    serving_visits,
-    stays_of,
-)
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
 from rightofway.model.units import NEVER, Clock, Tick, VertexId, checked_time_limit, choose_clock
@@ -49,7 +47,6 @@ __all__ = [
     "Plan",
     "PlannerRun",
     "Problem",
-    "ProblemArrays",
     "Reroute",
     "Roadmap",
     "Robot",

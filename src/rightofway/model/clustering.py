@@ -83,14 +83,11 @@ def _floor_faults(floor: Floor) -> Iterator[InputFault]:
         if obstacle.width <= 0 or obstacle.height <= 0:
             size = f"{obstacle.width} by {obstacle.height}"
             yield InputFault(place, f"is {size}, not positive (give [x, y, width, height])")
-        elif not _reaches(obstacle, floor):
+        elif not (
+            -obstacle.width < obstacle.x < floor.width
+            and -obstacle.height < obstacle.y < floor.height
+        ):
             yield InputFault(place, "lies outside the floor (move it, or take it out)")
-
-
-def _reaches(obstacle: Obstacle, floor: Floor) -> bool:
-    return (
-        -obstacle.width < obstacle.x < floor.width and -obstacle.height < obstacle.y < floor.height
-    )
 
 
 def node_length(speeds: Iterable[Fraction]) -> Fraction:
@@ -136,7 +133,11 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
         )
         raise InputError.at("cell_size", message)
     if rows * columns > max_cells:
-        raise InputError.at("cell_size", _too_many(rows, columns, cell_size, max_cells))
+        message = (
+            f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
+            f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
+        )
+        raise InputError.at("cell_size", message)
     blocked = np.zeros((rows, columns), bool)
     for obstacle in floor.obstacles:
         across = _covered(obstacle.x, obstacle.width, cell_size)
@@ -148,10 +149,3 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
 def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
     first = math.floor(start / cell_size)
     return slice(max(first, 0), max(math.ceil((start + length) / cell_size), 0))
-
-
-def _too_many(rows: int, columns: int, cell_size: Fraction, max_cells: int) -> str:
-    return (
-        f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
-        f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
-    )

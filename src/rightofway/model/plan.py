@@ -265,7 +265,7 @@ class Plan:
     @property
     def completions(self) -> tuple[Tick, ...]:
         """When each robot has done its work and is at its last vertex [ticks]."""
-        from rightofway.model.stays import completions_of
+        from rightofway.model.route import completions_of
 
         return self.once("completions", lambda: completions_of(self.scenario, self.tracks))
 

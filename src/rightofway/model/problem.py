@@ -5,18 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
-from itertools import accumulate, chain
-from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from itertools import chain
 
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
-__all__ = ["Itinerary", "Problem", "ProblemArrays", "Stage", "least_dwell", "problem_of"]
+__all__ = ["Itinerary", "Problem", "Stage", "least_dwell", "problem_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,37 +57,6 @@ class Itinerary:
         return self.stages[-1].vertex
 
 
-class ProblemArrays(NamedTuple):
-    """The robots of a problem as kernels read them: R robots, S stages, P paces, C length classes.
-
-    Robots of one pace need the same ticks for every edge. All arrays are read-only.
-
-    Attributes
-    ----------
-    paces
-        Ticks for an edge of each length class, one row for each pace; int32, shape (P * C,).
-    pace_of
-        The pace of each robot; int32, shape (R,).
-    home
-        Where each robot is at tick 0; int32, shape (R,).
-    first_stage
-        Robot ``r`` owns stages ``first_stage[r]`` to ``first_stage[r + 1]`` (exclusive); int32,
-        shape (R + 1,).
-    stage_vertex
-        Where each stage is; int32, shape (S,).
-    stage_work, stage_turn
-        How long a robot works at each stage, and then turns; int64, shape (S,) [ticks].
-    """
-
-    paces: NDArray[np.int32]
-    pace_of: NDArray[np.int32]
-    home: NDArray[np.int32]
-    first_stage: NDArray[np.int32]
-    stage_vertex: NDArray[np.int32]
-    stage_work: NDArray[np.int64]
-    stage_turn: NDArray[np.int64]
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
     """A scenario in ticks, bound once; two problems are equal only if they are the same object.
@@ -124,33 +88,6 @@ class Problem:
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
-
-    @cached_property
-    def arrays(self) -> ProblemArrays:
-        """The robots as kernels read them, made when first asked for.
-
-        Raises
-        ------
-        OverflowError
-            If the ticks for an edge do not fit int32.
-        """
-        robots = self.itineraries
-        number: dict[tuple[Tick, ...], int] = {}
-        pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
-        stages = [stage for robot in robots for stage in robot.stages]
-        stage_count = [len(robot.stages) for robot in robots]
-        arrays = ProblemArrays(
-            paces=np.array(list(chain.from_iterable(number)), np.int32),
-            pace_of=np.array(pace_of, np.int32),
-            home=np.array([robot.home for robot in robots], np.int32),
-            first_stage=np.array([0, *accumulate(stage_count)], np.int32),
-            stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
-            stage_work=np.array([stage.work for stage in stages], np.int64),
-            stage_turn=np.array([stage.turn for stage in stages], np.int64),
-        )
-        for array in arrays:
-            array.flags.writeable = False
-        return arrays
 
 
 def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:

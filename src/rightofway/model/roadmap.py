@@ -146,13 +146,10 @@ class Roadmap:
         number = name[1:]
         if not (name.startswith("N") and number.isascii() and number.isdecimal()):
             raise KeyError(name)
-        if self.grid is None:
-            return self._checked(int(number), name)
-        cell = int(number)
-        vertex = int(self.grid.vertex_at[cell]) if cell < len(self.grid.vertex_at) else -1
-        return self._checked(vertex, name)
-
-    def _checked(self, vertex: int, name: str) -> VertexId:
+        vertex = int(number)
+        if self.grid is not None:
+            cells = self.grid.vertex_at
+            vertex = int(cells[vertex]) if vertex < len(cells) else -1
         if not 0 <= vertex < self.n_vertices:
             raise KeyError(name)
         return VertexId(vertex)

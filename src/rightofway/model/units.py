@@ -79,16 +79,15 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
     positive = {duration for duration in durations if duration > 0}
     if not positive:
         return Clock(tick=Fraction(1))
-    tick = _greatest_common_divisor(positive)
+    # The greatest common divisor of fractions in lowest terms.
+    tick = Fraction(
+        math.gcd(*(duration.numerator for duration in positive)),
+        math.lcm(*(duration.denominator for duration in positive)),
+    )
     shortest = min(positive)
     if shortest / tick > MAX_TICKS_OF_SHORTEST:
         return Clock(tick=shortest / MAX_TICKS_OF_SHORTEST, exact=False)
     return Clock(tick=tick)
-
-
-def _greatest_common_divisor(fractions: Iterable[Fraction]) -> Fraction:
-    numerators, denominators = zip(*((f.numerator, f.denominator) for f in fractions), strict=True)
-    return Fraction(math.gcd(*numerators), math.lcm(*denominators))
 
 
 def checked_time_limit(seconds: float | None) -> float | None:

@@ -70,18 +70,13 @@ def exact(value: object, *, digits: int = DIGITS) -> Fraction:
     match = _NUMBER.fullmatch(text)
     if not match:
         raise ValueError(f"{shown(value)} is not a number (write it like 3, 0.5 or 1/3)")
-    if _is_huge(text, match["exponent"] or "0"):
+    most = 2 * COORDINATE_DIGITS  # to compute 1e999999999 would fill the memory
+    if len(text) > most or abs(int(match["exponent"] or "0")) > most:
         raise _out_of_range(value, digits)
     try:
         return _in_range(Fraction(text), value, digits)
     except ZeroDivisionError:
         raise ValueError(f"{shown(value)} divides by zero (give another denominator)") from None
-
-
-def _is_huge(text: str, exponent: str) -> bool:
-    """Return whether computing the number could take long: 1e999999999 would fill the memory."""
-    most = 2 * COORDINATE_DIGITS
-    return len(text) > most or abs(int(exponent)) > most
 
 
 def _in_range(number: Fraction, value: object, digits: int) -> Fraction:

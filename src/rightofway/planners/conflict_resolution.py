@@ -2,23 +2,26 @@
 
 A *rule* decides which of two robots waits; this module does the rest. The earliest conflict is
 resolved first. Where no waiting keeps two robots apart, one of them is deferred: it is rerouted
-when all others have their times (`rerouting`). Where that fails, or takes more than its share of
+when all others have their times (`reroute`). Where that fails, or takes more than its share of
 the time, the whole fleet is planned by `lacam`. So a planner made of this is complete whatever its
 rule: given time it finds a plan or proves that none exists.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import random
+from collections import Counter, deque
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 import numpy as np
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Reroute, Route, Tick
+from rightofway.model import Decision, Reroute, Route, Tick, Track
 from rightofway.planners.lacam import plan_fleet
-from rightofway.planners.rerouting import reroute
-from rightofway.planners.task import Draft, Task, planning_headway
+from rightofway.planners.routing import shortest_route
+from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
@@ -27,7 +30,7 @@ from rightofway.precedence import (
     graph_of,
     shared_segment,
 )
-from rightofway.search import Distances
+from rightofway.search import Booking, Bookings, Distances, earliest_track
 
 __all__ = [
     "PartialPlan",
@@ -36,11 +39,18 @@ __all__ = [
     "Rule",
     "plan_by_rule",
     "plan_on_routes",
+    "reroute",
     "rights_if_waits",
 ]
 
 SHARE = 0.8
 """The part of the time for rights of way; the rest is for planning the whole fleet."""
+
+TRIES_PER_ROBOT = 10
+"""How often robots are rerouted at most, per robot of the fleet."""
+
+START_HOLD = 4
+"""How long the home of a robot without a track is kept free, in drives of its slowest edge."""
 
 Right = tuple[int, int]
 """Two visits of the graph, of which the first goes first."""
@@ -57,20 +67,11 @@ class Resolution:
 class PartialPlan:
     """A fleet on its routes, with the rights of way that are decided so far.
 
-    Parameters
+    Attributes
     ----------
-    task
-        The problem.
-    routes
-        One for each robot.
     sees_swaps
         Whether a swap is a conflict, and segments are decided at once; the published method does
         neither.
-    graph
-        The rights of way decided before; none if it is not given.
-
-    Attributes
-    ----------
     graph
         The rights of way.
     settled
@@ -225,3 +226,95 @@ def _plan_together(task: Task, because: str) -> Draft:
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )
+
+
+class _Reservations:
+    """The tracks of some robots of a fleet, and what these tracks book."""
+
+    def __init__(self, task: Task, distances: Distances, tracks: dict[int, Track]) -> None:
+        scenario = task.scenario
+        self.task = task
+        self.distances = distances
+        self.itineraries = scenario.problem.itineraries
+        self.tracks = tracks
+        self.bookings = Bookings(planning_problem(scenario))
+        for robot, track in tracks.items():
+            self.bookings.add(robot, track)
+
+    def hold_home(self, robot: int) -> None:
+        """Book the home of a robot without a track for a while, so that it can leave."""
+        itinerary = self.itineraries[robot]
+        booked = self.bookings.at(itinerary.home)
+        hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
+        end = min([hold, *(booking.start for booking in booked)])
+        if end > 0:
+            self.bookings.book(itinerary.home, Booking(Tick(0), end, robot))
+
+    def place(self, robot: int) -> bool:
+        """Give a robot its earliest track among the others, if there is one."""
+        self.bookings.release(robot)
+        left = self.task.deadline.seconds_left()
+        track = earliest_track(robot, self.bookings, self.distances, time_limit=left)
+        if track is None:
+            self.hold_home(robot)
+            return False
+        self.tracks[robot] = track
+        self.bookings.add(robot, track)
+        return True
+
+    def evict(self, robots: Iterable[int]) -> list[int]:
+        """Remove the tracks of some robots; return those that had one."""
+        evicted = sorted(robot for robot in robots if self.tracks.pop(robot, None) is not None)
+        for robot in evicted:
+            self.bookings.release(robot)
+            self.hold_home(robot)
+        return evicted
+
+    def blockers(self, robot: int) -> set[int]:
+        """Return the robots in the way of this one on its shortest route without waits."""
+        itinerary = self.itineraries[robot]
+        route = shortest_route(itinerary, self.distances)
+        enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
+        track = Track.of(route.vertices, list(enter))
+        return self.bookings.in_the_way(robot, track)
+
+
+def reroute(
+    task: Task, distances: Distances, tracks: dict[int, Track], deferred: list[int]
+) -> list[int] | None:
+    """Add a track among the others to ``tracks`` for each robot without one.
+
+    A robot that finds no way evicts the robots in its way, and these follow it in any order. The
+    more often a robot fails, the more others are evicted.
+
+    Returns
+    -------
+    list of int or None
+        All robots whose route was changed, in the order of the fleet; None if that failed in a
+        bounded number of tries.
+
+    Raises
+    ------
+    GaveUp
+        When time ran out.
+    """
+    table = _Reservations(task, distances, tracks)
+    waiting, changed = deque(deferred), set(deferred)
+    failures: Counter[int] = Counter()
+    draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
+    for robot in deferred:
+        table.hold_home(robot)
+    for _ in range(TRIES_PER_ROBOT * len(table.itineraries)):
+        if not waiting:
+            return sorted(changed)
+        task.deadline.check("sending robots another way")
+        robot = waiting.popleft()
+        if table.place(robot):
+            continue
+        more = draw.sample(sorted(tracks), min(failures[robot], len(tracks)))
+        failures[robot] += 1
+        evicted = table.evict(table.blockers(robot).union(more))
+        draw.shuffle(evicted)
+        changed |= set(evicted)
+        waiting.extend(evicted if table.place(robot) else [robot, *evicted])
+    return None

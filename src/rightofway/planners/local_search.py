@@ -71,14 +71,7 @@ def local_search(task: Task) -> Draft:
 class LocalSearch:
     """A graph without conflicts, and flips that keep it so.
 
-    Parameters
-    ----------
-    task
-        The problem.
-    graph
-        Without conflicts.
-    may_wait
-        Whether a visit may be delayed for another one; a visit that has begun may not.
+    ``may_wait`` tells whether a visit may be delayed: a visit that has begun may not.
     """
 
     def __init__(
@@ -161,9 +154,8 @@ class LocalSearch:
             return False  # a flip before has taken it back already
         for a, b in segment.meetings():
             graph.take_back(graph.visit(i, a), graph.visit(j, b))
-        return self.give_all(
-            [(graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()]
-        )
+        rights = [(graph.visit(j, b), graph.visit(i, a)) for a, b in segment.if_i_waits()]
+        return self.give_all(rights)
 
     def give_all(self, rights: Sequence[tuple[int, int]]) -> bool:
         """Give several rights of way; false, with nothing changed, if that is impossible."""

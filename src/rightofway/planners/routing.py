@@ -7,9 +7,9 @@ from functools import partial
 from itertools import pairwise
 
 from rightofway.errors import NoPlanExists
-from rightofway.model import Itinerary, Roadmap, Route, Scenario, VertexId, route_along
+from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
 from rightofway.planners.task import Task
-from rightofway.search import Congestion, CongestionCosts, Distances, Path
+from rightofway.search import Congestion, Distances
 
 __all__ = [
     "chosen_routes",
@@ -55,9 +55,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
         leg = distances.path(place, stage, ticks)
         if stage == itinerary.home:
             back = distances.path(stage, place, ticks)[::-1]
-            if _is_path(distances.roadmap, back) and (
-                distances.cost(back, ticks) == distances.cost(leg, ticks)
-            ):
+            if distances.cost(back, ticks) == distances.cost(leg, ticks):
                 leg = back
         legs.append(leg)
     return route_along(distances.roadmap, itinerary, legs)
@@ -70,11 +68,8 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     routed before it that come the other way. Raises `NoPlanExists` as `refuse_the_impossible`.
     """
     refuse_the_impossible(scenario, distances)
-    itineraries = scenario.problem.itineraries
-    traffic = Congestion(
-        scenario.problem, distances, CongestionCosts.single_trip(distances, itineraries)
-    )
-    return [_clear(scenario, traffic, robot) for robot in range(len(itineraries))]
+    traffic = Congestion.of_trips(scenario.problem, distances)
+    return [_clear(scenario, traffic, robot) for robot in range(len(scenario.robots))]
 
 
 def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Route]) -> list[Route]:
@@ -83,12 +78,11 @@ def direct_routes(scenario: Scenario, distances: Distances, routes: Sequence[Rou
     A route that keeps clear of all others is longer in every lap. Each robot whose route is not a
     shortest one gets another one, which keeps clear of others by how often they are there.
     """
-    itineraries, found = scenario.problem.itineraries, list(routes)
-    traffic = Congestion(
-        scenario.problem, distances, CongestionCosts.per_lap(distances, itineraries)
-    )
-    detours = []
-    for robot, (itinerary, route) in enumerate(zip(itineraries, routes, strict=True)):
+    found, detours = list(routes), []
+    traffic = Congestion.of_laps(scenario.problem, distances)
+    for robot, (itinerary, route) in enumerate(
+        zip(scenario.problem.itineraries, routes, strict=True)
+    ):
         trips = _trips(itinerary)
         least = sum(int(distances.to(end, itinerary.edge_ticks)[start]) for start, end in trips)
         if sum(route.drive) > least:
@@ -113,11 +107,6 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
     """Yield the place before each stage and the place of the stage."""
     return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
-
-
-def _is_path(roadmap: Roadmap, vertices: Path) -> bool:
-    """Return whether an edge leads from each vertex to the next; some edges are one-way."""
-    return all(roadmap.edge(tail, head) is not None for tail, head in pairwise(vertices))
 
 
 def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,20 +115,11 @@ class Draft:
     keeps_swaps: bool = False
 
 
-class Planner(Protocol):
-    """Anything that turns a task into a draft."""
+Planner = Callable[[Task], Draft]
+"""Turns a task into a draft.
 
-    def __call__(self, task: Task, /) -> Draft:
-        """Plan.
-
-        Raises
-        ------
-        NoPlanExists
-            If it is proven that there is no plan.
-        GaveUp
-            If none was found.
-        """
-        ...
+Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if none was found.
+"""
 
 
 def planning_headway(scenario: Scenario) -> Tick:

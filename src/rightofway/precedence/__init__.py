@@ -13,7 +13,7 @@ from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
 from rightofway.precedence.segments import Segment, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
-    cycle_time_without,
+    critical_circuit_without,
     sensitivity,
     tight_arcs,
 )
@@ -40,8 +40,8 @@ __all__ = [
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
+    "critical_circuit_without",
     "crossing",
-    "cycle_time_without",
     "graph_of",
     "order_of",
     "sensitivity",

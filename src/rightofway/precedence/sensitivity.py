@@ -19,7 +19,7 @@ from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, circuit_of
 
-__all__ = ["Sensitivity", "cycle_time_without", "sensitivity", "tight_arcs"]
+__all__ = ["Sensitivity", "critical_circuit_without", "sensitivity", "tight_arcs"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,26 +106,20 @@ def tight_arcs(graph: TimedEventGraph, *, time_limit: float | None = None) -> ND
     return np.asarray(times[arcs.head] + arcs.height.astype(np.int64) * period == due)
 
 
-def cycle_time_without(
+def critical_circuit_without(
     graph: TimedEventGraph,
     share: NDArray[np.int64],
     part: Fraction,
     *,
     time_limit: float | None = None,
-) -> Fraction:
-    """Return the cycle time if a part (0 to 1) of that share is saved [ticks].
+) -> Circuit:
+    """Return a critical circuit, with the cycle time, if a part (0 to 1) of that share is saved.
 
     Raises
     ------
     GaveUp
         If time ran out.
     """
-    return _without(graph, share, part, time_limit).cycle_time
-
-
-def _without(
-    graph: TimedEventGraph, share: NDArray[np.int64], part: Fraction, time_limit: float | None
-) -> Circuit:
     whole, saved = part.denominator, part.numerator
     arcs = graph.arcs.stretched(graph.arcs.length * whole - share * saved)
     found = _circuit(graph, arcs, time_limit)
@@ -151,7 +145,7 @@ def _reach(
     which one decides there, until it is the first line itself.
     """
     until = Fraction(1)
-    found = _without(graph, share, until, time_limit)
+    found = critical_circuit_without(graph, share, until, time_limit=time_limit)
     at_best = found.cycle_time
     while found.cycle_time > now - gain * until:
         arcs = graph.arcs.chosen(found.arcs)
@@ -159,5 +153,5 @@ def _reach(
         mean = Fraction(int(arcs.length.sum()), height)
         slope = Fraction(int(share[found.arcs].sum()), height)
         until = (now - mean) / (gain - slope)
-        found = _without(graph, share, until, time_limit)
+        found = critical_circuit_without(graph, share, until, time_limit=time_limit)
     return until, at_best

@@ -1,6 +1,6 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
-from rightofway.search.congestion import Congestion, CongestionCosts
+from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, alone_completions
 from rightofway.search.lacam import plan_by_lacam, untimed_lacam
@@ -12,7 +12,6 @@ __all__ = [
     "Booking",
     "Bookings",
     "Congestion",
-    "CongestionCosts",
     "Distances",
     "FleetSearch",
     "Path",

@@ -8,7 +8,6 @@ or a stop, and to drive against robots whose route is chosen already.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from statistics import mean
 from typing import Self
 
@@ -20,7 +19,7 @@ from rightofway.model import Itinerary, Problem, VertexId
 from rightofway.search.distances import Distances, Path
 from rightofway.search.native import bound
 
-__all__ = ["Congestion", "CongestionCosts"]
+__all__ = ["Congestion"]
 
 SHARES = 16
 """In how many shares a tick is counted, if all robots cost the same."""
@@ -44,47 +43,6 @@ OFTEN_ONCOMING = 34
 """A robot that comes the other way every tick costs so many times the edge."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CongestionCosts:
-    """What it costs to have to do with other robots.
-
-    Attributes
-    ----------
-    shares
-        In how many shares a tick is counted.
-    station
-        What it costs more to enter each vertex; int64, shape (V,) [shares per tick].
-    oncoming
-        For each robot what it costs more to go against it [shares per tick].
-    """
-
-    shares: int
-    station: NDArray[np.int64]
-    oncoming: tuple[int, ...]
-
-    @classmethod
-    def single_trip(cls, distances: Distances, itineraries: Sequence[Itinerary]) -> Self:
-        """Return those for one trip of each robot: who is in the way once is in the way."""
-        station = np.zeros(distances.roadmap.n_vertices, np.int64)
-        cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in itineraries))
-        for itinerary in itineraries:
-            station[[itinerary.home, *(stage.vertex for stage in itinerary.stages)]] = cost
-        oncoming = (int(ONCOMING * SHARES),) * len(itineraries)
-        return cls(shares=SHARES, station=station, oncoming=oncoming)
-
-    @classmethod
-    def per_lap(cls, distances: Distances, itineraries: Sequence[Itinerary]) -> Self:
-        """Return those for laps: by how often each robot comes, and which part of it it stays."""
-        station, oncoming = np.zeros(distances.roadmap.n_vertices, np.int64), []
-        for one in itineraries:
-            lap = max(_ticks_of_lap(distances, one), 1)
-            for stage in one.stages:
-                stays = stage.work + stage.turn + 1
-                station[stage.vertex] += OFTEN_AT_STATION * FINE_SHARES * stays // lap
-            oncoming.append(OFTEN_ONCOMING * FINE_SHARES // lap)
-        return cls(shares=FINE_SHARES, station=station, oncoming=tuple(oncoming))
-
-
 class Congestion:
     """The routes chosen so far, and what they make others cost.
 
@@ -94,15 +52,49 @@ class Congestion:
         The roads, and how fast robots drive.
     distances
         Tables of the roadmap; they guide the search.
-    surcharges
-        What it costs to have to do with others.
+    shares
+        In how many shares a tick is counted.
+    station
+        What it costs more to enter each vertex; int64, shape (V,) [shares per tick].
+    oncoming
+        For each robot what it costs more to go against it [shares per tick].
     """
 
-    def __init__(self, problem: Problem, distances: Distances, surcharges: CongestionCosts) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        distances: Distances,
+        *,
+        shares: int,
+        station: NDArray[np.int64],
+        oncoming: Sequence[int],
+    ) -> None:
         self.problem = problem
         self.distances = distances
-        self._oncoming = surcharges.oncoming
-        self._kernel = _core.Congestion(bound(problem), surcharges.shares, surcharges.station)
+        self._oncoming = oncoming
+        self._kernel = _core.Congestion(bound(problem), shares, station)
+
+    @classmethod
+    def of_trips(cls, problem: Problem, distances: Distances) -> Self:
+        """Begin for one trip of each robot: who is in the way once is in the way."""
+        robots, station = problem.itineraries, np.zeros(problem.roadmap.n_vertices, np.int64)
+        cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in robots))
+        for one in robots:
+            station[[one.home, *(stage.vertex for stage in one.stages)]] = cost
+        oncoming = [int(ONCOMING * SHARES)] * len(robots)
+        return cls(problem, distances, shares=SHARES, station=station, oncoming=oncoming)
+
+    @classmethod
+    def of_laps(cls, problem: Problem, distances: Distances) -> Self:
+        """Begin for laps: by how often each robot comes, and which part of its lap it stays."""
+        station, oncoming = np.zeros(problem.roadmap.n_vertices, np.int64), []
+        for one in problem.itineraries:
+            lap = max(_ticks_of_lap(distances, one), 1)
+            for stage in one.stages:
+                stays = stage.work + stage.turn + 1
+                station[stage.vertex] += OFTEN_AT_STATION * FINE_SHARES * stays // lap
+            oncoming.append(OFTEN_ONCOMING * FINE_SHARES // lap)
+        return cls(problem, distances, shares=FINE_SHARES, station=station, oncoming=oncoming)
 
     def path(self, robot: int, start: VertexId, target: VertexId) -> Path:
         """Return a cheapest path; the target can be reached.

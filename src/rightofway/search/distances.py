@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,11 +80,12 @@ class Distances:
             self._edges[edge_ticks] = by_class[self.roadmap.length_class]
         return self._edges[edge_ticks]
 
-    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int:
-        """Return what it takes to drive a path [ticks]."""
-        driven = (self.roadmap.edge(tail, head) for tail, head in pairwise(path))
-        edges = [edge for edge in driven if edge is not None]
-        return int(self.ticks_of_edges(edge_ticks)[edges].sum())
+    def cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
+        """Return what it takes to drive a path [ticks]; None where an edge is missing."""
+        vertices = np.array(path, np.int32)
+        edges = self.roadmap.edges(vertices[:-1], vertices[1:])
+        ticks = self.ticks_of_edges(edge_ticks)[edges]
+        return None if edges.min(initial=0) < 0 else int(ticks.sum())
 
     def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
         """Return a shortest path; the target can be reached.

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import accumulate, chain, pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Problem, Track
+from rightofway.model import Problem, Tick, Track
 
 __all__ = ["bound", "compiler", "tracks_of"]
 
@@ -17,15 +17,32 @@ _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 
 
 def bound(problem: Problem) -> _core.Problem:
-    """Return the native twin of a problem, which is made once and kept with it."""
+    """Return the native twin of a problem, which is made once and kept with it.
+
+    Robots of one pace need the same ticks for every edge.
+
+    Raises
+    ------
+    OverflowError
+        If the ticks for an edge do not fit int32.
+    """
     native = _BOUND.get(problem)
     if native is None:
-        roadmap = problem.roadmap
+        roadmap, robots = problem.roadmap, problem.itineraries
+        number: dict[tuple[Tick, ...], int] = {}
+        pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
+        stages = [stage for robot in robots for stage in robot.stages]
         native = _BOUND[problem] = _core.Problem(
-            roadmap.indptr,
-            roadmap.heads,
-            roadmap.length_class,
-            *problem.arrays,
+            indptr=roadmap.indptr,
+            heads=roadmap.heads,
+            length_class=roadmap.length_class,
+            paces=np.array(list(chain.from_iterable(number)), np.int32),
+            pace_of=np.array(pace_of, np.int32),
+            home=np.array([robot.home for robot in robots], np.int32),
+            first_stage=np.array([0, *accumulate(len(robot.stages) for robot in robots)], np.int32),
+            stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
+            stage_work=np.array([stage.work for stage in stages], np.int64),
+            stage_turn=np.array([stage.turn for stage in stages], np.int64),
             n_classes=len(roadmap.lengths),
             headway=problem.headway,
             books_ahead=problem.books_ahead,
