@@ -15,7 +15,7 @@ Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     const CyclicVisit i{conflict.robot_a, conflict.visit_a};
     CyclicVisit j{conflict.robot_b, conflict.visit_b};
     if (conflict.kind == ConflictKind::swap) {
-        j = j.before();  // the visit that j ends as i enters
+        j = j.before();  // the visit of j's robot that ends as i enters
     }
     conflict_visit_ = i;
     waiting_cycle_.clear();
@@ -23,7 +23,7 @@ Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
                              segment.j_last.number == timetable_.end(j.robot) - 1;
     if (segment.kind == Segment::Kind::head_on && reaches_end) {
-        // Two endless routes that run together for as many visits as both laps have do so for ever.
+        // Periodic routes that agree for the length of both laps together agree endlessly.
         // N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
         const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
         if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
@@ -64,8 +64,8 @@ Backjumping::Outcome Backjumping::backjump() {
     return Outcome::backjumping;
 }
 
-// The longest run of vertices around two visits that one robot visits in reverse order of the
-// other, or else in the same order.
+// The longest run of vertices around two visits that the robots visit in reverse order, or else in
+// the same order.
 Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const {
     const auto run_length = [&](std::int32_t i_step, std::int32_t j_step) {
         for (std::int32_t length = 0;; ++length) {
@@ -91,7 +91,7 @@ Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const
     return {kind, at(i, -before), at(i, after), at(j, -before), at(j, after)};
 }
 
-// On a tie the robot that enters the segment first goes first, and on a second tie i.
+// On a tie, the robot that enters the segment first goes first; on a second tie, i.
 bool Backjumping::i_waits(const Segment& segment) const {
     if (rule_ == CyclicRule::fixed_order) {
         return false;
@@ -106,7 +106,7 @@ bool Backjumping::i_waits(const Segment& segment) const {
     return enter_in_window(segment.j_first) < enter_in_window(segment.i_first);
 }
 
-// The longest delay of the waiting robot at a vertex of the segment, times its cost of waiting.
+// The largest delay of the waiting robot at a vertex of the segment, times its cost per tick.
 std::int64_t Backjumping::loss_if(const Segment& segment, bool i_waits) const {
     const auto rights = rights_if(segment, i_waits);
     Tick delay = 0;
@@ -117,12 +117,12 @@ std::int64_t Backjumping::loss_if(const Segment& segment, bool i_waits) const {
     return delay * loss_[static_cast<std::size_t>(rights.front().second.robot)];
 }
 
-// A visit entered before the window counts as entered at its beginning.
+// The enter of a visit, at least the beginning of the window.
 Tick Backjumping::enter_in_window(CyclicVisit visit) const {
     return std::max(timetable_.enter(visit), timetable_.begins());
 }
 
-// Head-on, one right of way between the last visit of one and the first of the other is enough.
+// Head-on, one right of way is enough: from the last visit of one to the first of the other.
 std::vector<CyclicRight> Backjumping::rights_if(const Segment& segment, bool i_waits) {
     if (segment.kind != Segment::Kind::following) {
         return {i_waits ? CyclicRight{segment.j_last, segment.i_first}
@@ -136,7 +136,7 @@ std::vector<CyclicRight> Backjumping::rights_if(const Segment& segment, bool i_w
     return rights;
 }
 
-// Gives all rights of way of an order; false, with nothing changed, if one is refused.
+// Gives all rights of way of an order; returns false and changes nothing if one is refused.
 bool Backjumping::decide(SegmentOrder&& order, bool is_turned) {
     const DecisionId id = next_id_;
     const RollingTimetable::Mark mark = timetable_.mark();
@@ -161,7 +161,7 @@ void Backjumping::add_culprits(std::span<const DecisionId> ids, DecisionId below
     culprits_.erase(std::unique(culprits_.begin(), culprits_.end()), culprits_.end());
 }
 
-// Adds the decisions that made the last refused right of way impossible.
+// Adds the decisions on the cycle of the last refused right of way.
 void Backjumping::add_culprits_of_refusal(DecisionId below) {
     const auto cycle = timetable_.cycle();
     if (!cycle.empty()) {

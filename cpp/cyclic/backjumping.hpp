@@ -1,14 +1,14 @@
-// Resolves conflicts of cyclic routes by a rule that considers the two robots only, with
-// conflict-directed backjumping where that closes a cycle.
+// Resolves conflicts of cyclic routes by a lap rule for two robots, with conflict-directed
+// backjumping where the rule causes a deadlock.
 //
 // P. Prosser, Hybrid algorithms for the constraint satisfaction problem, Computational
 // Intelligence 9, 1993.
 //
-// Each conflict is one decision, for a whole segment: the longest run of vertices that one robot
-// visits in reverse order of the other, or in the same order. Where neither robot can wait, the
-// decisions whose rights of way close the cycles are the *culprits*. The latest culprit that has
-// not been turned is turned, which gives the rights of way to the other robot, and all later
-// decisions are undone. If the turned decision fails as well, its culprits are added to the others.
+// One decision resolves one conflict, for a whole segment: the longest run of vertices that two
+// robots visit in reverse or in the same order. If neither robot can wait, the decisions with
+// rights of way on the closed cycles are the *culprits*. All decisions from the latest unturned
+// culprit on are undone, and this culprit is turned: the other robot gets the rights of way. If the
+// turned decision fails, too, its culprits are added to the set.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace rightofway {
 enum class CyclicRule : std::int32_t { first_come = 0, fixed_order = 1, least_loss = 2 };
 constexpr std::int32_t n_cyclic_rules = 3;
 
-// The rights of way on a segment, and those that the other robot could have instead.
+// The rights of way on a segment, and the alternative in favour of the other robot.
 struct SegmentOrder {
     std::vector<CyclicRight> rights;
     std::vector<CyclicRight> others;
@@ -36,18 +36,18 @@ class Backjumping {
   public:
     enum class Outcome { resolved, backjumping, window_too_short, deadlock };
 
-    // All are borrowed and must outlive this. `loss` is the cost of a tick of waiting for each
-    // robot.
+    // All arguments are borrowed and must outlive this object. `loss`: cost per tick of waiting,
+    // one entry per robot.
     Backjumping(const CyclicRoutes& routes, RollingTimetable& timetable, ConflictSweep& conflicts,
                 CyclicRule rule, std::span<const std::int64_t> loss);
 
     void set_rule(CyclicRule rule) { rule_ = rule; }
 
-    // Decides which robot goes first on the segment of a conflict. Backjumping: earlier decisions
-    // have to change. Window too short: it does not show whether the segment ends. Deadlock:
-    // waiting_cycle() has the robots that would each wait for the next.
+    // Decides which robot goes first on the segment of a conflict. Outcomes: backjumping (earlier
+    // decisions have to change), window_too_short (the end of the segment is outside the window),
+    // deadlock (waiting_cycle() lists robots, each waiting for the next).
     Outcome resolve(const Conflict& conflict);
-    // Undoes all from the latest culprit on, and turns that one if it can be turned.
+    // Undoes all decisions from the latest culprit on; turns this culprit if possible.
     Outcome backjump();
     bool is_backjumping() const { return is_backjumping_; }
     std::span<const RobotId> waiting_cycle() const { return waiting_cycle_; }
@@ -55,7 +55,7 @@ class Backjumping {
     CyclicVisit conflict_visit() const { return conflict_visit_; }
 
     std::vector<SegmentOrder> orders() const;
-    // Calls use(rights) for the rights of way of each decision, and for those of the other robot.
+    // Calls use(rights) with the rights of way of each decision, then with the alternative.
     template <class Use>
     void for_each_order(Use&& use) const {
         for (const Decision& decision : decisions_) {
@@ -64,11 +64,11 @@ class Backjumping {
         }
     }
 
-    // Drops rights of way that end before the cut; the decisions left can be turned once more.
+    // Drops rights of way that end before the cut; allows a new turn of the other decisions.
     void drop_past();
-    // Lets all decisions be turned once more.
+    // Allows a new turn of all decisions.
     void allow_all_turns();
-    // Replaces all decisions; give_rights() applies them, in a window that shows their visits.
+    // Replaces all decisions; give_rights() applies them once the window has their visits.
     void restore(const std::vector<SegmentOrder>& orders);
     void give_rights();
 
@@ -76,7 +76,7 @@ class Backjumping {
     struct Decision {
         DecisionId id;
         RollingTimetable::Mark mark;
-        bool is_older;  // than the window: its rights of way are removed one by one
+        bool is_older;  // than the window: rights of way are removed singly
         bool is_turned;
         std::vector<DecisionId> culprits;  // rising
         SegmentOrder order;
@@ -108,7 +108,7 @@ class Backjumping {
     std::vector<Decision> decisions_;
     DecisionId next_id_ = 0;
     std::vector<RobotId> waiting_cycle_;
-    std::vector<DecisionId> culprits_;  // of the conflict that is being resolved; rising
+    std::vector<DecisionId> culprits_;  // of the current conflict; rising
     bool is_backjumping_ = false;
     CyclicVisit conflict_visit_{};
 };

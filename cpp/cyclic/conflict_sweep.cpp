@@ -34,7 +34,7 @@ void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
     }
 }
 
-// A changed enter changes the leave of the visit before it, too.
+// A changed enter also changes the leave of the previous visit.
 void ConflictSweep::times_changed(std::span<const RollingTimetable::Changed> changed) {
     for (const auto& [robot, from] : changed) {
         if (from <= sweeps_[robot].number) {
@@ -67,8 +67,8 @@ void ConflictSweep::find_next(RobotId robot) {
     }
 }
 
-// Replaces the top of the heap by the robot's next visit, which mostly belongs near the top: one
-// way down the heap.
+// Replaces the top of the heap by the robot's next visit in one sift-down: the visit usually stays
+// near the top.
 void ConflictSweep::replace_first_upcoming(RobotId robot) {
     const Upcoming own{sweeps_[robot].start, {robot, sweeps_[robot].number}};
     const std::size_t size = upcoming_.size();
@@ -128,7 +128,7 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
     }
 }
 
-// Sweeps the visit on top of the heap.
+// Sweeps the visit at the top of the heap.
 void ConflictSweep::sweep(RobotId robot) {
     Sweep& sweep = sweeps_[robot];
     const Tick leave = timetable_.enter({robot, sweep.number + 1});
@@ -160,8 +160,8 @@ void ConflictSweep::sweep(RobotId robot) {
     prefetch_next(robot);
 }
 
-// Visits are scattered in memory. Other robots are swept before this robot's next visit, so its
-// list and its enter are fetched meanwhile, and the head of the list after it.
+// Visits are scattered in memory. Other robots are swept before the robot's next visit; meanwhile,
+// the list and the leave of the next visit are loaded, and the head of the following list.
 void ConflictSweep::prefetch_next(RobotId robot) const {
     const std::int32_t place = sweeps_[robot].place;
     const std::int32_t next = place + 1 == routes_.length(robot) ? 0 : place + 1;
@@ -173,14 +173,14 @@ void ConflictSweep::prefetch_next(RobotId robot) const {
     timetable_.prefetch_enter({robot, sweeps_[robot].number + 1});
 }
 
-// Before a list grows: its first bookings have mostly ended before the window.
+// Removes bookings that ended before the window, mostly the first ones, before a list grows.
 void ConflictSweep::drop_past(std::vector<Booked>& booked) const {
     const Tick begins = timetable_.begins();
     const auto is_now = [begins](const Booked& one) { return one.booking.end > begins; };
     booked.erase(booked.begin(), std::find_if(booked.begin(), booked.end(), is_now));
 }
 
-// A swap is found at the vertex that the other robot leaves as this one enters.
+// Finds a swap at the vertex that the other robot leaves as the own robot enters.
 void ConflictSweep::compare(const Booked& own, const Booked& other) {
     if (own.visit.robot == other.visit.robot) {
         return;

@@ -1,11 +1,11 @@
-// The next conflict of cyclic routes, by a sweep in order of time.
+// Finds the next conflict of cyclic routes by a sweep in order of time.
 //
-// Visits are swept in the order in which their bookings start, into a list for each vertex, up to
-// the tick that is asked for. A swept visit finds its conflicts with those in the list; they wait
-// in a heap until all bookings that start earlier are swept. Where times change, the visits of that
-// robot from there on are removed and swept again, so a conflict is known as soon as both its
-// visits are. A conflict that does not hold any more is dropped when it reaches the top of the
-// heap. (ConflictIndex, for routes of fixed length, counts conflicts instead: it has no order.)
+// Visits are swept by the start of their bookings, up to a tick, into one list per vertex. A swept
+// visit is compared with the visits in the list; their conflicts stay in a heap until all earlier
+// bookings are swept. If times change, the robot's visits are removed from the first changed visit
+// on and swept again: a conflict is found as soon as both its visits are swept. An outdated
+// conflict is dropped at the top of the heap. (ConflictIndex, for finite routes, weighs conflicts
+// without an order.)
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ namespace rightofway {
 
 class ConflictSweep {
   public:
-    // Both are borrowed and must outlive this.
+    // Both arguments are borrowed and must outlive this object.
     ConflictSweep(const CyclicRoutes& routes, const RollingTimetable& timetable);
 
-    // The earliest conflict in the window before a tick, in the order of `Conflict`; visits by
-    // number.
+    // The earliest conflict in the window before tick `limit`, in the order of `Conflict`; visits
+    // by number.
     std::optional<Conflict> next(Tick limit);
 
-    // The caller reports visits whose times have changed,
+    // The caller reports visits with changed times, ...
     void times_changed(std::span<const RollingTimetable::Changed> changed);
-    // a new end of a robot's window,
+    // ... a new end of a robot's window, ...
     void end_changed(RobotId robot, std::int32_t old_end);
-    // and a timetable that was restarted.
+    // ... and a restarted timetable.
     void restart();
 
   private:
@@ -43,17 +43,17 @@ class ConflictSweep {
     };
     struct Place {
         std::vector<Booked> booked;  // in order of start
-        Tick longest = 0;            // of all bookings that were ever in the list
+        Tick longest = 0;            // of all bookings that have been in the list
     };
     struct Upcoming {
         Tick start;
         CyclicVisit visit;
         auto operator<=>(const Upcoming&) const = default;
     };
-    struct Sweep {  // the first visit of a robot that is not swept
+    struct Sweep {  // the first unswept visit of a robot
         std::int32_t number = 0;
         std::int32_t place = 0;
-        Tick start = never;  // of its booking; `never` if it is not in the window
+        Tick start = never;  // of its booking; `never` outside the window
     };
 
     Booking booking(CyclicVisit visit) const;

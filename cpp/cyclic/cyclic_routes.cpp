@@ -9,7 +9,7 @@
 namespace rightofway {
 namespace {
 
-// A lap takes no longer than this, so that no sum of laps overflows.
+// Upper limit of a lap in ticks, so that no sum of laps overflows.
 constexpr Tick longest_lap = Tick{1} << 40;
 
 void check_lengths(const LapArrays& arrays) {

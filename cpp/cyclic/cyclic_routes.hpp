@@ -1,7 +1,7 @@
-// Cyclic routes: each robot repeats its lap for ever.
+// Cyclic routes: each robot repeats its lap endlessly.
 //
-// Visits of each robot are numbered from 0 on. Visit 0, at home before the first lap, is shorter
-// than later visits there: no robot turns in it.
+// Visits of each robot are numbered from 0. Visit 0, at home before the first lap, is shorter than
+// later visits to the home: it has no turn.
 #pragma once
 
 #include <compare>
@@ -27,14 +27,14 @@ struct CyclicRight {
     CyclicVisit second;  // ... before this one enters it
 };
 
-// n places of r laps. Borrowed, read once.
+// Input of CyclicRoutes: n places of r laps. Borrowed, read once.
 struct LapArrays {
     std::span<const std::int32_t> first_place;  // r + 1: lap k is first_place[k] .. [k + 1] - 1
     std::span<const VertexId> vertex;           // n
-    std::span<const Tick> least;        // n: from an enter to the next at least, round the lap
-    std::span<const Tick> approach;     // n: a visit books its vertex so long before its enter
+    std::span<const Tick> least;                // n: least ticks from enter to next enter, cyclic
+    std::span<const Tick> approach;     // n: ticks from the start of the booking to the enter
     std::span<const Tick> first_least;  // r: of visit 0
-    Tick headway = 0;                   // a visit books its vertex so long after its leave
+    Tick headway = 0;                   // ticks from the leave to the end of the booking
 };
 
 class CyclicRoutes {
@@ -56,9 +56,9 @@ class CyclicRoutes {
         return visit.number == 0 ? first_least_[visit.robot] : least_[place(visit)];
     }
 
-    // The enter of a visit if the robot never waits.
+    // The enter of a visit of a robot that never waits.
     Tick unimpeded_enter(CyclicVisit visit) const;
-    // How many visits, from one after visit 0 on, it takes to last so many ticks.
+    // The least number of visits, from `visit` (not visit 0) on, that last `ticks` ticks.
     std::int32_t n_visits_in(CyclicVisit visit, Tick ticks) const;
 
     // For loops along one route, by place in the lap.
@@ -88,11 +88,11 @@ class CyclicRoutes {
     std::vector<Tick> first_least_;
     Tick headway_;
     VertexId n_vertices_ = 0;
-    std::vector<Tick> within_;  // length + 1 of each lap: ticks from its beginning to each place
+    std::vector<Tick> within_;  // length + 1 per lap: ticks from its start to each place
 };
 
-// The enters of all past visits, stored by the few visits that had to wait: a visit's enter is that
-// of a robot that never waits, plus all ticks that its robot has waited.
+// The enters of all past visits, stored as the waits only: an enter is the unimpeded enter plus all
+// ticks that the robot has waited.
 class VisitTimes {
   public:
     explicit VisitTimes(const CyclicRoutes& routes);
@@ -103,14 +103,14 @@ class VisitTimes {
     void add(RobotId robot, Tick enter);  // of the next visit
     void truncate(RobotId robot, std::int32_t n_started);
 
-    // The visits that had to wait, and the ticks that the robot had waited by then in all.
+    // The visits with a wait, and the total ticks of waiting of the robot up to each of them.
     std::span<const std::int32_t> late(RobotId robot) const { return lines_[robot].late; }
     std::span<const Tick> waited(RobotId robot) const { return lines_[robot].waited; }
 
   private:
     struct Line {
         std::int32_t n_started = 0;
-        Tick free = 0;  // the next visit's enter without any wait
+        Tick free = 0;  // unimpeded enter of the next visit
         std::vector<std::int32_t> late;
         std::vector<Tick> waited;
     };

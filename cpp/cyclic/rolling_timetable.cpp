@@ -41,7 +41,7 @@ void RollingTimetable::set_end(RobotId robot, std::int32_t end) {
     run_freely(robot, old_end);
 }
 
-// Lets a robot run freely from a visit to the end of its window.
+// Resets a robot's times to those without waits, from a visit to the end of the window.
 void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
     Line& line = lines_[robot];
     const auto least = routes_.leasts(robot);
@@ -49,7 +49,7 @@ void RollingTimetable::run_freely(RobotId robot, std::int32_t from) {
     for (std::int32_t k = from; k < line.end; ++k) {
         Node* const own = &line.nodes[k - line.base];
         Tick lasts = k == 0 ? routes_.least({robot, 0}) : least[place];
-        if (k + 1 == line.frozen) {  // it has not left by the cut
+        if (k + 1 == line.frozen) {  // leaves after the cut
             lasts = std::max(lasts, cut_ + 1 - own->enter);
         }
         (own + 1)->enter = own->enter + lasts;
@@ -145,7 +145,7 @@ bool RollingTimetable::precede(CyclicVisit a, CyclicVisit b, DecisionId decision
     return true;
 }
 
-// Applies the raises up to the source; later visits are raised now. None leads back.
+// Applies the raises up to the source, then propagates to later visits, which never lead back.
 void RollingTimetable::accept() {
     for (const CyclicVisit x : raised_) {
         const Tick delta = trial(x).raise;
@@ -179,7 +179,7 @@ void RollingTimetable::run_on() {
     }
 }
 
-// Raises a visit and those after it, for as long as they have to move by as much.
+// Raises a visit and its successors on the route while each needs the same delta.
 void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
     const RobotId robot = visit.robot;
     Line& line = lines_[robot];
@@ -188,7 +188,7 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
     std::int32_t place = routes_.place_in_lap(visit);
     Node* own = &line.nodes[visit.number - line.base];
     std::int32_t k = visit.number;
-    CyclicVisit last{nobody, 0};  // pushed from here, and when its robot leaves it
+    CyclicVisit last{nobody, 0};  // the last pushed, and when its robot leaves
     Tick last_leave = 0;
     for (;; ++k, ++own) {
         own->enter += delta;
@@ -197,7 +197,7 @@ void RollingTimetable::run_from(CyclicVisit visit, Tick delta) {
             const Tick least_enter = own->enter + routes_.gap_before(second);
             const Tick raise = least_enter - enter(second);
             const bool follows = last.next() == second && last_leave >= least_enter;
-            if (raise > 0 && !follows) {  // else the push before it leads there
+            if (raise > 0 && !follows) {  // else the previous push covers it
                 push(raise, second);
             }
             if (raise > 0) {

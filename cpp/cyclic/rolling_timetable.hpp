@@ -1,12 +1,12 @@
-// The earliest times of cyclic routes that keep the rights of way, for a window of visits.
+// The earliest times that keep cyclic routes and rights of way, in a rolling window of visits.
 //
-// The window holds visits `start` .. `end` - 1 of each robot, and the enter of `end`. Visits below
-// `frozen` have started by the cut; nothing delays them any more. The window moves with the cut;
-// the times that stay in it are kept.
+// The window holds visits `start` .. `end` - 1 of each robot, and the enter of visit `end`. Visits
+// below `frozen` have started by the cut and keep their times. The window moves with the cut; times
+// inside the window are kept.
 //
 // A right of way raises visits as in `Timetable` (raise_search.hpp), up to the enter of its source.
-// Later visits cannot lead back to the source: they are raised for good at once, in runs along a
-// route with one delta for all its visits.
+// Later visits cannot lead back to the source: they are raised without a trial, in runs of
+// consecutive visits with the same delta.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace rightofway {
 
-// Asks for memory that is soon needed. Nothing but the time it takes depends on it.
+// Loads memory into the cache; affects running time only.
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
     __builtin_prefetch(address);
@@ -39,10 +39,10 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     };
     struct Changed {
         RobotId robot;
-        std::int32_t from;  // visits from this one on may have other times
+        std::int32_t from;  // visits from this number on may have new times
     };
 
-    // Every robot starts visit 0 at tick 0, which is frozen. The routes must outlive this.
+    // Every robot enters visit 0, frozen, at tick 0. The routes must outlive this object.
     explicit RollingTimetable(const CyclicRoutes& routes);
 
     std::int32_t start(RobotId robot) const { return lines_[robot].start; }
@@ -53,41 +53,41 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     }
     Tick begins() const { return begins_; }
     Tick enter(CyclicVisit visit) const { return node(visit).enter; }
-    // Fetches the enter of a visit, or of the last one in the window, into the cache.
+    // Loads the enter of a visit, or of the last visit in the window, into the cache.
     void prefetch_enter(CyclicVisit visit) const {
         prefetch(&node({visit.robot, std::min(visit.number, end(visit.robot))}));
     }
     bool is_frozen(CyclicVisit visit) const { return visit.number < lines_[visit.robot].frozen; }
 
-    // Sets the end of a robot's window, beyond all visits that are frozen or have a right of way.
+    // Sets the end of a robot's window, after all visits that are frozen or have a right of way.
     void set_end(RobotId robot, std::int32_t end);
-    // Freezes a robot's visits that have started by a tick; all of them are in the window.
+    // Freezes a robot's visits that have started by a tick; the window contains all of them.
     void freeze(RobotId robot, Tick tick);
-    // Drops visits left by a tick, after all visits started by the cut have been frozen.
+    // Drops visits left by a tick. Precondition: visits started by the cut are frozen.
     void start_window(Tick tick, Tick cut);
     // Replaces a robot's window by visits from `start` on with these enters, all frozen, and
     // removes its rights of way.
     void restart(RobotId robot, std::int32_t start, std::span<const Tick> enters);
 
-    // Lets visit a go before visit b of another robot at the same vertex. False, with nothing
-    // changed, if b is frozen or the fleet would be deadlocked or swap; cycle() then explains.
+    // Gives visit a the right of way over visit b of another robot at the same vertex. Returns
+    // false and changes nothing if b is frozen or a deadlock or swap would follow (see cycle()).
     bool precede(CyclicVisit a, CyclicVisit b, DecisionId decision);
 
-    // The cycle that the last refused right of way would have closed, b first; empty if b is
-    // frozen. And the decisions of the rights of way on it.
+    // The cycle that the last refused right of way would close, b first (empty if b is frozen);
+    // and the decisions that gave the rights of way on this cycle.
     std::span<const CyclicVisit> cycle() const { return cycle_; }
     std::span<const DecisionId> cycle_decisions() const { return cycle_decisions_; }
 
-    // Undoes all changes since a mark, as long as the window has not changed.
+    // Undoes all changes since a mark. Precondition: the window has not changed since.
     Mark mark() const { return {runs_.size(), given_.size()}; }
     void rollback(const Mark& mark);
 
-    // For older changes: removes rights of way one by one, and then recomputes all times from the
-    // frozen visits and the rights of way that are left.
+    // For older changes: remove() removes one right of way; then recompute() computes all times
+    // from the frozen visits and the remaining rights of way.
     void remove(const CyclicRight& right, DecisionId decision);
     void recompute(std::span<const CyclicRight> rights);
 
-    // The visits whose times have changed since the caller last cleared this.
+    // Visits with changed times; the caller clears the list.
     std::vector<Changed>& changed() { return changed_; }
 
   private:
@@ -95,9 +95,9 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
 
     struct Node {
         Tick enter;
-        std::int32_t rights;  // the latest right of way of this visit over others
+        std::int32_t rights;  // the visit's latest right of way over others
     };
-    struct Trial {  // of a raise that may still be refused
+    struct Trial {  // a raise that may still be refused
         Tick raise;
         CyclicVisit cause;
     };
@@ -118,7 +118,7 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
         Tick delta;
         CyclicVisit visit;
         Tick enter;  // at least
-        // For a heap with the largest delta first.
+        // Max-heap by delta; ties by visit.
         bool operator<(const Push& other) const {
             return delta != other.delta ? delta < other.delta : visit > other.visit;
         }
@@ -126,7 +126,7 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     struct Run {
         RobotId robot;
         std::int32_t from;
-        std::int32_t to;  // not raised any more
+        std::int32_t to;  // exclusive
         Tick delta;
     };
 
@@ -166,11 +166,11 @@ class RollingTimetable : private RaiseSearch<RollingTimetable, CyclicVisit> {
     std::vector<Arc> arcs_;
     std::vector<std::int32_t> free_arcs_;
     std::vector<Run> runs_;
-    std::vector<CyclicVisit> given_;  // first visits of rights of way, in the order of giving
+    std::vector<CyclicVisit> given_;  // first visits of rights of way, in order of giving
     std::vector<Changed> changed_;
     std::vector<DecisionId> cycle_decisions_;
 
-    // What a change works on; reused, so that no step allocates.
+    // Buffers of a change, reused to avoid allocation.
     std::vector<Push> pushes_;               // a heap
     std::vector<std::vector<Tick>> before_;  // per robot
 };

@@ -1,7 +1,7 @@
-// The states seen so far, to find the tick at which an equal one was seen.
+// A table of the states seen so far, to find the tick of an earlier equal state.
 //
-// Memory is bounded: when it is full, every second state is dropped, then every second of the rest,
-// and so on. States recur in sequence, so a kept state recurs soon after a dropped one.
+// Memory is bounded: a full table drops every second state and keeps every 2nd, then 4th, 8th, ...
+// new state. States recur in sequence, so a kept state recurs soon after a dropped state.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ class SeenStates {
   public:
     using State = std::vector<std::int32_t>;
 
-    // Keeps at most `most` numbers, but always one state.
+    // Stores at most `most` numbers, but at least one state.
     explicit SeenStates(std::size_t most = std::size_t{1} << 24) : most_(most) {}
 
-    // The tick of an equal state seen before; otherwise this one is added.
+    // The tick of an earlier equal state; adds the state if there is none.
     std::optional<Tick> find_or_add(const State& state, Tick tick);
 
-    // Forgets the states seen later than a tick, or all.
+    // Forgets the states seen later than a tick, or all states.
     void forget_after(Tick tick);
     void clear() { forget_after(-1); }
 

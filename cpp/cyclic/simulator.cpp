@@ -65,7 +65,7 @@ CyclicSimulator::End CyclicSimulator::advance(const StopCondition& is_over) {
     }
 }
 
-// Moves the window to the cut; false if the state there has recurred.
+// Moves the window to the cut; false if the state at the cut has recurred.
 bool CyclicSimulator::start_window() {
     if (!is_retrying()) {
         lag_ = horizon_.lag;
@@ -99,7 +99,7 @@ bool CyclicSimulator::start_window() {
     return true;
 }
 
-// Extends the window by the lookahead, and to all visits that have been decided.
+// Extends the window to the lookahead, and to all visits of decisions.
 void CyclicSimulator::extend_window() {
     for (RobotId r = 0; r < n_robots(); ++r) {
         const std::int32_t n_started = timetable_.frozen(r);
@@ -194,7 +194,7 @@ void CyclicSimulator::freeze_to_next_cut() {
     }
 }
 
-// Undoes some cuts and uses a longer lag from there on; false if no longer one is allowed.
+// Undoes some cuts and doubles the lag; false if the lag is at its limit.
 bool CyclicSimulator::undo_cuts() {
     if (lag_ >= horizon_.most_lag) {
         return false;
@@ -233,7 +233,7 @@ void CyclicSimulator::restore(const Snapshot& snapshot) {
     is_restored_ = true;
 }
 
-// The present pacemaker seems to wait for ever: the robot that is home first replaces it.
+// Replaces a pacemaker that seems to wait for ever by the robot that is home first.
 void CyclicSimulator::replace_pacemaker() {
     RobotId first = nobody;
     Tick earliest = never;
@@ -257,7 +257,7 @@ Tick CyclicSimulator::next_cut() const {
     return timetable_.enter({horizon_.pacemaker, next_home(horizon_.pacemaker)});
 }
 
-// Writes all that decides the future, relative to the beginning of the window.
+// Writes the state that determines all later decisions, relative to the window's beginning.
 void CyclicSimulator::write_state() {
     state_.clear();
     const auto write_tick = [this](Tick ticks) {

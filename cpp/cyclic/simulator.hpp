@@ -1,11 +1,11 @@
-// Simulates a group of robots that repeat their laps under a rule, until a state recurs.
+// Simulates a group of robots that repeat their laps under a lap rule, until a state recurs.
 //
-// The rule works on a window of visits that begins at a *cut*: all visits that have started by the
-// cut are frozen. Conflicts are resolved up to a *lag* after the *pacemaker* is home again, so that
-// a robot which still has to wait before a segment has not entered it yet; then everything up to
-// that homecoming is frozen, and it is the next cut. Where the lag was too short, some cuts are
-// undone and tried again with a longer one. The state at each cut is looked up among the earlier
-// ones.
+// Rolling horizon: the rule works on a window of visits from a *cut* on; visits started by the cut
+// are frozen. The next cut is the tick at which the *pacemaker* returns home. Conflicts are
+// resolved up to a *lag* after the next cut, so that a robot that has to wait before a segment has
+// not entered the segment yet; then visits started by the next cut are frozen. After a deadlock,
+// some cuts are undone and repeated with a longer lag. The state at each cut is compared with the
+// states at earlier cuts.
 #pragma once
 
 #include <cstdint>
@@ -24,43 +24,43 @@
 namespace rightofway {
 
 struct Horizon {
-    RobotId pacemaker;    // at first, cuts are made where this robot is home
-    Tick lag;             // conflicts are resolved so long after the next cut
-    Tick most_lag;        // no longer lag is tried
-    Tick patience;        // a pacemaker that stays away longer is replaced
-    Tick reach;           // visits left so long before a cut still matter
-    std::int32_t memory;  // how many cuts can be undone
+    RobotId pacemaker;    // initial pacemaker: each of its returns home is a cut
+    Tick lag;             // conflicts are resolved up to this many ticks after the next cut
+    Tick most_lag;        // upper limit of the lag, in ticks
+    Tick patience;        // a pacemaker away from home for more ticks is replaced
+    Tick reach;           // ticks that the window begins before the cut
+    std::int32_t memory;  // number of cuts that can be undone
 };
 
 class CyclicSimulator {
   public:
     enum class End : std::int32_t { open = 0, repeats = 1, deadlock = 2 };
 
-    // `loss` is the cost of a tick of waiting for each robot, above 0; only least_loss needs it.
-    // Throws std::invalid_argument if that does not fit.
+    // `loss`: cost per tick of waiting, one entry > 0 per robot; required by least_loss only.
+    // Throws std::invalid_argument on an invalid argument.
     CyclicSimulator(const LapArrays& laps, const Horizon& horizon, CyclicRule rule,
                     std::vector<std::int64_t> loss = {});
-    CyclicSimulator(const CyclicSimulator&) = delete;  // its parts refer to each other
+    CyclicSimulator(const CyclicSimulator&) = delete;  // members refer to each other
     CyclicSimulator& operator=(const CyclicSimulator&) = delete;
 
-    // Simulates until a state recurs, the rule runs into a deadlock, or it is over. It can be
-    // called again after each of these.
+    // Simulates until a state recurs, a deadlock remains at the longest lag, or `is_over`. Callable
+    // again after each of these ends.
     End advance(const StopCondition& is_over);
 
-    // Forgets the states seen, so that it advances beyond one that has recurred.
+    // Forgets the states seen, so that advance() continues after a recurrence.
     void reset_states() { seen_.clear(); }
 
-    // Decides by another rule from now on, and resets the states: they led elsewhere.
+    // Changes the rule from the current cut on, and resets the states, which depend on the rule.
     void set_rule(CyclicRule rule);
 
     RobotId n_robots() const { return routes_.n_robots(); }
-    // Of a state that has recurred: when it was seen first, and the present cut.
+    // Of a recurred state: the tick of its first occurrence, and the current cut.
     Tick first_seen() const { return first_seen_; }
     Tick cut() const { return cut_; }
     const VisitTimes& visit_times() const { return past_; }
 
-    // Of a deadlock: the conflict that cannot be resolved, its vertex, and the robots that would
-    // each wait for the next.
+    // Of a deadlock: the conflict that cannot be resolved, its vertex, and the robots, each of
+    // which would wait for the next.
     const Conflict& deadlock() const { return conflict_; }
     VertexId deadlock_at() const { return routes_.vertex(decisions_.conflict_visit()); }
     std::span<const RobotId> waiting_cycle() const { return decisions_.waiting_cycle(); }
@@ -68,7 +68,7 @@ class CyclicSimulator {
   private:
     enum class Step { done, over, deadlock };
 
-    // All that is needed to return to a cut.
+    // The data to return to a cut.
     struct Snapshot {
         Tick cut;
         std::vector<std::int32_t> n_started;
@@ -101,16 +101,16 @@ class CyclicSimulator {
 
     Tick cut_ = 0;
     Tick lag_;
-    Tick retried_until_ = 0;  // no cut before this is looked up
+    Tick retried_until_ = 0;  // cuts before this tick are not compared with earlier states
     std::size_t n_to_undo_ = 1;
-    bool has_window_ = false;   // the window is at the cut
-    bool is_restored_ = false;  // its rights of way have to be given again
-    Tick window_end_ = 0;       // as it was when last asked for; it only moves later
+    bool has_window_ = false;   // the window begins at the cut
+    bool is_restored_ = false;  // rights of way have to be given again
+    Tick window_end_ = 0;       // cached; the window's end only moves later
     std::vector<Tick> lookahead_;
     std::vector<std::int32_t> ends_;
     std::vector<std::int32_t> state_;
     Tick first_seen_ = 0;
-    Conflict conflict_{};  // resolved last
+    Conflict conflict_{};  // the last resolved
 };
 
 }  // namespace rightofway

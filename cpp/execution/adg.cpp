@@ -7,7 +7,7 @@
 namespace rightofway {
 namespace {
 
-// A sum of this many ticks for each of 2^31 visits stays below `never`.
+// Upper limit of a duration in ticks: the sum over 2^31 visits stays below `never`.
 constexpr Tick longest = Tick{1} << 31;
 
 void check_ticks(const std::string& name, const std::vector<Tick>& ticks, Tick most) {

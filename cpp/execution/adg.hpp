@@ -1,5 +1,5 @@
-// The action dependency graph of a plan: visits with their least durations, and the visit that goes
-// before each at its vertex.
+// The action dependency graph (ADG) of a plan: visits with least durations, and for each visit the
+// previous visit to its vertex.
 //
 // W. Hoenig et al., Persistent and robust execution of MAPF schedules in warehouses, IEEE Robotics
 // and Automation Letters 4, 2019.
@@ -16,13 +16,13 @@ namespace rightofway {
 struct AdgArrays {
     std::span<const VisitId> first_visit;  // robots + 1: robot r owns first_visit[r] .. [r + 1] - 1
     std::span<const VertexId> vertex;      // n visits
-    std::span<const Tick> planned;         // n: when each visit begins by the plan
-    std::span<const Tick> dwell;           // n: least ticks of a visit, without the drive after it
-    std::span<const Tick> drive;           // n: ticks of the edge driven into it; first visits: 0
-    std::span<const VisitId> before;       // n: the visit that goes directly before at its vertex
+    std::span<const Tick> planned;         // n: planned enter of each visit
+    std::span<const Tick> dwell;           // n: least ticks of a visit, without the next drive
+    std::span<const Tick> drive;           // n: ticks on the edge into the visit; first visits: 0
+    std::span<const VisitId> before;       // n: the previous visit to the same vertex
     Tick headway = 0;
     bool books_ahead = false;
-    std::span<const Tick> since = {};  // n: no visit begins before; or empty
+    std::span<const Tick> since = {};  // n: earliest start of each visit; or empty
 };
 
 class ActionDependencyGraph {
@@ -45,11 +45,11 @@ class ActionDependencyGraph {
     Tick headway() const { return headway_; }
     bool books_ahead() const { return books_ahead_; }
 
-    // The visit whose leave this one waits for, none if it waits for nobody. Where it is a last
-    // visit, which never ends, this one cannot take place.
+    // The visit before `visit` at its vertex, which has to leave first; or `none`. If it is a last
+    // visit, which never ends, `visit` cannot take place.
     VisitId before(VisitId visit) const { return before_[visit]; }
 
-    // When the visit's right of way was given, if during execution: it cannot begin before.
+    // Earliest start [tick]: when the right of way was given during execution, else 0.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
 
     Tick planned_completion(RobotId robot) const {

@@ -9,10 +9,10 @@
 namespace rightofway {
 namespace {
 
-constexpr std::uint64_t stream = 0xF1008;  // of the uses of a seed
-constexpr double least_factor = 0.01;      // no robot is more than a hundred times faster
+constexpr std::uint64_t stream = 0xF1008;  // distinguishes the uses of a seed
+constexpr double least_factor = 0.01;      // lower limit of actual / planned duration
 
-// Above 0, up to 1: has a logarithm.
+// In (0, 1], so that the logarithm is finite.
 double unit(Random& random) { return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53; }
 
 double exponential(Random& random, double mean) { return -mean * std::log(unit(random)); }
@@ -39,7 +39,7 @@ void merge(std::vector<Stoppage>& stoppages, std::size_t first) {
     stoppages.resize(end, {});
 }
 
-// Rounds durations to whole ticks, and carries the rest.
+// Rounds durations to whole ticks, carrying the remainder.
 class Rounding {
   public:
     explicit Rounding(double carry) : carry_(carry) {}
@@ -128,7 +128,7 @@ void Delays::draw_durations(RobotId robot, Random& random, DelaySample& out) con
     }
 }
 
-// The part of its time by which a visit is lengthened, and the ticks that the robot stops besides.
+// The delay of a visit relative to its planned time, and the ticks of additional stops.
 std::pair<double, Tick> Delays::draw_visit(Random& random) const {
     double more = 0;
     Tick stop = 0;

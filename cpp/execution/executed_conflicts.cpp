@@ -8,7 +8,7 @@
 namespace rightofway {
 namespace {
 
-// Quick where few visits are out of order.
+// Fast on nearly sorted visits.
 template <class Key>
 void insertion_sort(std::span<VisitId> visits, Key&& key) {
     for (std::size_t k = 1; k < visits.size(); ++k) {

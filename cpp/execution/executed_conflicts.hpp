@@ -1,9 +1,8 @@
-// Counts the conflicts of executed visits, from their times alone.
+// Counts the conflicts of an execution, from the actual times of its visits alone.
 //
-// A visit books its vertex from its start until it is left, and the headway after that. Bookings of
-// one vertex by different robots that overlap are a conflict, and so are two robots that exchange
-// their vertices at one instant. (ConflictIndex keeps weights up to date for one plan; here all
-// pairs of many runs are counted, by kind.)
+// A visit books its vertex from its start to its leave, plus the headway. Conflicts are overlapping
+// bookings of one vertex by two robots, and swaps: two robots exchange vertices at one instant.
+// (ConflictIndex updates weights for one plan; this class counts all pairs of many runs, by kind.)
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,10 @@
 namespace rightofway {
 
 struct ConflictCount {
-    std::int64_t vertex = 0;   // pairs of visits that overlap
-    std::int64_t headway = 0;  // pairs that overlap only by the headway
+    std::int64_t vertex = 0;   // pairs of overlapping visits
+    std::int64_t headway = 0;  // pairs that overlap by the headway only
     std::int64_t swap = 0;     // pairs of moves
-    Tick first = never;        // the tick of the earliest
+    Tick first = never;        // tick of the earliest conflict
 };
 
 class ExecutedConflicts {
@@ -34,8 +33,8 @@ class ExecutedConflicts {
         return plan_.is_last(visit) ? never : times.enter[visit + 1];
     }
 
-    // Visits to one vertex, or over one edge, by more than one robot. Each group stays in the order
-    // of the last run, which is nearly that of the next.
+    // Visits to one vertex, or over one edge, by more than one robot. Each group keeps the order of
+    // the last run, which nearly sorts the next run.
     struct Groups {
         std::vector<std::size_t> first{0};
         std::vector<VisitId> visit;

@@ -5,10 +5,10 @@
 namespace rightofway {
 namespace {
 
-// The sum of two durations of at least 0, at most `never`.
+// The sum of two durations >= 0, at most `never`.
 Tick sum(Tick left, Tick right) { return right >= never - left ? never : left + right; }
 
-// The stoppages of one robot from the present on.
+// The remaining stoppages of one robot.
 class Stoppages {
   public:
     Stoppages(const DelaySample& sample, RobotId robot, std::int32_t& next, std::uint8_t& is_broken)
@@ -17,7 +17,7 @@ class Stoppages {
           next_(next),
           is_broken_(is_broken) {}
 
-    // When an action ends that would end then without stoppages: each one before it is added.
+    // The end of an action that would end at `end` without stoppages: adds each earlier stoppage.
     Tick busy_until(Tick end) {
         for (; next_ < end_ && all_[next_].tick < end; ++next_) {
             end = sum(end, take());
@@ -25,7 +25,7 @@ class Stoppages {
         return end;
     }
 
-    // The end of a wait that lasts at least until then: stoppages pass meanwhile.
+    // The end of a wait that lasts at least until `end`: stoppages run during the wait.
     Tick waits_until(Tick end) {
         for (; next_ < end_ && all_[next_].tick < end; ++next_) {
             end = std::max(end, sum(all_[next_].tick, take()));
@@ -82,12 +82,12 @@ ExecutionTimetable::ExecutionTimetable(const ActionDependencyGraph& plan)
     }
 }
 
-// Strongly connected components come out after those that they wait for.
+// Emits strongly connected components in order: each after the components that it waits for.
 // R. Tarjan, "Depth-first search and linear graph algorithms", SIAM Journal on Computing 1, 1972.
 void ExecutionTimetable::order_events() {
     struct Open {
         VisitId visit;
-        int next;  // of the visits that it waits for: 0 of its robot, 1 of another
+        int next;  // wait to follow: 0: own robot, 1: another robot
     };
     const auto n_visits = static_cast<std::size_t>(plan_.n_visits());
     std::vector<std::int32_t> number(n_visits, -1);
@@ -147,8 +147,8 @@ void ExecutionTimetable::emit(std::span<const VisitId> group) {
     }
 }
 
-// Whether visits that wait for each other can take place once all others that they wait for have.
-// Several can only where each may begin at the instant at which the one before it ends.
+// True if a component can take place once all other visits that it waits for have taken place.
+// Several visits can take place jointly only if each can begin as the previous visit ends.
 bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
     const bool is_joint = group.size() > 1;
     const auto is_inside = [&](VisitId x) {
@@ -204,7 +204,7 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
     times.source[x] = x - 1;
 }
 
-// All begin when the last of the robots is ready.
+// All visits of the group begin when the last of their robots is ready.
 void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
                                             const DelaySample& sample, ActualTimes& times) {
     Tick instant = 0;

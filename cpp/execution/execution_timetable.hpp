@@ -1,12 +1,12 @@
-// The times of a plan that is executed with delays: by right of way, and by the clock.
+// The actual times of a plan executed with delays: by right of way, or by the clock.
 //
-// By right of way, each visit begins as soon as its robot is ready and the visit before it at its
-// vertex has been left: longest paths in the action dependency graph, with actual durations. Visits
-// that wait for each other in a cycle of zero length (a rotation of robots) are one joint event. An
-// order in which events can take place is found once, from the graph alone; visits without a place
-// in it can never take place, and are a deadlock.
+// By right of way, a visit begins as soon as its robot is ready and the previous visit to its
+// vertex has ended: longest paths in the action dependency graph, with actual durations. Visits
+// that wait for each other in a cycle of zero length (a rotation) are one joint event. A
+// topological order of events is computed once, from the graph alone; visits outside this order can
+// never take place: a deadlock.
 //
-// By the clock, each robot keeps its planned times as well as it can, without regard to others.
+// By the clock, each robot follows its planned times as closely as possible, regardless of others.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,24 @@
 
 namespace rightofway {
 
-// Actual times, `never` where a visit does not take place. Reused from run to run.
+// Actual times; `never` if a visit does not take place. Reused from run to run.
 struct ActualTimes {
     std::vector<Tick> enter;       // of each visit
-    std::vector<Tick> start;       // of each visit: when its booking begins
+    std::vector<Tick> start;       // of each visit: start of its booking
     std::vector<Tick> completion;  // of each robot
-    std::vector<VisitId> cause;    // of each visit: the one whose enter it follows from; or none
-    std::vector<VisitId> source;   // of each visit: the one that lasted from its cause until it
-    std::vector<std::uint8_t> is_broken;  // of each robot: it stands still for ever
+    std::vector<VisitId> cause;    // of each visit: its predecessor on a longest path, or `none`
+    std::vector<VisitId> source;   // of each visit: charged for lateness beyond the cause
+    std::vector<std::uint8_t> is_broken;  // of each robot: broken down
 };
 
 class ExecutionTimetable {
   public:
     explicit ExecutionTimetable(const ActionDependencyGraph& plan);
 
-    // Robots that can never complete their routes because they wait for each other.
+    // Robots that can never complete their routes because of a deadlock.
     std::span<const RobotId> deadlocked() const { return deadlocked_; }
 
-    // False for a visit that waits in a deadlock.
+    // False for a visit in or behind a deadlock.
     bool can_take_place(VisitId visit) const { return is_impossible_[visit] == 0; }
 
     void by_right_of_way(const DelaySample& sample, ActualTimes& times);
@@ -49,14 +49,14 @@ class ExecutionTimetable {
                             ActualTimes& times);
 
     const ActionDependencyGraph& plan_;
-    std::vector<VisitId> events_;  // all but first visits, in an order in which they can happen
+    std::vector<VisitId> events_;                  // all but first visits, in topological order
     std::vector<std::int32_t> first_of_group_{0};  // a group is one joint event
     std::vector<std::uint8_t> is_impossible_;      // per visit
     std::vector<RobotId> deadlocked_;
     std::vector<std::int32_t> next_stoppage_;  // per robot
 };
 
-// Fills everything but `cause` and `source`.
+// Fills all members except `cause` and `source`.
 void by_clock(const ActionDependencyGraph& plan, const DelaySample& sample, ActualTimes& times);
 
 }  // namespace rightofway

@@ -1,10 +1,9 @@
-// Many runs of a plan, by right of way and by the clock with the same delays; and the sources of
-// their lateness.
+// Runs of a plan with delay samples, by right of way and by the clock, and the sources of lateness.
 //
-// A robot's completion follows from a chain of visits, each from its cause. Backwards along it, the
-// lateness that is more at a visit than at its cause began there, as far as it was not made up for
-// later. So the parts sum up to the lateness exactly, and each belongs to a visit that took too
-// long: one of the robot's own, or of another robot that it waited for.
+// Causes link a robot's completion to a chain of visits. Backwards along the chain, lateness of a
+// visit beyond the lateness of its cause is charged to the source of the visit, unless made up for
+// later. The charges sum up to the robot's lateness exactly; each belongs to a visit that took too
+// long: of the robot itself, or of another robot that it waited for.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +21,14 @@ class LatenessSources {
   public:
     explicit LatenessSources(const ActionDependencyGraph& plan);
 
-    // Adds a run by right of way; robots that never complete do not count.
+    // Adds a run by right of way, except robots that never complete.
     void add(const ActualTimes& times);
 
-    // Ticks of lateness that began at each visit: of its own robot, and of others.
+    // Ticks of lateness charged to each visit: of its own robot, and of other robots.
     const std::vector<Tick>& own() const { return own_; }
     const std::vector<Tick>& of_others() const { return of_others_; }
 
-    // Ticks that one robot is late because of another, by robot * n_robots + other.
+    // Ticks of lateness of a robot charged to another robot, by robot * n_robots + other.
     const std::unordered_map<std::int64_t, Tick>& between() const { return between_; }
 
   private:
@@ -41,21 +40,21 @@ class LatenessSources {
     std::unordered_map<std::int64_t, Tick> between_;
 };
 
-// One entry for each run and robot, run by run; or one for each run.
+// Completions and breakdowns: per run and robot, run by run. Conflicts: per run.
 struct RunBatch {
-    std::vector<Tick> completion;         // by right of way; `never` if it does not
-    std::vector<std::uint8_t> is_broken;  // the robot stands still for ever
+    std::vector<Tick> completion;         // by right of way; `never` if not completed
+    std::vector<std::uint8_t> is_broken;  // breakdowns of robots
     std::vector<ConflictCount> by_right_of_way;
     std::vector<ConflictCount> by_clock;
 };
 
 class ExecutionRuns {
   public:
-    // Borrows both.
+    // Both arguments are borrowed and must outlive this object.
     ExecutionRuns(const ActionDependencyGraph& plan, const Delays& delays);
 
-    // Runs `first` to `first + count - 1`; fewer if `is_over`. Each depends on its number and the
-    // seed alone. Lateness is added to `sources`.
+    // Executes runs `first` to `first + count - 1`; fewer if `is_over`. Each run depends on its
+    // number and the seed only. Adds lateness to `sources`.
     RunBatch run(std::uint64_t seed, std::uint64_t first, std::size_t count,
                  LatenessSources& sources, const StopCondition& is_over);
 

@@ -1,7 +1,7 @@
 // The two kinds of conflict.
 //
-// A vertex conflict is an overlap of two bookings of one vertex by different robots. A swap
-// conflict is two robots exchanging two vertices at one instant without any such overlap.
+// Vertex conflict: bookings of one vertex by two robots overlap. Swap conflict: two robots exchange
+// two vertices at one instant, and no bookings overlap.
 #pragma once
 
 #include <algorithm>
@@ -12,19 +12,19 @@
 
 namespace rightofway {
 
-// What an overlap counts: its ticks, at most `conflict_cap`; 0 or less if there is none.
+// Weight of a vertex conflict: ticks of overlap, at most `conflict_cap`; <= 0: no overlap.
 inline Tick overlap(const Booking& left, const Booking& right) {
     return std::min(std::min(left.end, right.end) - std::max(left.start, right.start),
                     conflict_cap);
 }
 
-// What a swap counts.
+// Weight of a swap conflict.
 inline constexpr Tick swap_weight = 1;
 
 enum class ConflictKind : std::int32_t { vertex = 0, swap = 1 };
 
-// The member order is the order of conflicts: by time, then by robots, then by visits. For a swap,
-// the visits are the two that are entered at that instant.
+// Conflicts are ordered by member: time, robots, visits. The visits of a swap are the two visits
+// that begin at its instant.
 struct Conflict {
     Tick tick;
     RobotId robot_a;  // < robot_b

@@ -8,8 +8,8 @@
 namespace rightofway {
 namespace {
 
-// Each pair of visits at one vertex counts at most `conflict_cap` and one swap: 2^30 pairs stay
-// well within 2^63.
+// A pair of visits at one vertex weighs at most `conflict_cap` plus one swap: 2^30 pairs stay far
+// below 2^63.
 constexpr std::int64_t most_pairs = std::int64_t{1} << 30;
 
 Booking booked(VisitId visit, const Routes& routes, const Timetable& timetable) {
@@ -33,7 +33,7 @@ constexpr auto any_robot = [](RobotId) { return true; };
 
 }  // namespace
 
-// Vertex ids are only compared, never used as positions: they may be sparse.
+// Vertex ids may be sparse: ids are compared, never used as indices.
 template <class Value>
 template <class Key, class OtherKey>
 ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> visits, Key key,
@@ -74,7 +74,7 @@ ConflictIndex::ConflictIndex(const Routes& routes)
     }
     std::int64_t n_pairs = 0;
     for (const auto& range : bookings_.others) {
-        n_pairs += range.end - range.own_end;  // each pair of robots at its first visit
+        n_pairs += range.end - range.own_end;  // each pair of visits once
     }
     if (n_pairs > most_pairs) {
         throw std::overflow_error("robots: " + std::to_string(n_pairs) +

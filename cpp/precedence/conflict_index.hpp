@@ -1,10 +1,10 @@
-// All conflicts of a timetable, each seen from either of its two visits.
+// An index of all conflicts of a timetable, found from either of their two visits.
 //
 // The index holds the booking of each visit, grouped by vertex, and the enter of each visit that
-// can be half of a swap, grouped by edge. Routes are fixed, so the groups are made once, each in
-// one piece of memory; only bookings and enters change. Visits are added and removed one by one,
-// and each addition or removal returns the change of the count of conflicts. Removing a set of
-// visits and adding it with new times therefore counts every pair exactly once.
+// can be half of a swap, grouped by edge. Routes are fixed: the groups are made once, each in one
+// piece of memory; only bookings and enters change. Visits are added and removed one by one, and
+// each call returns the change of the weight of all conflicts. Removing a set of visits and adding
+// the set with new times therefore counts every pair exactly once.
 #pragma once
 
 #include <cstdint>
@@ -21,29 +21,29 @@ namespace rightofway {
 
 class ConflictIndex {
   public:
-    // The routes are borrowed and must outlive this. At first it holds no visits.
-    // Throws std::overflow_error if so many visits share vertices that a count might overflow.
+    // The routes are borrowed and must outlive the index. The index starts empty.
+    // Throws std::overflow_error if the sum of all weights might overflow.
     explicit ConflictIndex(const Routes& routes);
 
-    // Adds the visit at its time in the timetable and returns the weight of its conflicts with
-    // those in the index. A visit in the index stays as it is; one of an inactive robot stays out.
+    // Adds the visit with its time in the timetable; returns the weight of its conflicts with the
+    // visits in the index. Ignores a visit already in the index or of an inactive robot.
     Tick add(VisitId visit, const Timetable& timetable);
-    // Removes the visit and returns the weight of its conflicts with those in the index.
+    // Removes the visit; returns the weight of its conflicts with the visits in the index.
     Tick remove(VisitId visit);
-    // Moves the visit to its time in the timetable, without counting.
+    // Moves the visit to its time in the timetable, without counting conflicts.
     void move(VisitId visit, const Timetable& timetable);
 
-    // The weight of this visit's conflicts, with all robots or with those whose mask is not 0.
+    // The weight of a visit's conflicts with all robots, or with robots whose mask is nonzero.
     Tick weight(VisitId visit) const;
     Tick weight(VisitId visit, std::span<const std::uint8_t> mask) const;
 
-    // The earliest conflict of this visit, with any robot or with the given one.
+    // The earliest conflict of a visit with any robot, or with the other robot.
     std::optional<Conflict> earliest(VisitId visit) const;
     std::optional<Conflict> earliest(VisitId visit, RobotId other) const;
 
   private:
-    // Visits grouped by a key, with a value each; and for each visit the group that it can have
-    // conflicts with: the slots of one key but for those of its own robot.
+    // Visits with a value each, grouped by a key. Each visit can have conflicts with the slots of
+    // one key, except the slots of its own robot.
     template <class Value>
     struct Groups {
         struct Slot {
@@ -60,7 +60,7 @@ class ConflictIndex {
 
         std::vector<Slot> slots;            // by key, then by visit, and so by robot
         std::vector<Range> others;          // of each slot
-        std::vector<std::int32_t> slot_of;  // of each visit; or none
+        std::vector<std::int32_t> slot_of;  // of each visit, or `none`
 
         template <class Key, class OtherKey>
         Groups(const Routes& routes, std::vector<VisitId> visits, Key key, OtherKey other_key);

@@ -36,7 +36,7 @@ std::optional<Conflict> EarliestConflicts::next() {
         }
         std::pop_heap(known_.begin(), known_.end(), std::greater<>());
         known_.pop_back();
-        if (top.at == looked_up_[top.robot]) {  // else it is known anew
+        if (top.at == looked_up_[top.robot]) {  // else a newer entry replaces this one
             look_up(top.robot);
         }
     }
@@ -60,7 +60,7 @@ std::optional<Conflict> EarliestConflicts::between(RobotId robot, RobotId other)
     return search(robot, [this, other](VisitId x) { return index_.earliest(x, other); });
 }
 
-// Visits are in order of time, and none has a conflict before its booking starts.
+// Visits are in order of time; no conflict of a visit is before the start of its booking.
 template <class Find>
 std::optional<Conflict> EarliestConflicts::search(RobotId robot, Find&& find) const {
     std::optional<Conflict> best;

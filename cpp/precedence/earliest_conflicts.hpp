@@ -1,9 +1,9 @@
 // The earliest conflict of the fleet, kept up to date.
 //
-// A heap holds the earliest conflict known of each robot. When a robot's times change, its entry is
-// void and looked up again; when only the partner of a conflict changes, the entry is looked up
-// again once it reaches the top. A new conflict needs no more: one of its robots has changed, and
-// finds it.
+// A heap holds the earliest known conflict of each robot. When a robot's times change, its entry
+// is void and looked up again; when only the other robot of the conflict changes, the entry is
+// looked up again at the top of the heap. This finds new conflicts too: the times of one of their
+// robots have changed.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ namespace rightofway {
 
 class EarliestConflicts {
   public:
-    // All three are borrowed and must outlive this.
+    // All arguments are borrowed and must outlive this object.
     EarliestConflicts(const Routes& routes, const Timetable& timetable, const ConflictIndex& index);
 
-    // The caller reports every robot whose times have changed.
+    // Voids a robot's entry; the caller reports every robot with changed times.
     void forget(RobotId robot);
 
     std::optional<Conflict> next();
 
-    // Rarely called, so its answers are not kept.
+    // The earliest conflict of two robots; rarely called, hence not cached.
     std::optional<Conflict> between(RobotId robot, RobotId other) const;
 
   private:
@@ -48,8 +48,8 @@ class EarliestConflicts {
     const Timetable& timetable_;
     const ConflictIndex& index_;
     std::vector<Known> known_;             // a heap; void entries are still in it
-    std::vector<std::int64_t> looked_up_;  // when each robot was last
-    std::vector<std::int64_t> changed_;    // when the robot's times last did
+    std::vector<std::int64_t> looked_up_;  // per robot: number of the last lookup
+    std::vector<std::int64_t> changed_;    // per robot: number at the last change of times
     std::vector<RobotId> to_look_up_;
     std::int64_t now_ = 0;
 };

@@ -101,7 +101,7 @@ bool PrecedenceGraph::keep_order(std::span<const Tick> when) {
     for (RobotId r = 0; r < n_robots(); ++r) {
         earliest_.forget(r);
     }
-    conflicts_ /= 2;  // each has two robots
+    conflicts_ /= 2;  // each conflict is counted for two robots
     n_kept_ = checkpoint();
     conflicts_before_.assign(timetable_.n_changes(), conflicts_);
     return true;
@@ -136,8 +136,8 @@ void PrecedenceGraph::check_pair(VisitId a, VisitId b) const {
     }
 }
 
-// A changed enter changes the booking of its visit and of the visit before, which ends then. (A
-// first visit never changes, so there always is one before.)
+// A changed enter changes the bookings of its visit and of the previous visit, which ends then. (A
+// previous visit exists: first visits never change.)
 template <class Use>
 void PrecedenceGraph::for_each_touched(Use&& use) const {
     for (const VisitId x : timetable_.changed()) {
@@ -148,7 +148,7 @@ void PrecedenceGraph::for_each_touched(Use&& use) const {
 
 void PrecedenceGraph::count_change() {
     if (conflicts_before_.size() == timetable_.n_changes()) {
-        return;  // it was so already
+        return;  // repeated right of way: no change
     }
     conflicts_before_.push_back(conflicts_);
     for_each_touched([this](VisitId x) {

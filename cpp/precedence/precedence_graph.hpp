@@ -1,8 +1,8 @@
-// Routes, the right of way between them, the timetable that follows, and the conflicts still left.
+// The precedence graph of a fleet: routes, rights of way, their timetable, remaining conflicts.
 //
-// Planners work on this object: they read the next conflict, give one of its visits the right of
-// way over the other, compare times and conflicts, and take it back if another choice is better.
-// Every answer is kept up to date incrementally, and undone at the same cost.
+// A planner reads the next conflict, gives one of its visits the right of way over the other visit,
+// compares times and conflicts, and rolls back if another choice is better. Times and conflicts are
+// updated incrementally; a rollback costs as much as the change.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ namespace rightofway {
 
 class PrecedenceGraph {
   public:
-    // All methods below throw std::invalid_argument on an unknown robot or visit.
+    // All methods throw std::invalid_argument on an unknown robot or visit.
     explicit PrecedenceGraph(const RouteArrays& arrays);
 
-    // Its parts refer to each other.
+    // No copies: members refer to each other.
     PrecedenceGraph(const PrecedenceGraph&) = delete;
     PrecedenceGraph& operator=(const PrecedenceGraph&) = delete;
 
@@ -37,13 +37,13 @@ class PrecedenceGraph {
     Tick completion(RobotId robot) const;
     Tick completion_sum() const;  // of the active robots
 
-    // The rights of way that a robot has, or that others have over it.
+    // The rights of way of a robot over others, and of others over the robot.
     std::vector<RightOfWay> rights_of(RobotId robot) const;
 
-    // The rights of way on a longest path to a robot's last visit, the latest first.
+    // The rights of way on a longest path to a robot's last visit, latest first.
     std::vector<RightOfWay> critical_rights(RobotId robot) const;
 
-    // The weight of the conflicts left: of all, or of one robot's with those whose mask is not 0.
+    // The weight of all conflicts, or of one robot's with robots whose mask is nonzero.
     Tick conflicts() const { return conflicts_; }
     Tick conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const;
 
@@ -51,26 +51,26 @@ class PrecedenceGraph {
     std::optional<Conflict> next_conflict_between(RobotId robot, RobotId other) const;
 
     // See Timetable. Throws std::invalid_argument unless a and b are visits of two active robots
-    // to one vertex.
+    // to the same vertex.
     bool precede(VisitId a, VisitId b);
-    // See Timetable; all visits of a vertex in their order at once. A rollback below this is
-    // refused. Throws std::invalid_argument unless there is a number for each visit, rising along
-    // each route, and nobody has any right of way yet.
+    // See Timetable: orders the visits of every vertex at once. A rollback below this change is
+    // refused. Throws std::invalid_argument unless there is one number per visit, rising along
+    // each route, and the graph has no rights of way yet.
     bool keep_order(std::span<const Tick> when);
     std::span<const VisitId> cycle() const { return timetable_.cycle(); }
 
-    // Takes back one right of way, whenever it was given; the others get the earliest times that
-    // keep theirs. False if there is none.
+    // Takes back one right of way, given at any time; times become the earliest that keep the
+    // other rights of way. False if a has no right of way over b.
     bool take_back(VisitId a, VisitId b);
 
-    // A mark is the number of changes so far: rights of way given or taken back, and not undone
-    // since. It stays good for as long as no rollback goes below it. Throws std::invalid_argument
-    // if one has.
+    // A mark counts changes (rights of way given or taken back) that are not undone. A mark is
+    // valid until a rollback goes below its number; rollback() throws std::invalid_argument on an
+    // invalid mark.
     std::int64_t checkpoint() const { return static_cast<std::int64_t>(timetable_.n_changes()); }
     void rollback(std::int64_t mark);
 
-    // Makes a robot inactive: it has no conflicts, its rights of way and those over it are taken
-    // back. A rollback below this is refused.
+    // Makes a robot inactive: the robot has no conflicts, and all rights of way of and over the
+    // robot are taken back. A rollback below this change is refused.
     void withdraw(RobotId robot);
 
   private:

@@ -1,14 +1,14 @@
-// What a new arc raises in a graph of longest paths, and whether it closes a cycle.
+// Search for the times that a new arc raises in a longest-path graph, and for cycles it closes.
 //
 // S. Cotton and O. Maler, Fast and flexible difference constraint propagation for DPLL(T), SAT
 // 2006.
 //
-// Every visit is a node whose value is its enter, the least solution of
-// enter[q] >= enter[p] + length(p, q). A new arc into b raises b by some delta. The old times
-// satisfy every old arc, so a raise only shrinks along a path, by the slack of each arc. Visits are
-// therefore settled by the largest raise first, each once: Dijkstra's algorithm on raises. The new
-// arc u -> b closes a cycle of positive length, a deadlock, exactly if the raise of b reaches u.
-// Times do not change here: the derived class accepts the raises, or forgets them.
+// Every visit is a node; enters are the least solution of enter[q] >= enter[p] + length(p, q). A
+// new arc into b raises b by delta ticks. The old times satisfy every old arc, so a raise shrinks
+// along a path by the slack of each arc. Visits are therefore settled in order of falling raise,
+// each once: Dijkstra's algorithm on raises. The new arc u -> b closes a cycle of positive length
+// (a deadlock) exactly if the raise of b reaches u. The search changes no times: the derived class
+// accepts or forgets the raises.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace rightofway {
 
-// The derived class has, for the present times and the raises on trial:
+// The derived class provides, for the current times and the raises on trial:
 //   Tick enter(Visit) const;
 //   Tick& raise(Visit);             0 if the visit is not raised
 //   Visit& cause(Visit);            the visit whose raise raised it, or no_cause
@@ -29,16 +29,16 @@ class RaiseSearch {
   protected:
     explicit RaiseSearch(Visit no_cause) : no_cause_(no_cause) {}
 
-    // Raises b and what follows from it; false as soon as the raise reaches the source of the new
-    // arc. No arc leads back in time, so only visits entered no later than the source can lead to
-    // it. They come first; raises of later visits are noted but not followed.
+    // Raises b and its successors; false as soon as the raise reaches the source of the new arc.
+    // No arc leads back in time: only visits entered no later than the source can reach the source.
+    // These visits are settled; raises of later visits are recorded but not followed.
     bool spread(Visit b, Tick delta, Visit source) {
         latest_ = self().enter(source);
         raise_by(b, delta, no_cause_);
         return settle(source);
     }
 
-    // Follows the raises of later visits, after a spread that did not reach the source.
+    // Follows the recorded raises of later visits, after a spread that did not reach the source.
     void spread_on(Visit source) {
         for (const Visit visit : raised_) {
             if (self().enter(visit) > latest_) {
@@ -49,7 +49,7 @@ class RaiseSearch {
         settle(source);
     }
 
-    // The cycle that a refused arc would have closed, from b to the source: along the causes.
+    // Writes the cycle that a refused arc would close, from b to the source, along the causes.
     void explain(Visit source) {
         cycle_.clear();
         for (Visit visit = source; visit != no_cause_; visit = self().cause(visit)) {
@@ -74,7 +74,7 @@ class RaiseSearch {
     struct Raise {
         Tick delta;
         Visit visit;
-        // For a heap with the largest raise first; equal ones by visit, so that the order is total.
+        // Max-heap by raise; ties by visit, so that the order is total.
         bool operator<(const Raise& other) const {
             return delta != other.delta ? delta < other.delta : visit > other.visit;
         }
@@ -88,7 +88,7 @@ class RaiseSearch {
             const Raise top = open_.back();
             open_.pop_back();
             if (top.delta < self().raise(top.visit)) {
-                continue;  // raised further since
+                continue;  // outdated: raised further
             }
             self().for_each_arc(top.visit, [&](Visit to, Tick length) {
                 const Tick slack = self().enter(to) - self().enter(top.visit) - length;

@@ -1,7 +1,7 @@
-// The rights of way given so far, found from either of their two visits.
+// The list of rights of way given so far, indexed by both of their visits.
 //
-// A right of way keeps its number until it is forgotten, also while it is taken back for a trial.
-// Numbers are in the order of giving; the one given last is forgotten first.
+// Rights of way are numbered in the order of giving, and forgotten in reverse order. A right of way
+// keeps its number until it is forgotten, also while it is taken back on trial.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@ class RightsOfWay {
     explicit RightsOfWay(VisitId n_visits)
         : latest_of_first_(n_visits, none), latest_of_second_(n_visits, none) {}
 
-    // The number of the right of way of one visit over another, or none.
+    // The number of the right of way of one visit over another, or `none`.
     std::int32_t find(VisitId first, VisitId second) const;
 
     std::int32_t give(VisitId first, VisitId second);  // returns its number
-    void forget_latest();                              // the one given last, if it holds
+    void forget_latest();                              // the last given; unlinks it if it holds
     void take_back(std::int32_t right) { unlink(right); }
     void restore(std::int32_t right) { link(right); }
 
     // The rights of way that hold, in the order of giving.
     std::vector<RightOfWay> list() const;
 
-    // Calls use(visit) for each visit that goes after this one at its vertex, or before it.
+    // Calls use(visit) for each visit over which `first` has the right of way; and vice versa.
     template <class Use>
     void for_each_second(VisitId first, Use&& use) const {
         for (std::int32_t k = latest_of_first_[first]; k != none; k = next_of_first_[k]) {
@@ -51,7 +51,7 @@ class RightsOfWay {
     void link(std::int32_t right);
     void unlink(std::int32_t right);
 
-    // By number; those of one visit are a list.
+    // By number; the rights of way of one visit form a linked list.
     std::vector<RightOfWay> rights_;
     std::vector<std::uint8_t> holds_;
     std::vector<std::int32_t> next_of_first_;

@@ -10,8 +10,8 @@
 namespace rightofway {
 namespace {
 
-// No time exceeds the sum of all durations, because an earliest time is the length of a path that
-// enters each visit once. Kept so far below infinity that adding to a time never overflows.
+// An earliest time is the length of a path with each visit at most once, so no time exceeds the sum
+// of all durations. The limit is far below `never`: sums of two times never overflow.
 constexpr Tick horizon = Tick{1} << 60;
 
 void check_first_visit(std::span<const VisitId> first_visit, std::size_t n_visits) {

@@ -1,7 +1,7 @@
-// Where each robot goes: one fixed list of visits per robot, one after the other in flat arrays.
+// The routes of a fleet: one fixed list of visits per robot, robot by robot in flat arrays.
 //
-// Routes never change. Rights of way and times, which do, are kept elsewhere and refer to visits by
-// their position here. All input is checked here.
+// Routes never change; rights of way and times are stored elsewhere and refer to visits by index.
+// The constructor checks all input.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace rightofway {
 
-// What routes are made of; n visits of r robots. Borrowed, read once.
+// Input of Routes: n visits of r robots. Borrowed, read once.
 struct RouteArrays {
     std::span<const VisitId> first_visit;  // r + 1: robot k owns first_visit[k] .. [k + 1] - 1
     std::span<const VertexId> vertex;      // n: differs between consecutive visits of a robot
-    std::span<const Tick> least;     // n: from this enter to the next at least; last visits: unused
-    std::span<const Tick> approach;  // n: a visit books its vertex so long before its enter
-    Tick headway = 0;                // a visit books its vertex so long after its leave
+    std::span<const Tick> least;     // n: least ticks from enter to next enter; last visits: unused
+    std::span<const Tick> approach;  // n: ticks from the start of the booking to the enter
+    Tick headway = 0;                // ticks from the leave to the end of the booking
     bool swaps_conflict = true;
-    std::span<const std::uint8_t> active;  // r: a robot that is not active meets nobody
+    std::span<const std::uint8_t> active;  // r: an inactive robot (0) has no conflicts
 };
 
 class Routes {
@@ -50,8 +50,8 @@ class Routes {
     // The least ticks from one robot's leave to the enter of a later visit to the same vertex.
     Tick gap_before(VisitId visit) const { return headway_ + approach_[visit]; }
 
-    // Can the move into this visit be half of a swap? Not where bookings keep robots so far apart
-    // that an exchange at one instant is a vertex conflict already.
+    // True if the move into this visit can be half of a swap. With a headway or an approach, an
+    // exchange at one instant is a vertex conflict instead.
     bool may_swap(VisitId visit) const {
         return swaps_conflict_ && !is_first(visit) && gap_before(visit) == 0;
     }

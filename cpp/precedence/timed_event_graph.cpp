@@ -13,7 +13,7 @@ namespace {
 
 constexpr Tick most_product = Tick{1} << 58;
 
-// The arcs that leave each node, side by side: what a sweep reads lies in order.
+// Outgoing arcs, node by node: a sweep reads memory in order.
 class Rows {
   public:
     struct Arc {
@@ -75,7 +75,7 @@ class PolicyIteration {
     }
 
   private:
-    // The value of an arc when the period is the ratio of the best circuit.
+    // The value of an arc if the period is the ratio of the best circuit.
     Tick worth(Tick length, std::int32_t height) const {
         return length * best_.height - best_.length * height;
     }
@@ -84,8 +84,8 @@ class PolicyIteration {
                      arcs_.height[static_cast<std::size_t>(arc)]);
     }
 
-    // Every node takes a better arc if it has one. From the last node to the first: a robot's
-    // visits follow each other, so one sweep carries a change far.
+    // Switches every node to a better arc, if any. From the last node to the first: a robot's
+    // visits are numbered along its route, so one sweep propagates a change far.
     bool improve() {
         bool is_changed = false;
         for (std::int32_t node = arcs_.n_nodes; node-- > 0;) {
@@ -108,7 +108,7 @@ class PolicyIteration {
         return arc == none ? none : arcs_.head[static_cast<std::size_t>(arc)];
     }
 
-    // Walks along the policy from every node; a node reached twice on one walk is on a circuit.
+    // Walks along the policy from every node; a node reached twice in one walk is on a circuit.
     bool find_longer_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
         bool is_found = false;
@@ -154,8 +154,8 @@ class PolicyIteration {
         return true;
     }
 
-    // Every node with a path to the best circuit follows it there: along its own policy if that
-    // leads there, else by the fewest arcs. The other nodes follow nothing.
+    // Directs every node with a path to the best circuit there: by the node's policy if the policy
+    // leads to the circuit, else by the fewest arcs. The other nodes follow no arc.
     void hang_on_circuit() {
         std::fill(seen_.begin(), seen_.end(), 0);
         order_.assign(1, arcs_.head[static_cast<std::size_t>(best_.arcs.back())]);
@@ -171,7 +171,7 @@ class PolicyIteration {
         }
     }
 
-    // In order of arcs from the circuit; only along the policy, or along all arcs.
+    // Breadth-first from the circuit: along the policy only, or along all arcs.
     void hang(bool by_policy) {
         for (std::size_t k = 0; k < order_.size(); ++k) {
             const std::int32_t node = order_[k];
@@ -188,7 +188,7 @@ class PolicyIteration {
         }
     }
 
-    // The values of the policy, from the followed nodes to the following ones.
+    // Computes the values of the policy, from followed nodes to following nodes.
     void value_policy() {
         std::fill(seen_.begin(), seen_.end(), 0);
         for (const std::int32_t arc : best_.arcs) {
@@ -219,12 +219,12 @@ class PolicyIteration {
     Rows entering_;
     CriticalCircuit best_;
     std::vector<Tick> value_;            // of each node, in parts of a tick: 1 / best_.height
-    std::vector<std::int32_t> follows_;  // the arc of its policy
+    std::vector<std::int32_t> follows_;  // of each node: the arc of its policy
     std::vector<std::int32_t> seen_;
     std::vector<std::int32_t> order_;
 };
 
-// The sums of all lengths and of all heights, whatever their sign; each at least 1.
+// The sums of the absolute lengths and heights, each at least 1.
 struct Sums {
     Tick lengths = 1;
     std::int64_t heights = 1;
@@ -242,7 +242,7 @@ Sums sums_of(const TimedEventGraph& arcs) {
     return sums;
 }
 
-// No value may come near the end of its type, however long the path that it sums up.
+// The value of any path has to stay far below the limit of its type.
 void require_small(const std::string& name, Tick factor, Tick sum) {
     if (factor < 0 || factor > most_product / sum) {
         reject(name, factor, "times " + std::to_string(sum) + " is too large");
@@ -279,7 +279,7 @@ std::optional<std::vector<Tick>> earliest_times(const TimedEventGraph& arcs, Tic
     const Rows leaving(arcs, arcs.tail, arcs.head);
     std::vector<Tick> time(static_cast<std::size_t>(arcs.n_nodes), 0);
     std::vector<std::uint8_t> is_later(time.size(), 1);
-    // Without a circuit that is too long, all is settled after as many sweeps as there are nodes.
+    // Bellman-Ford: without a circuit above the period, n_nodes sweeps settle all values.
     for (std::int32_t sweep = 0; sweep <= arcs.n_nodes; ++sweep) {
         bool is_changed = false;
         for (std::size_t node = 0; node < time.size(); ++node) {

@@ -93,8 +93,8 @@ bool Timetable::give_in_order(std::span<const Tick> when) {
     return true;
 }
 
-// Visits of one number may hold each other (a rotation), so they are gone through until nothing
-// changes. Where that takes more rounds than there are visits, they raise each other for ever.
+// Visits of one number may hold each other (a rotation): the loop repeats until no time changes.
+// More rounds than visits prove a cycle of positive length.
 bool Timetable::sweep(std::span<const Tick> when) {
     std::vector<VisitId> in_order(enter_.size());
     std::iota(in_order.begin(), in_order.end(), 0);
@@ -138,15 +138,15 @@ bool Timetable::take_back(VisitId a, VisitId b) {
     return true;
 }
 
-// A swap is a cycle of two robots and zero length: b enters the vertex that a leaves, and the
-// robot of a enters the vertex that b's robot leaves, each no earlier than the other. (With a gap
-// such a cycle has a positive length, and is refused as that anyway.) Longer cycles of zero length
-// are rotations, which are allowed.
+// A swap is a cycle of two robots and zero length: b enters the vertex that a leaves, and a's robot
+// enters the vertex that b's robot leaves, each no earlier than the other. (With a gap the cycle
+// has a positive length: a deadlock.) Longer cycles of zero length are rotations, which are
+// allowed.
 bool Timetable::closes_swap(VisitId a, VisitId b) const {
     return routes_.swaps_conflict() && rights_.find(b - 1, a + 1) != none;
 }
 
-// Lets b, and all that it held, fall. Visits of one instant may hold each other (a rotation), so
+// Lowers b and the visits held by b. Visits of one instant may hold each other (a rotation), so
 // they fall together.
 void Timetable::lower(VisitId b) {
     let_fall(b);
@@ -159,7 +159,7 @@ void Timetable::lower(VisitId b) {
                 raised_.push_back(x);
                 for_each_arc(x, [this, x](VisitId next, Tick length) {
                     if (length > 0 && enter_[next] == enter_[x] + length) {
-                        let_fall(next);  // it was held by x, and comes later
+                        let_fall(next);  // held by x, at a later instant
                     }
                 });
             }
@@ -167,14 +167,14 @@ void Timetable::lower(VisitId b) {
     }
 }
 
-// Earliest first; what is entered at one instant comes out together, so its order does not matter.
+// Min-heap by enter; visits of one instant are popped together, so ties do not matter.
 void Timetable::let_fall(VisitId visit) {
     falling_.push_back(visit);
     std::push_heap(falling_.begin(), falling_.end(),
                    [this](VisitId x, VisitId y) { return enter_[x] > enter_[y]; });
 }
 
-// All that fall from the earliest instant, and whatever enters with them as one of them leaves.
+// Collects the visits that fall from the earliest instant, and visits held by them at this instant.
 void Timetable::gather_instant() {
     const auto add = [this](VisitId x) {
         if (is_in_instant_[x] == 0) {
@@ -199,7 +199,7 @@ void Timetable::gather_instant() {
     }
 }
 
-// Each falls to what holds it from outside, and then as far up again as they hold each other.
+// Lowers each visit to its bound from outside the instant, then raises visits held by one another.
 void Timetable::lower_instant() {
     for (const VisitId x : instant_) {
         raise_[x] = held_to(x) - enter_[x];
@@ -217,7 +217,7 @@ void Timetable::lower_instant() {
     }
 }
 
-// What holds a visit but those that fall with it: its route, and the rights of way over it.
+// The bound of a visit from its route and the rights of way over it, outside the falling instant.
 Tick Timetable::held_to(VisitId visit) const {
     Tick held = enter_[visit - 1] + raise_[visit - 1] + routes_.least(visit - 1);
     rights_.for_each_first(visit, [&](VisitId first) {
@@ -255,7 +255,7 @@ void Timetable::rollback(std::size_t n_changes) {
 
 std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
     std::vector<RightOfWay> rights;
-    std::vector<VisitId> passed;  // at this instant: a rotation leads round in a circle
+    std::vector<VisitId> passed;  // at this instant; a rotation is a circle
     for (VisitId x = visit; !routes_.is_first(x);) {
         const VisitId first = held_by(x, passed);
         const VisitId cause = first == none ? x - 1 : first + 1;
@@ -271,7 +271,7 @@ std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
     return rights;
 }
 
-// The visit whose right of way a visit waited for; none if it came as soon as its robot could.
+// The visit with the right of way that a visit waited for; `none` without a wait.
 VisitId Timetable::held_by(VisitId visit, std::span<const VisitId> passed) const {
     VisitId found = none;
     if (enter_[visit] > enter_[visit - 1] + routes_.least(visit - 1)) {
@@ -291,7 +291,7 @@ void Timetable::restore_enters(std::size_t trail_length) {
         const OldEnter old = trail_.back();
         trail_.pop_back();
         enter_[old.visit] = old.enter;
-        if (raise_[old.visit] == 0) {  // the first time we meet it
+        if (raise_[old.visit] == 0) {  // first time in this rollback
             raise_[old.visit] = 1;
             raised_.push_back(old.visit);
         }

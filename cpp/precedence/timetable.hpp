@@ -1,14 +1,13 @@
-// The earliest times that keep the routes and the rights of way: longest paths, kept up to date.
+// The timetable: earliest times that keep routes and rights of way, updated incrementally.
 //
-// Every visit is a node whose value is its enter. A robot's own progress is an arc from each visit
-// to its next; "a goes before b" is an arc from the visit after a (its enter is a's leave) to b.
-// Enter is the least solution of enter[q] >= enter[p] + length(p, q).
+// Times are longest paths in the precedence graph. Every visit is a node. A route is an arc from
+// each visit to the next visit; "a goes before b" is an arc from the visit after a (its enter is
+// a's leave) to b. Enters are the least solution of enter[q] >= enter[p] + length(p, q).
 //
-// A new arc raises visits (raise_search.hpp); times change only when the arc is accepted.
-//
-// When an arc is taken back, the visits that it held fall to the times that their other arcs allow,
-// in the order of their old times: no arc leads back in time, so the tails of the arcs into a visit
-// have fallen before it.
+// A new arc raises visits (raise_search.hpp); times change only when the arc is accepted. When an
+// arc is taken back, the visits held by the arc fall to the times that their other arcs allow, in
+// the order of their old times: no arc leads back in time, so the tails of all arcs into a visit
+// fall before the visit does.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +25,7 @@ namespace rightofway {
 
 class Timetable : private RaiseSearch<Timetable, VisitId> {
   public:
-    // The routes are borrowed and must outlive this. At first every robot runs freely from tick 0.
+    // The routes are borrowed and must outlive this object. Initially no robot waits.
     explicit Timetable(const Routes& routes);
 
     Tick enter(VisitId visit) const { return enter_[visit]; }
@@ -34,26 +33,26 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::span<const Tick> enters() const { return enter_; }
     std::vector<RightOfWay> rights_of_way() const { return rights_.list(); }
 
-    // Lets visit a go before visit b of another robot at the same vertex (not checked here).
-    // False, with nothing changed, if a never leaves, b was there from the start, or the fleet
-    // would be deadlocked or swap; cycle() then explains. Giving a right of way again does nothing.
+    // Gives visit a the right of way over visit b of another robot at the same vertex (unchecked).
+    // Returns false and changes nothing if a is a last visit, b is a first visit, or the right of
+    // way would cause a deadlock or a swap (see cycle()). A repeated right of way changes nothing.
     bool precede(VisitId a, VisitId b);
 
-    // Lets all visits to a vertex take place in the order of these numbers, one for each visit,
-    // equal ones by visit: each has the right of way over the next one, if that is of another
-    // robot. All at once, in one sweep over the visits: along a route numbers rise, and nobody has
-    // to enter before another one leaves whose number is greater. False, with nothing changed, if
-    // numbers are not like that or the order is impossible. Nobody has any right of way yet.
+    // Orders the visits of every vertex by `when` (one number per visit; ties by visit), in one
+    // sweep: each visit gets the right of way over the next visit, if of another robot. Numbers
+    // rise along routes, and no visit waits for a leave with a larger number. Returns false and
+    // changes nothing if numbers break these conditions or the order is impossible. Precondition:
+    // no rights of way.
     bool keep_order(std::span<const Tick> when);
 
-    // The cycle that the last refused right of way would have closed: visits in order, b first.
-    // Empty if it was refused for another reason.
+    // The cycle that the last refused right of way would close: visits in order, b first. Empty
+    // if the refusal had another reason.
     std::span<const VisitId> cycle() const { return cycle_; }
 
-    // Takes back the right of way of a over b, whenever it was given; false if there is none.
+    // Takes back the right of way of a over b; false if a has none.
     bool take_back(VisitId a, VisitId b);
 
-    // Calls use(a, b) for each right of way that a robot has, or that others have over it.
+    // Calls use(a, b) for each right of way of a robot over others, or of others over the robot.
     template <class Use>
     void for_each_right_of(RobotId robot, Use&& use) const {
         for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
@@ -62,16 +61,16 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
         }
     }
 
-    // The rights of way on a longest path to a visit: backwards along arcs without slack, until a
-    // robot ran freely. The latest comes first.
+    // The rights of way on a longest path to a visit, latest first: backwards along arcs without
+    // slack, until no wait is left.
     std::vector<RightOfWay> critical_rights(VisitId visit) const;
 
-    // The number of changes: rights of way given or taken back, and not undone since.
+    // The number of changes (rights of way given or taken back) that are not undone.
     std::size_t n_changes() const { return journal_.size(); }
-    // Undoes changes, the latest first, until so many are left.
+    // Undoes changes, latest first, until `n_changes` are left.
     void rollback(std::size_t n_changes);
 
-    // The visits whose enter the last change or rollback changed, each once.
+    // The visits with an enter changed by the last change or rollback, each once.
     std::span<const VisitId> changed() const { return raised_; }
 
   private:
@@ -83,7 +82,7 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     };
     struct Change {
         std::int32_t right;
-        bool is_given;           // or taken back
+        bool is_given;           // false: taken back
         std::size_t trail_mark;  // length of the trail before
     };
 
@@ -115,18 +114,18 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::vector<Tick> enter_;
     RightsOfWay rights_;
     std::vector<Change> journal_;
-    std::vector<OldEnter> trail_;  // every enter that was ever overwritten
+    std::vector<OldEnter> trail_;  // every overwritten enter
 
-    // What a change works on; reused, so that no step allocates.
+    // Buffers of a change, reused to avoid allocation.
     std::vector<Tick> raise_;       // per visit, 0 if untouched; below 0 where a visit falls
-    std::vector<VisitId> cause_;    // per raised visit: whose raise raised it
+    std::vector<VisitId> cause_;    // per raised visit: the visit that raised it
     std::vector<VisitId> falling_;  // a heap
-    std::vector<VisitId> instant_;  // those that fall from one instant
+    std::vector<VisitId> instant_;  // visits that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;
 };
 
-// Gives tracks the earliest times along their routes that keep the order of visits at every vertex,
-// by one sweep over their visits. The tracks keep the rules; no visit becomes later.
+// Shifts each visit of the tracks to the earliest time that keeps the order of visits at every
+// vertex, in one sweep. Precondition: no conflicts. No visit becomes later.
 void retime(const Problem& problem, Tracks& tracks);
 
 }  // namespace rightofway
