@@ -35,6 +35,7 @@ from rightofway.model import (
     SteadyState,
     Stop,
     Track,
+    Wait,
 )
 from rightofway.planners import (
     AutoOptions,
@@ -54,7 +55,7 @@ if _TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
     from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, write_plan, write_scenario
-    from rightofway.metrics import Metrics, Wait, measure, waits
+    from rightofway.metrics import Metrics, measure, waits
     from rightofway.viz import Film, write_gif, write_page, write_png
     from rightofway.viz.palette import Theme
 
@@ -64,7 +65,7 @@ _ROOMS = {
     "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
     "execution": ("Outcome", "simulate"),
     "io": ("load", "load_plan", "write_plan", "write_scenario"),
-    "metrics": ("Metrics", "Wait", "measure", "waits"),
+    "metrics": ("Metrics", "measure", "waits"),
     "viz": ("Film", "write_gif", "write_page", "write_png"),
     "viz.palette": ("Theme",),
 }

@@ -13,8 +13,6 @@ from rightofway.bench.results import Row, needed
 from rightofway.bench.suite import Case
 from rightofway.errors import InputError
 
-__all__ = ["run_on_cluster"]
-
 PATIENCE = 30
 """How long a scheduler has to answer [s]."""
 

@@ -12,8 +12,6 @@ from typing import Any
 
 from rightofway.io.formats import SCENARIO_FORMAT
 
-__all__ = ["Cell", "largest_part", "random_grid", "scenario_document"]
-
 Cell = tuple[int, int]
 
 

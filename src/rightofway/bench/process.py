@@ -26,10 +26,6 @@ from rightofway.bench.results import COLUMNS, Row
 from rightofway.bench.suite import Case
 from rightofway.search import compiler
 
-__all__ = [
-    "GRACE", "Interrupted", "Processes", "cores", "lost", "machine", "run_here", "run_on_worker",
-]  # fmt: skip
-
 GRACE = 60.0
 """A case is ended that many seconds after thrice its time limit [s]."""
 

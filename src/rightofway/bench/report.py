@@ -22,8 +22,6 @@ from rightofway.bench.summary import (
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 
-__all__ = ["markdown_table", "write_report"]
-
 Table = list[Sequence[str]]
 """Rows of cells; the first has the headings."""
 

@@ -20,8 +20,6 @@ try:
 except ImportError:  # pragma: no cover (not on Windows)
     fcntl = None  # type: ignore[assignment]
 
-__all__ = ["COLUMNS", "Column", "Results", "Row", "need", "needed"]
-
 Row = dict[str, Any]
 """A value for each column; None where there is none."""
 

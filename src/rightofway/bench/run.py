@@ -28,8 +28,6 @@ from rightofway.solve import solve
 if TYPE_CHECKING:
     from rightofway.cyclic import GroupResult
 
-__all__ = ["main", "run"]
-
 ENDINGS: dict[type[BaseException], str] = {
     NoPlanExists: "no plan exists",
     GaveUp: "gave up",

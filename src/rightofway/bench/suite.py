@@ -29,8 +29,6 @@ if TYPE_CHECKING:
         SuiteFleetDocument,
     )
 
-__all__ = ["LAPS", "Case", "read_suite"]
-
 LAPS = "laps"
 """In place of a planner: the fleet repeats its work under a rule."""
 

@@ -11,8 +11,6 @@ import numpy as np
 
 from rightofway.bench.results import Row
 
-__all__ = ["Group", "Quantiles", "by_planner", "by_robots", "grouped", "planner_names"]
-
 
 @dataclass(frozen=True, slots=True)
 class Quantiles:

@@ -15,8 +15,6 @@ from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick, VertexId
 from rightofway.model.sorting import order_by
 
-__all__ = ["judge_bookings", "judge_rotations", "judge_swaps"]
-
 Indices = NDArray[np.int64]
 
 FEWEST = 3

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from rightofway.model import Scenario, Tick, VertexId
 
-__all__ = ["Fault", "FaultCollector", "FaultKind", "Names", "Report", "ticks"]
-
 FaultKind = Literal[
     "unknown vertex",
     "wrong home",

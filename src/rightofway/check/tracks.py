@@ -13,8 +13,6 @@ from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, tic
 from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
 
-__all__ = ["judge_drives", "judge_trips"]
-
 
 def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""

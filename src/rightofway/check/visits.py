@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from rightofway.model import Plan, Roadmap
 
-__all__ = ["Visits", "visits_of"]
-
 SAFE = 2**60
 """Sums of a few numbers below this stay within 64 bits; plans beyond it are judged in exact
 Python integers, which is slower."""

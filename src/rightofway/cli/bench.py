@@ -14,8 +14,6 @@ from rightofway.cli.terminal import as_json_option, put_json, say, writable
 if TYPE_CHECKING:
     from rightofway.bench import Case, Results, Row
 
-__all__ = ["bench"]
-
 EXAMPLES = """\b
 Examples:
   rightofway bench examples/suite.toml -o results.csv --report report.html

@@ -13,8 +13,6 @@ from rightofway.errors import InputError
 if TYPE_CHECKING:
     from rightofway.model import Scenario
 
-__all__ = ["convert", "schema"]
-
 EXAMPLES = """\b
 Examples:
   rightofway convert examples/warehouse.yaml warehouse.json

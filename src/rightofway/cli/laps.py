@@ -20,8 +20,6 @@ from rightofway.cli.terminal import (
     writable,
 )
 
-__all__ = ["laps"]
-
 EXAMPLES = """\b
 Examples:
   rightofway laps examples/door.yaml

@@ -22,8 +22,6 @@ from rightofway.cyclic import (
 )
 from rightofway.model import Scenario
 
-__all__ = ["comparison_lines", "laps_data", "laps_report"]
-
 HOUR = 3600
 """Time units of a scenario in an hour, if they are seconds."""
 

@@ -32,8 +32,6 @@ from rightofway.cli.terminal import say, speak_utf8
 from rightofway.cli.views import check, show, table
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
-__all__ = ["commands", "main", "run"]
-
 DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
 
 

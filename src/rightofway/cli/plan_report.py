@@ -7,10 +7,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rightofway.cli.terminal import COLUMNS, row, short, wrapped
-from rightofway.metrics import Metrics, Wait, measure, waits
-from rightofway.model import Decision, Plan
-
-__all__ = ["decision_log", "summary", "summary_data"]
+from rightofway.metrics import Metrics, measure, waits
+from rightofway.model import Decision, Plan, Wait
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""

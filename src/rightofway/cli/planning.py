@@ -26,8 +26,6 @@ from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-__all__ = ["improve", "plan", "refuse_outputs", "write"]
-
 SECONDS_PER_VISIT = 0.9e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""

@@ -23,8 +23,6 @@ from rightofway.cli.terminal import (
 if TYPE_CHECKING:
     from rightofway.execution import Outcome, Quantiles
 
-__all__ = ["report", "simulate"]
-
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
 

@@ -19,25 +19,6 @@ if TYPE_CHECKING:
     from rightofway.io import Loaded
     from rightofway.model import Plan, Scenario
 
-__all__ = [
-    "COLUMNS",
-    "ListingCommand",
-    "as_json_option",
-    "progress",
-    "put_json",
-    "read_either",
-    "read_scenario",
-    "row",
-    "say",
-    "seed_option",
-    "short",
-    "speak_utf8",
-    "time_limit_option",
-    "width",
-    "wrapped",
-    "writable",
-]
-
 COLUMNS = 80
 """Longest line of a report."""
 

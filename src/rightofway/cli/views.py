@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from rightofway.model import Plan
     from rightofway.viz.table import TimeSpaceTable
 
-__all__ = ["check", "show", "table"]
-
 SHOW_EXAMPLES = """\b
 Examples:
   rightofway show plan.json -o plan.html

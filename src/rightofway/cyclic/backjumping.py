@@ -23,8 +23,6 @@ from rightofway.model import Tick
 from rightofway.planners.conflict_resolution import Right, rights_if_waits
 from rightofway.precedence import Meeting
 
-__all__ = ["Decision", "RightOfWaySearch"]
-
 
 @dataclass(frozen=True, slots=True)
 class Decision:

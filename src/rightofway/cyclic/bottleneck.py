@@ -15,8 +15,6 @@ from typing import Literal
 from rightofway.model import Scenario, Tick, VertexId
 from rightofway.precedence import TimedEventGraph
 
-__all__ = ["Bottleneck", "Piece", "bottleneck_of", "in_words"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Piece:

@@ -32,8 +32,6 @@ from rightofway.cyclic.warmup import homes_of
 from rightofway.model import Lap
 from rightofway.search import PeriodicBookings
 
-__all__ = ["ClosingParams", "Stretch", "close_stretch", "closed_windows", "stretches"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClosingParams:

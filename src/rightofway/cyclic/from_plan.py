@@ -15,8 +15,6 @@ from rightofway.model import Itinerary, Scenario, Track, lap_of, route_of
 from rightofway.planners import Task
 from rightofway.planners.lacam import lacam
 
-__all__ = ["one_lap", "repeated_plan"]
-
 
 def repeated_plan(problem: CyclicProblem) -> Candidate | None:
     """Return the timetable of a joint plan; None if none was found in time.

@@ -21,8 +21,6 @@ from rightofway.cyclic.run import advance
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.planners import Deadline
 
-__all__ = ["RunChoiceParams", "SimulatedRun", "choose_runs", "extract_cycle"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunChoiceParams:

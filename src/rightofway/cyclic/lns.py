@@ -35,8 +35,6 @@ from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unrolled
 from rightofway.search import PeriodicBookings
 
-__all__ = ["InsertionParams", "LnsParams", "fill", "improve", "insert_all"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionParams:

@@ -15,8 +15,6 @@ from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule
 
-__all__ = ["History", "Pattern", "VisitTimes", "pattern_of"]
-
 History = Sequence[Sequence[int]]
 """For each robot the enters of its visits, from visit 0 on [ticks]."""
 

@@ -18,8 +18,6 @@ from rightofway.planners import Deadline
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import PeriodicBookings, RoundTrip
 
-__all__ = ["Candidate", "CyclicProblem", "RobotCycle"]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotCycle:

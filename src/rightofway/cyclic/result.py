@@ -19,8 +19,6 @@ from rightofway.cyclic.warmup import MeasuredLaps, measure
 from rightofway.model import NEVER, Scenario, Tick, VertexId
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 
-__all__ = ["BaselineEnds", "Comparison", "CyclicResult", "GroupResult", "LapWait"]
-
 BaselineEnds = Literal["repeats", "starves", "deadlock", "open"]
 
 Enters = Callable[[int, range], NDArray[np.int64]]

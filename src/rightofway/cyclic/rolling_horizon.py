@@ -26,8 +26,6 @@ from rightofway.planners import Deadline
 from rightofway.planners.two_level import by_two_levels
 from rightofway.precedence import Meeting, Segment
 
-__all__ = ["RollingHorizon", "two_level"]
-
 
 def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
     """Follow the paper: fewest conflicts left in the window, then least time for the two robots.

@@ -22,16 +22,6 @@ from rightofway.planners.routing import (
 )
 from rightofway.search import Distances
 
-__all__ = [
-    "ROUTES",
-    "CyclicRoute",
-    "GroupContext",
-    "avoid_homes",
-    "clear_and_direct",
-    "cyclic_routes",
-    "independent_groups",
-]
-
 ROUTES = ("clear", "direct", "shortest")
 """How round trips may be chosen; see `cyclic_routes`."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["NATIVE_RULES", "RULES", "TIMETABLE"]
-
 RULES = {
     "first-come": "the robot that would enter the shared segment first",
     "fixed-order": "the robot that the scenario lists first",

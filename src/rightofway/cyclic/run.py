@@ -14,14 +14,6 @@ from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline
 
-__all__ = [
-    "Simulation",
-    "advance",
-    "run_laps",
-    "share_time",
-    "simulation_of",
-]
-
 Simulation = CyclicSimulator | RollingHorizon
 """A group that repeats its laps under a rule."""
 

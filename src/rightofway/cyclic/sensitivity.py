@@ -24,8 +24,6 @@ from rightofway.precedence import (
     tight_arcs,
 )
 
-__all__ = ["ParameterEffect", "parameter_effects", "stages_at"]
-
 TEN_PER_CENT = {"speed": Fraction(1, 11)}
 """The part of its time that ten per cent of a parameter save; one tenth where it is not listed."""
 

@@ -19,8 +19,6 @@ from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
 from rightofway.planners import Deadline
 
-__all__ = ["CyclicSimulator", "Deadlock", "HorizonParams", "choose_pacemaker"]
-
 OPEN, REPEATS = 0, 1
 """Answers of the kernel; any other one is a deadlock."""
 

@@ -18,8 +18,6 @@ from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Scenario, Tick
 from rightofway.precedence import CyclicSchedule
 
-__all__ = ["start"]
-
 
 def start(
     scenario: Scenario,

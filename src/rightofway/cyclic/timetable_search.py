@@ -32,8 +32,6 @@ from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
 
-__all__ = ["ChoiceParams", "best_timetable"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChoiceParams:

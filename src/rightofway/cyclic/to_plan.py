@@ -15,8 +15,6 @@ from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
 
-__all__ = ["excerpt", "plan_of", "whole_laps"]
-
 
 def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
     """Turn a cyclic result into a plan that the judge has passed.

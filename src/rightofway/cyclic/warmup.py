@@ -24,8 +24,6 @@ from rightofway.cyclic.pattern import History
 from rightofway.cyclic.route import CyclicRoute
 from rightofway.model import Tick
 
-__all__ = ["MeasuredLaps", "homes_of", "measure"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredLaps:

@@ -22,8 +22,6 @@ from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
 
-__all__ = ["FrozenPrefix", "NumberedRight", "TooShort", "Window", "WindowRule"]
-
 NumberedRight = tuple[tuple[int, int], tuple[int, int]]
 """A right of way as (robot, number of its visit) twice; the first goes first."""
 

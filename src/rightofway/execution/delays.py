@@ -13,8 +13,6 @@ from rightofway.model import NEVER, Scenario
 from rightofway.model.values import exact
 from rightofway.precedence import DelayModel, Stoppage
 
-__all__ = ["CAUSES", "DEFAULT", "Cause", "Delay", "delay_model_of", "read_delays"]
-
 DEFAULT = "exponential:0.2"
 """The delays if none are given."""
 

@@ -17,8 +17,6 @@ from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
 from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution, PrecedenceGraph
 
-__all__ = ["Forecast", "Times"]
-
 Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
 

@@ -26,8 +26,6 @@ from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task
 from rightofway.precedence import ActionDependencyGraph, RunBatch, order_of
 
-__all__ = ["SHARE", "ExecutionMonitor", "ExecutionPolicy"]
-
 HORIZON = 2
 """Robots that stand still are waited for until this multiple of the makespan, planned or real."""
 

@@ -44,8 +44,6 @@ from rightofway.precedence import ActionDependencyGraph
 from rightofway.search import Distances, untimed_lacam
 from rightofway.solve import improve
 
-__all__ = ["Commitment", "Replanned", "closures_of", "commitment_of", "replan"]
-
 NEIGHBOURHOODS = 20
 """Neighbourhoods tried per robot; five times as many gain hardly more."""
 

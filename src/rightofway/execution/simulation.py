@@ -16,8 +16,6 @@ from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
-__all__ = ["simulate"]
-
 CHUNK = 1 << 20
 """Visits executed at a time; after each, time limit and Ctrl-C are looked at."""
 

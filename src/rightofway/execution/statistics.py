@@ -13,17 +13,6 @@ from numpy.typing import NDArray
 from rightofway.model import NEVER, ExecutionTrace, Plan, VertexId
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
-__all__ = [
-    "Collisions",
-    "Lateness",
-    "Outcome",
-    "PolicyGain",
-    "Quantiles",
-    "RobotLateness",
-    "Source",
-    "joined",
-]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantiles:

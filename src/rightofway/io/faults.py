@@ -14,15 +14,6 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
-__all__ = [
-    "MAX_FAULTS",
-    "Faults",
-    "blaming",
-    "checked",
-    "place_of",
-    "under",
-]
-
 MAX_FAULTS = 50
 """Faults of one document that are listed; further ones are counted."""
 

@@ -28,30 +28,6 @@ from rightofway.model import VertexId
 from rightofway.model.places import as_place
 from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
 
-__all__ = [
-    "CellSize",
-    "Count",
-    "Document",
-    "Kind",
-    "Lines",
-    "Name",
-    "NotNegative",
-    "Place",
-    "Position",
-    "Positive",
-    "Rectangle",
-    "Schema",
-    "Size",
-    "TickLength",
-    "Ticks",
-    "Turning",
-    "Words",
-    "described",
-    "exactly_one_of",
-    "optional",
-    "positive",
-]
-
 MAX_TICK = 2**53 - 1
 """Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""
 

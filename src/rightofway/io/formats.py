@@ -6,8 +6,6 @@ from typing import Any, Literal
 
 from rightofway.errors import InputError, shown
 
-__all__ = ["PLAN_FORMAT", "SCENARIO_FORMAT", "SUITE_FORMAT", "checked_format", "schema"]
-
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
 SUITE_FORMAT = "rightofway-suite/1"

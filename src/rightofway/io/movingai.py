@@ -20,8 +20,6 @@ from rightofway.io.faults import Faults, blaming
 from rightofway.io.text import read_text
 from rightofway.model import Grid, Roadmap, Scenario
 
-__all__ = ["ScenRow", "load_map", "load_scen", "write_map", "write_scen"]
-
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
 

@@ -21,8 +21,6 @@ from rightofway.io.fields import (
 from rightofway.io.scenario.shape import RulesDocument
 from rightofway.model.values import exact
 
-__all__ = ["MAX_SEED", "MapCasesDocument", "PlannerDocument", "SuiteDocument", "SuiteFleetDocument"]
-
 MAX_SEED = 2**32 - 1
 MAX_SIDE = 10_000
 MAX_WORK = 1_000_000

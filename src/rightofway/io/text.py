@@ -22,22 +22,6 @@ from typing import Any
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import blaming, place_of
 
-__all__ = [
-    "DELAY_FILES",
-    "MAX_ALIASED",
-    "MAX_BYTES",
-    "decimal",
-    "json_line",
-    "json_text",
-    "load_delays",
-    "parse_json",
-    "parse_toml",
-    "parse_yaml",
-    "read_document",
-    "read_text",
-    "whole",
-]
-
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
 

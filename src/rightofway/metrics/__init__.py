@@ -3,12 +3,11 @@
 from rightofway.metrics.alone import alone_completions
 from rightofway.metrics.collisions import Collision, collisions, free_running
 from rightofway.metrics.measure import Metrics, measure
-from rightofway.metrics.waits import Wait, waits
+from rightofway.metrics.waits import waits
 
 __all__ = [
     "Collision",
     "Metrics",
-    "Wait",
     "alone_completions",
     "collisions",
     "free_running",

@@ -20,8 +20,6 @@ from numpy.typing import NDArray
 from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
 
-__all__ = ["alone_completions"]
-
 Leg = tuple[VertexId, VertexId]
 """Two places of a trip that follow each other."""
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
 from rightofway.model.sorting import order_by
 
-__all__ = ["Bookings", "Collision", "bookings_of", "collisions", "free_running"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Bookings:

@@ -9,8 +9,6 @@ from typing import Any
 from rightofway.metrics.alone import alone_completions
 from rightofway.model import Plan, Tick, stays_of
 
-__all__ = ["Metrics", "measure"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Metrics:

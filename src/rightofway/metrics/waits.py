@@ -1,48 +1,16 @@
-"""Who waits where, how long and for whom: read from the plan alone."""
+"""The waits of a plan, read from its tracks alone: robot, place, ticks, robot waited for."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.metrics.collisions import Bookings, bookings_of
-from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
-
-__all__ = ["Wait", "waits", "waits_in"]
+from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, Wait, stays_of
 
 NOBODY = -1
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wait:
-    """A robot stands still with nothing to do.
-
-    Attributes
-    ----------
-    robot
-        Who, by index.
-    vertex
-        Where.
-    tick
-        When it begins: the robot has worked and turned, and might drive on [ticks].
-    ticks
-        How long it lasts [ticks].
-    towards
-        The vertex where the robot goes next.
-    for_robot
-        The robot that frees that vertex at the very tick from which this one books it: this one
-        waits for it. None if nobody does: then it waits for what comes later on its way.
-    """
-
-    robot: int
-    vertex: VertexId
-    tick: Tick
-    ticks: Tick
-    towards: VertexId
-    for_robot: int | None
 
 
 def waits(plan: Plan) -> tuple[Wait, ...]:

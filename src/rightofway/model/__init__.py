@@ -1,7 +1,7 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
-from rightofway.model.clustering import Floor, Obstacle, cluster, node_length
-from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Track
+from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.roadmap import (
     Edge,
@@ -16,6 +16,7 @@ from rightofway.model.route import (
     Lap,
     Route,
     Stays,
+    Track,
     completions_of,
     drives_along,
     flowtime_of,
@@ -63,6 +64,7 @@ __all__ = [
     "TripEnd",
     "Turn",
     "VertexId",
+    "Wait",
     "checked_time_limit",
     "choose_clock",
     "cluster",
@@ -79,6 +81,7 @@ __all__ = [
     "route_through",
     "serving_visits",
     "stays_of",
+    "steps_per_unit",
     "straight_length",
     "visits_of_laps",
 ]

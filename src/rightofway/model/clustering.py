@@ -18,8 +18,6 @@ import numpy as np
 
 from rightofway.errors import InputError, InputFault
 
-__all__ = ["MAX_CELLS", "Floor", "Obstacle", "cluster", "node_length"]
-
 MAX_CELLS = 1_000_000
 """More cells than this are refused, unless a scenario raises the limit."""
 
@@ -99,6 +97,17 @@ def node_length(speeds: Iterable[Fraction]) -> Fraction:
     Fraction(1, 2)
     """
     return min(1 / speed for speed in speeds)
+
+
+def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
+    """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
+
+    Examples
+    --------
+    >>> [int(steps_per_unit(Fraction(v), Fraction(1, 2))) for v in (1, 2)]
+    [2, 4]
+    """
+    return speed / length
 
 
 def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:

@@ -11,8 +11,6 @@ from rightofway.errors import InputError, is_printable, nearest, shown
 from rightofway.model.roadmap import Grid, Roadmap
 from rightofway.model.units import VertexId
 
-__all__ = ["Place", "as_place", "vertex_at"]
-
 Place = str | tuple[int, int]
 """``N<k>`` (row-major number) or a vertex name; or (row, column)."""
 

@@ -2,73 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.model.robot import Robot
+from rightofway.model.route import Track, completions_of
 from rightofway.model.scenario import Scenario
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick, VertexId
 
-if TYPE_CHECKING:
-    from rightofway.metrics import Wait
-
-__all__ = ["Decision", "Plan", "PlannerRun", "Reroute", "RobotPlan", "Track"]
-
 T = TypeVar("T")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Track:
-    """The route of one robot with the times of its visits.
-
-    Attributes
-    ----------
-    vertices
-        The route; int32, shape (n,), at least one.
-    enter
-        When each visit begins [ticks]; int64, shape (n,). A visit's leave is the next one's enter;
-        the last visit has none.
-    """
-
-    vertices: NDArray[np.int32]
-    enter: NDArray[np.int64]
-
-    def __post_init__(self) -> None:
-        if len(self.vertices) != len(self.enter) or not len(self.vertices):
-            counts = f"{len(self.vertices)} vertices and {len(self.enter)} times"
-            raise InputError.at("", f"{counts} (give as many of both, at least one)")
-        self.vertices.flags.writeable = self.enter.flags.writeable = False
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Track):
-            return NotImplemented
-        return np.array_equal(self.vertices, other.vertices) and np.array_equal(
-            self.enter, other.enter
-        )
-
-    def __hash__(self) -> int:
-        return hash((self.vertices.tobytes(), self.enter.tobytes()))
-
-    def __len__(self) -> int:
-        return len(self.vertices)
-
-    def __repr__(self) -> str:
-        count = "1 visit" if len(self) == 1 else f"{len(self)} visits"
-        ends = f"{self.vertices[0]} to {self.vertices[-1]}"
-        return f"Track({count}, vertex {ends}, tick {self.enter[0]} to {self.enter[-1]})"
-
-    @classmethod
-    def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
-        """Make a track from any sequences."""
-        return cls(vertices=np.array(vertices, np.int32), enter=np.array(enter, np.int64))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,6 +149,35 @@ class RobotPlan:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Wait:
+    """A robot stands still with nothing to do.
+
+    Attributes
+    ----------
+    robot
+        The robot that waits, by index.
+    vertex
+        Where it waits.
+    tick
+        When it begins: the robot has worked and turned, and might drive on [ticks].
+    ticks
+        How long it lasts [ticks].
+    towards
+        The vertex where the robot goes next.
+    for_robot
+        The robot that frees that vertex at the very tick from which the waiting robot books it.
+        None if no robot does: then the reason lies further on the route.
+    """
+
+    robot: int
+    vertex: VertexId
+    tick: Tick
+    ticks: Tick
+    towards: VertexId
+    for_robot: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
     """Routes and times for all robots of a scenario; ``plan["R1"]`` is the part of one robot.
 
@@ -251,9 +227,8 @@ class Plan:
 
     def _repr_html_(self) -> str:
         """Return the page of the plan in a frame, for notebooks."""
-        from rightofway.viz import frame_of
-
-        return frame_of(self)
+        page: str = _from_above("frame_of")(self)
+        return page
 
     def once(self, figure: str, compute: Callable[[], T]) -> T:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
@@ -265,8 +240,6 @@ class Plan:
     @property
     def completions(self) -> tuple[Tick, ...]:
         """When each robot has done its work and is at its last vertex [ticks]."""
-        from rightofway.model.route import completions_of
-
         return self.once("completions", lambda: completions_of(self.scenario, self.tracks))
 
     @property
@@ -288,16 +261,13 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        from rightofway.metrics import alone_completions
-
-        return Tick(sum(self.run.alone or alone_completions(self.scenario)))
+        alone = self.run.alone or _from_above("alone_completions")(self.scenario)
+        return Tick(sum(alone))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        from rightofway.metrics import waits
-
-        return self.once("waits", lambda: waits(self))
+        return self.once("waits", lambda: _from_above("waits")(self))
 
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
@@ -371,3 +341,16 @@ class Plan:
 
 FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
 """Packages that a table can be made with, the first choice first."""
+
+ROOMS_ABOVE = {
+    "alone_completions": "rightofway.metrics",
+    "frame_of": "rightofway.viz",
+    "waits": "rightofway.metrics",
+}
+"""Functions that answer for a plan, by name: the model imports no room above, and works without."""
+
+
+def _from_above(function: str) -> Callable[..., Any]:
+    """Return a function of a room above, imported when a plan is asked for it."""
+    found: Callable[..., Any] = getattr(import_module(ROOMS_ABOVE[function]), function)
+    return found

@@ -11,8 +11,6 @@ from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
-__all__ = ["Itinerary", "Problem", "Stage", "least_dwell", "problem_of"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stage:

@@ -18,8 +18,6 @@ from rightofway.model.values import DIGITS, Number, coerced, length, number
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Edge", "Grid", "Roadmap", "roadmap_of_edges", "roadmap_of_grid", "straight_length"]
-
 FREE = frozenset(".GS")
 """Grid characters that a robot may stand on; every other one is blocked."""
 

@@ -20,8 +20,6 @@ from rightofway.model.values import (
     word_of,
 )
 
-__all__ = ["Occupancy", "Robot", "Rules", "Stop", "TripEnd", "Turn"]
-
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
 

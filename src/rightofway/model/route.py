@@ -16,27 +16,57 @@ from itertools import takewhile
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.plan import Track
+from rightofway.errors import InputError
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick, VertexId
 
-__all__ = [
-    "Lap",
-    "Route",
-    "Stays",
-    "completions_of",
-    "drives_along",
-    "flowtime_of",
-    "lap_of",
-    "route_along",
-    "route_of",
-    "route_through",
-    "serving_visits",
-    "stays_of",
-    "visits_of_laps",
-]
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Track:
+    """The route of one robot with the times of its visits.
+
+    Attributes
+    ----------
+    vertices
+        The route; int32, shape (n,), at least one.
+    enter
+        When each visit begins [ticks]; int64, shape (n,). A visit's leave is the next one's enter;
+        the last visit has none.
+    """
+
+    vertices: NDArray[np.int32]
+    enter: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        if len(self.vertices) != len(self.enter) or not len(self.vertices):
+            counts = f"{len(self.vertices)} vertices and {len(self.enter)} times"
+            raise InputError.at("", f"{counts} (give as many of both, at least one)")
+        self.vertices.flags.writeable = self.enter.flags.writeable = False
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Track):
+            return NotImplemented
+        return np.array_equal(self.vertices, other.vertices) and np.array_equal(
+            self.enter, other.enter
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.vertices.tobytes(), self.enter.tobytes()))
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    def __repr__(self) -> str:
+        count = "1 visit" if len(self) == 1 else f"{len(self)} visits"
+        ends = f"{self.vertices[0]} to {self.vertices[-1]}"
+        return f"Track({count}, vertex {ends}, tick {self.enter[0]} to {self.enter[-1]})"
+
+    @classmethod
+    def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
+        """Make a track from any sequences."""
+        return cls(vertices=np.array(vertices, np.int32), enter=np.array(enter, np.int64))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

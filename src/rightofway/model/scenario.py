@@ -11,8 +11,6 @@ from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
 
-__all__ = ["Scenario"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:

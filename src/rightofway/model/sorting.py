@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["order_by"]
-
 MOST_BITS = 63
 """Bits of a key; NumPy sorts one integer a row many times as fast as several."""
 

@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from rightofway.errors import InputError
 from rightofway.model.units import Tick
 
-__all__ = ["SteadyState", "refuse_unknown_robots", "within"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SteadyState:

@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.model.plan import Track
+from rightofway.model.route import Track
 from rightofway.model.units import Tick
-
-__all__ = ["ExecutionTrace"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

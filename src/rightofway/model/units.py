@@ -18,16 +18,6 @@ from rightofway.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = [
-    "MAX_TICKS_OF_SHORTEST",
-    "NEVER",
-    "Clock",
-    "Tick",
-    "VertexId",
-    "checked_time_limit",
-    "choose_clock",
-]
-
 Tick = NewType("Tick", int)
 VertexId = NewType("VertexId", int)
 

@@ -12,25 +12,6 @@ from typing import Any, Literal, TypeVar, get_args
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.units import VertexId
 
-__all__ = [
-    "COORDINATE_DIGITS",
-    "DIGITS",
-    "PATTERN",
-    "Number",
-    "coerced",
-    "exact",
-    "length",
-    "number",
-    "optional",
-    "text",
-    "truth",
-    "turning",
-    "vertex",
-    "whole_number",
-    "word_of",
-    "written",
-]
-
 T = TypeVar("T")
 
 Number = int | float | str | Decimal | Fraction

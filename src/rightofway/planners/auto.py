@@ -18,8 +18,6 @@ from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import two_level
 
-__all__ = ["auto"]
-
 FEW = 60
 """A fleet is small with at most this many robots."""
 

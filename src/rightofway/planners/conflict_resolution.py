@@ -32,17 +32,6 @@ from rightofway.precedence import (
 )
 from rightofway.search import Booking, Bookings, Distances, earliest_track
 
-__all__ = [
-    "PartialPlan",
-    "Resolution",
-    "Right",
-    "Rule",
-    "plan_by_rule",
-    "plan_on_routes",
-    "reroute",
-    "rights_if_waits",
-]
-
 SHARE = 0.8
 """The part of the time for rights of way; the rest is for planning the whole fleet."""
 

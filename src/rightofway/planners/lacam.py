@@ -31,8 +31,6 @@ from rightofway.planners.task import Draft, Task, planning_headway, planning_pro
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Distances, plan_by_lacam, untimed_lacam
 
-__all__ = ["lacam", "plan_fleet", "timetable_in_order", "timetable_of"]
-
 SHARE_OF_TIME = 0.9
 """The part of the time for the timed search."""
 

@@ -28,8 +28,6 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
-__all__ = ["improved", "lns"]
-
 SHARE = 0.9
 """The part of the time for LaCAM, which makes a first plan."""
 

@@ -32,8 +32,6 @@ from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
 
-__all__ = ["LocalSearch", "local_search"]
-
 MOST_FAVOURS = 3
 """How many robots are favoured or disfavoured in a round, at most."""
 

@@ -12,22 +12,6 @@ from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type
 
 from rightofway.errors import InputError, nearest
 
-__all__ = [
-    "AutoOptions",
-    "LacamOptions",
-    "Least",
-    "LnsOptions",
-    "LocalSearchOptions",
-    "Option",
-    "PlannerOptions",
-    "PrioritizedOptions",
-    "PriorityOptions",
-    "PrioritySearchOptions",
-    "RandomPriorityOptions",
-    "TwoLevelOptions",
-    "unknown",
-]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:

@@ -48,8 +48,6 @@ from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting
 
-__all__ = ["by_priority", "fixed_priority", "priority_search", "random_priority"]
-
 Order = Sequence[int]
 """The robots, that of highest priority first."""
 

@@ -25,8 +25,6 @@ from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 
-__all__ = ["MOST_ROBOTS", "fleet_search", "plan_in_turn", "prioritized"]
-
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
 

@@ -13,8 +13,6 @@ from rightofway.planners import options
 from rightofway.planners.options import Option, PlannerOptions
 from rightofway.planners.task import Planner
 
-__all__ = ["DEFAULT", "IMPROVER", "PlannerSpec", "find", "registered"]
-
 
 @dataclass(frozen=True, slots=True)
 class PlannerSpec:

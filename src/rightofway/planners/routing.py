@@ -11,17 +11,6 @@ from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
 from rightofway.planners.task import Task
 from rightofway.search import Congestion, Distances
 
-__all__ = [
-    "chosen_routes",
-    "clear_routes",
-    "direct_routes",
-    "refuse_shared_ends",
-    "refuse_the_impossible",
-    "refuse_unreachable",
-    "shortest_route",
-    "shortest_routes",
-]
-
 
 def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
     """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks.

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Problem, Reroute, Scenario, Tick, Track
 
-__all__ = ["Deadline", "Draft", "Planner", "Task", "planning_headway", "planning_problem"]
-
 
 @dataclass(frozen=True, slots=True)
 class Deadline:

@@ -40,8 +40,6 @@ from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment
 
-__all__ = ["by_two_levels", "two_level"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Option:

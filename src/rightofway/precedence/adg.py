@@ -22,16 +22,6 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
 
-__all__ = [
-    "ActionDependencyGraph",
-    "DelayModel",
-    "DelaySample",
-    "Execution",
-    "RunBatch",
-    "Stoppage",
-    "order_of",
-]
-
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
 

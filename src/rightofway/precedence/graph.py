@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
 
-__all__ = ["Meeting", "PrecedenceGraph", "Visit", "graph_of"]
-
 Visit = int
 """A visit's number in the graph: the robots' routes one behind the other."""
 

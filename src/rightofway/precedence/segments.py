@@ -14,8 +14,6 @@ from typing import Literal
 
 from rightofway.model import Route, VertexId
 
-__all__ = ["Segment", "crossing", "shared_segment"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Segment:

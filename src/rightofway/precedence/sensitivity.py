@@ -19,8 +19,6 @@ from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, circuit_of
 
-__all__ = ["Sensitivity", "critical_circuit_without", "sensitivity", "tight_arcs"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensitivity:

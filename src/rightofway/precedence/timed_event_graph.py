@@ -26,8 +26,6 @@ from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, visits_of_laps
 
-__all__ = ["Arcs", "Circuit", "CyclicSchedule", "TimedEventGraph", "unrolled"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicSchedule:

@@ -19,8 +19,6 @@ from rightofway.model import Itinerary, Problem, VertexId
 from rightofway.search.distances import Distances, Path
 from rightofway.search.native import bound
 
-__all__ = ["Congestion"]
-
 SHARES = 16
 """In how many shares a tick is counted, if all robots cost the same."""
 

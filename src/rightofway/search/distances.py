@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Roadmap, Tick, VertexId
 
-__all__ = ["Distances", "Path"]
-
 Path = tuple[VertexId, ...]
 """The vertices of a path, both ends included."""
 

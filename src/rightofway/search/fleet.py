@@ -13,8 +13,6 @@ from rightofway import _core
 from rightofway.model import Problem, Scenario, Tick, Track
 from rightofway.search.native import bound, tracks_of
 
-__all__ = ["FleetSearch", "alone_completions"]
-
 
 def alone_completions(
     scenario: Scenario, *, time_limit: float | None = None

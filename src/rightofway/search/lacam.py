@@ -20,8 +20,6 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.search.native import bound, tracks_of
 
-__all__ = ["plan_by_lacam", "untimed_lacam"]
-
 FOUND, PROVEN_NONE = 0, 1
 
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Problem, Tick, Track
 
-__all__ = ["bound", "compiler", "tracks_of"]
-
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 
 

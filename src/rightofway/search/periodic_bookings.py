@@ -20,8 +20,6 @@ from rightofway import _core
 from rightofway.model import NEVER, Itinerary, Lap, Roadmap, Stage, Tick, VertexId, visits_of_laps
 from rightofway.search.distances import Distances
 
-__all__ = ["PeriodicBookings", "RoundTrip"]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RoundTrip:

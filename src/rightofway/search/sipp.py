@@ -17,8 +17,6 @@ from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.search.distances import Distances
 from rightofway.search.native import bound
 
-__all__ = ["Booking", "Bookings", "earliest_track"]
-
 STOPPED = 2
 
 

@@ -13,8 +13,6 @@ from enum import Enum
 
 from rightofway.model import NEVER, Plan, Stage, stays_of
 
-__all__ = ["Activity", "Moment", "Trip", "end_of", "trips_of"]
-
 
 class Activity(Enum):
     """What a robot does."""

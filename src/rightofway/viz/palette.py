@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
-__all__ = ["DARK", "LIGHT", "Theme", "ink_on", "mix", "robot_colours"]
-
 GOLDEN_ANGLE = 137.50776
 """Degrees; turning by it, hues stay apart however many there are."""
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from rightofway.model import Roadmap
 
-__all__ = ["MAX_ROBOTS", "MAX_VERTICES", "Plane", "plane_of", "vertices_in_line"]
-
 SHORT = 0.1
 """Share of edges that may be shorter than a unit, so that one tiny edge does not shrink robots."""
 

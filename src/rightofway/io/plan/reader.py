@@ -35,8 +35,6 @@ if TYPE_CHECKING:
         TrackDocument,
     )
 
-__all__ = ["load_either", "load_plan", "plan_of"]
-
 D = TypeVar("D", bound="BaseModel")
 T = TypeVar("T")
 

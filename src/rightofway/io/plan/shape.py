@@ -9,17 +9,6 @@ from pydantic import Field
 from rightofway.io.fields import Document, Name, NotNegative, TickLength, Ticks, Words
 from rightofway.io.scenario.shape import ScenarioDocument
 
-__all__ = [
-    "DecisionDocument",
-    "PlanDocument",
-    "PlanFrame",
-    "PlannerDocument",
-    "RerouteDocument",
-    "SteadyDocument",
-    "TrackDocument",
-    "VisitDocument",
-]
-
 PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
 PairOfCounts = Annotated[list[Ticks | None], Field(min_length=2, max_length=2)]
 

@@ -13,8 +13,6 @@ from rightofway.io.text import json_text
 from rightofway.model import Decision, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.values import written
 
-__all__ = ["dump_plan", "plan_text", "write_plan"]
-
 
 def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     """Return a plan as a document.

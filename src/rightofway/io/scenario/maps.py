@@ -35,8 +35,6 @@ if TYPE_CHECKING:
         RoadmapDocument,
     )
 
-__all__ = ["LoadedMap", "file_beside", "map_of"]
-
 Point = tuple[Fraction, Fraction]
 
 

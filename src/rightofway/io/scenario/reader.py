@@ -26,8 +26,6 @@ from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import FleetDocument, TripDocument
 
-__all__ = ["MAX_STAGES", "Loaded", "load", "load_with_notes", "read_scenario", "scenario_of"]
-
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
 

@@ -29,19 +29,6 @@ from rightofway.io.fields import (
 )
 from rightofway.model import Occupancy, TripEnd, VertexId
 
-__all__ = [
-    "EdgeDocument",
-    "FleetDocument",
-    "FloorDocument",
-    "MapDocument",
-    "RoadmapDocument",
-    "RobotDocument",
-    "RulesDocument",
-    "ScenarioDocument",
-    "ScenarioFrame",
-]
-
-
 PLACES = "N<k>, [row, column] or a vertex name"
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
 RETURN = "home, or none"

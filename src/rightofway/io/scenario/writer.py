@@ -12,8 +12,6 @@ from rightofway.io.text import json_text
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn
 from rightofway.model.values import written
 
-__all__ = ["dump_scenario", "write_scenario"]
-
 
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     """Return a scenario as a document, its map inlined, its numbers exact.

@@ -21,8 +21,6 @@ from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
-__all__ = ["frame_of", "page_of", "write_page"]
-
 FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
 

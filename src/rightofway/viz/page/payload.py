@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.metrics import Metrics, Wait, measure, waits
+from rightofway.metrics import Metrics, measure, waits
 from rightofway.metrics.waits import waits_in
 from rightofway.model import (
     Decision,
@@ -25,13 +25,12 @@ from rightofway.model import (
     SteadyState,
     Tick,
     Track,
+    Wait,
 )
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import plane_of, vertices_in_line
-
-__all__ = ["payload_of"]
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""

@@ -12,8 +12,6 @@ from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.palette import Theme, mix, robot_colours
 from rightofway.viz.placement import plane_of
 
-__all__ = ["Pen", "Point", "Scene"]
-
 Point = tuple[float, float]
 
 SMALL_CELL = 13

@@ -17,8 +17,6 @@ from rightofway.viz.palette import mix
 from rightofway.viz.placement import vertices_in_line
 from rightofway.viz.raster.canvas import Pen, Scene
 
-__all__ = ["Diagram"]
-
 MOST_ROWS = 60
 """Of robots; a larger fleet is counted."""
 

@@ -11,8 +11,6 @@ from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Pen, Scene
 
-__all__ = ["draw_ground", "draw_robots"]
-
 MOST_LANES = 5
 LANES_WIDTH = 0.4
 """Of all lanes side by side [cells]."""

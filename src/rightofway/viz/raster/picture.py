@@ -18,8 +18,6 @@ from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.diagram import Diagram
 from rightofway.viz.raster.map import draw_ground, draw_robots
 
-__all__ = ["Film", "write_gif", "write_png"]
-
 MARGIN = 24
 MOST_PIXELS = 60_000_000
 

@@ -15,10 +15,6 @@ from rightofway.errors import InputError, InputFault
 from rightofway.metrics import collisions, free_running, waits
 from rightofway.model import NEVER, Plan, Roadmap, Scenario, Tick, Track, completions_of
 
-__all__ = [
-    "MAX_CELLS", "Cell", "Mark", "Place", "Row", "RowKind", "Run", "TimeSpaceTable", "table_of",
-]  # fmt: skip
-
 MAX_CELLS = 2_000_000
 """Larger tables than this are not written out."""
 

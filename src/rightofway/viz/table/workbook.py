@@ -10,8 +10,6 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 
 from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
-__all__ = ["workbook_of"]
-
 Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
 
 FILLS: dict[Mark | None, Any] = {

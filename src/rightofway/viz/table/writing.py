@@ -11,8 +11,6 @@ from unicodedata import combining, east_asian_width
 from rightofway.files import write_whole
 from rightofway.viz.table.timespace import MAX_CELLS, Cell, Mark, TimeSpaceTable
 
-__all__ = ["as_text", "write_csv", "write_xlsx"]
-
 MAX_TICKS_OF_SHEET = 16_384 - 2
 """A sheet has 16384 columns; the first two are robot and kind of row."""
 
