@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.model import Floor, Obstacle, cluster, node_length
+from rightofway.model import Floor, Obstacle, cluster, node_length, steps_per_unit
 
 
 def test_node_clustering_gives_the_numbers_of_the_paper() -> None:
@@ -13,7 +13,7 @@ def test_node_clustering_gives_the_numbers_of_the_paper() -> None:
     speeds = [Fraction(1), Fraction(2)]
     length = node_length(speeds)
     assert length == Fraction(1, 2)
-    assert [speed / length for speed in speeds] == [2, 4]
+    assert [steps_per_unit(speed, length) for speed in speeds] == [2, 4]
 
 
 def obstacle(x: str, y: str, width: str, height: str) -> Obstacle:
