@@ -3,8 +3,8 @@
 namespace rightofway {
 namespace {
 
-constexpr double memory = 0.97;    // of a record, from use to use
-constexpr double curiosity = 0.3;  // the share of draws that is even
+constexpr double memory = 0.97;    // decay of a record per use
+constexpr double curiosity = 0.3;  // share of uniform draws
 
 }  // namespace
 

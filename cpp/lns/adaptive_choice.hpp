@@ -1,5 +1,5 @@
-// Which of several ways to try next: those drawn more often that have brought more of late for the
-// effort they took.
+// Adaptive random choice among options: the probability of an option follows its recent gain
+// divided by its effort.
 //
 // Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
 // problem with time windows", Transportation Science 2006 (weights).
@@ -18,7 +18,7 @@ class AdaptiveChoice {
 
     std::size_t draw(Random& random) const;
 
-    // Notes what an option has brought; the weights take that up when `settle` is called.
+    // Records gain and effort of an option; `settle` updates the weights.
     void learn(std::size_t option, double gain, double effort);
     void settle();
 
