@@ -71,7 +71,7 @@ class SpaceUtilization {
     std::vector<Tick> ended_from_;         // of each vertex: earliest end of a trip there
     std::vector<std::int64_t> edge_cost_;  // of each edge: cost against earlier paths
     std::vector<std::int64_t> into_cost_;  // of each vertex: cost of earlier paths
-    std::vector<Hop> hops_;                // of all paths; those of one path by `from`
+    std::vector<Hop> hops_;                // of all paths; within a path by `from`
     std::vector<std::size_t> first_hop_;   // of each stage
     std::vector<std::size_t> end_hop_;
     std::int64_t credit_ = 0;  // number of vertices that may still be opened
