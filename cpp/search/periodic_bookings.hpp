@@ -9,8 +9,8 @@
 // mathematical model for periodic scheduling problems", SIAM Journal on Discrete Mathematics 2,
 // 1989). The visits of a robot repeat, too: the first visit follows the last visit. The track
 // closes if the robot enters its start gap again at most P ticks after its start. If the robot
-// returns d ticks later, the search moves the start by d and repeats, until the track closes or the
-// gap ends; then it tries the next gap. The search is complete for its visits, with one exception:
+// returns d ticks too late, the search moves the start by d and repeats, until the track closes or
+// the gap ends; then it tries the next gap. The search is complete for its visits, with one exception:
 // if no other robot visits the first vertex, each phase is possible, and only the given phase is
 // tried.
 //
@@ -64,7 +64,7 @@ class PeriodicBookings {
     // repeats, and the robot may have no bookings; returns false and books nothing if a booking
     // overlaps a booking of another robot. Without a period: the last visit lasts until `leave`, a
     // robot may book several times, and bookings may overlap (no gap between them). Throws
-    // std::invalid_argument, with nothing booked, if the robot or the arrays do not fit.
+    // std::invalid_argument, with nothing booked, if the arguments do not fit.
     bool add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
              std::optional<Tick> leave = std::nullopt);
 

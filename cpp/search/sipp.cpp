@@ -99,8 +99,8 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopConditi
     return search(never, is_over);
 }
 
-// Whether bookings of the last vertex end after the robot could arrive, and the bound `least_f_` is
-// to wait for all of them.
+// Whether bookings of the last vertex raise the bound above the completion time alone, and the
+// bound is to wait for all of them.
 bool SafeIntervalSearch::is_worth_aiming() const {
     const auto last = bookings_->at(trip_->stage_vertex.back());
     return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
