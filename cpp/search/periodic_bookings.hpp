@@ -10,9 +10,9 @@
 // 1989). The visits of a robot repeat, too: the first visit follows the last visit. The track
 // closes if the robot enters its start gap again at most P ticks after its start. If the robot
 // returns d ticks too late, the search moves the start by d and repeats, until the track closes or
-// the gap ends; then it tries the next gap. The search is complete for its visits, with one exception:
-// if no other robot visits the first vertex, each phase is possible, and only the given phase is
-// tried.
+// the gap ends; then it tries the next gap. The search is complete for its visits, with one
+// exception: if no other robot visits the first vertex, each phase is possible, and only the given
+// phase is tried.
 //
 // Without a period, time is a line; example: the ticks around the closing of a simulated run.
 #pragma once
