@@ -1,4 +1,4 @@
-// The directed graph that robots drive on, borrowed, in compressed rows.
+// The directed graph of a roadmap, borrowed, in compressed sparse rows (CSR).
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 namespace rightofway {
 
 struct Graph {
-    std::span<const EdgeId> indptr;     // the edges that leave v: indptr[v] .. indptr[v + 1] - 1
-    std::span<const VertexId> indices;  // where each edge ends
+    std::span<const EdgeId> indptr;     // edges out of v: indptr[v] .. indptr[v + 1] - 1
+    std::span<const VertexId> indices;  // head of each edge
 
     VertexId n_vertices() const { return static_cast<VertexId>(indptr.size()) - 1; }
     std::span<const VertexId> heads(VertexId v) const {
         const auto first = static_cast<std::size_t>(indptr[v]);
         return indices.subspan(first, static_cast<std::size_t>(indptr[v + 1]) - first);
     }
-    // The edge from one vertex to another, -1 if there is none.
+    // The edge from tail to head, -1 if the graph has none.
     EdgeId edge(VertexId tail, VertexId head) const {
         for (EdgeId e = indptr[tail]; e < indptr[tail + 1]; ++e) {
             if (indices[e] == head) {
@@ -29,13 +29,13 @@ struct Graph {
     }
 };
 
-// A graph whose edges fall into classes of one length each.
+// A graph with a length class for each edge; edges of one class have equal length.
 struct Roads {
     Graph graph;
     std::span<const std::int32_t> length_class;  // of each edge
 };
 
-// Throws std::invalid_argument, naming the array, the index and the value, if that is no graph.
+// Throws std::invalid_argument with array, index and value if the arrays form no graph.
 void require_graph(const Graph& graph);
 
 }  // namespace rightofway

@@ -1,6 +1,6 @@
-// The nodes that a search has yet to look at, least key first.
+// The open list of a search: a priority queue of nodes, least key first.
 //
-// A heap of four children a node: half as deep as one of two, and its children share a cache line.
+// A 4-ary heap: half as deep as a binary heap, and the children of a node share a cache line.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@ class OpenList {
   public:
     struct Entry {
         std::uint64_t key;
-        std::int32_t node;  // makes the order total
+        std::int32_t node;  // breaks ties, so the order is total
     };
 
-    // The first number counts, then the second one. No plan comes near these bounds; beyond them
-    // only the order would suffer.
+    // Packs two numbers into one key: order by `first`, then by `second`. Plans stay far below the
+    // bounds; larger numbers are clipped, which changes only the order.
     static std::uint64_t key(Tick first, Tick second) {
         constexpr int bits = 26;
         constexpr Tick most_first = (Tick{1} << (63 - bits)) - 1;

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine and with every standard library.
+// A random number generator with equal output on every machine and with every standard library.
 //
 // Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 (SplitMix64).
 #pragma once
@@ -14,7 +14,7 @@ class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
 
-    // A stream of its own for each of several uses of one seed.
+    // An independent stream for each pair (use, index) of one seed.
     Random(std::uint64_t seed, std::uint64_t use, std::uint64_t index)
         : state_(mix(mix(seed + 1) ^ mix(2 * use + 1)) ^ mix(~index)) {}
 
@@ -23,7 +23,7 @@ class Random {
         return mix(state_);
     }
 
-    // One of 0 .. n - 1.
+    // A random integer in 0 .. n - 1.
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
 
     template <class T>

@@ -1,5 +1,5 @@
-// One way to refuse input: "name[index]: value what-is-wrong", so that whoever wrote the array can
-// find the entry. The binding turns std::invalid_argument into ValueError.
+// Input faults of the core: std::invalid_argument with the text "name[index]: value fault".
+// The text locates the entry in its array. The binding turns the exception into ValueError.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace rightofway {
     reject(name + "[" + std::to_string(index) + "]", value, what);
 }
 
-// Ids of one numbering are 0 .. count-1.
+// Throws unless the id is in 0 .. count - 1.
 inline void require_id(const std::string& name, std::int64_t id, std::int64_t count) {
     if (id < 0 || id >= count) {
         reject(name, id, "is not in 0.." + std::to_string(count - 1));

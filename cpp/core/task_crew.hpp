@@ -1,7 +1,7 @@
-// Tasks that do not need each other's results, on several threads.
+// A thread pool for independent tasks.
 //
-// Each thread takes the next task until none is left. The calling thread works as well, and it
-// alone asks whether to stop: that may need the interpreter, and may throw.
+// Each thread takes the next task until none is left. The calling thread works, too. Only the
+// calling thread evaluates the stop condition, which may need the interpreter and may throw.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace rightofway {
 
 class TaskCrew {
   public:
-    // Does a task, or part of it if told to stop.
+    // Does one task; returns early once `is_over` is true.
     using Work =
         std::function<void(std::size_t worker, std::size_t task, const StopCondition& is_over)>;
 
@@ -26,10 +26,10 @@ class TaskCrew {
     // means the same and is kept, so that the caller can tidy up before it calls `pass_on`.
     void run(std::size_t n_tasks, const Work& work, const StopCondition& is_over);
 
-    // Whether the last run was told to stop.
+    // Whether `is_over` stopped the last run.
     bool is_stopped() const { return is_stopped_; }
 
-    // Throws what `is_over` threw in the last run, if anything, once.
+    // Rethrows the exception that `is_over` threw in the last run, if any; only once.
     void pass_on();
 
   private:
@@ -39,7 +39,7 @@ class TaskCrew {
     std::atomic<std::size_t> next_task_ = 0;
     std::atomic<bool> is_stopped_ = false;
     std::exception_ptr thrown_;
-    std::chrono::steady_clock::time_point asked_;  // runs may be shorter than questions are apart
+    std::chrono::steady_clock::time_point asked_;  // kept between runs: runs may be short
 };
 
 }  // namespace rightofway

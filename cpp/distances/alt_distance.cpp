@@ -22,11 +22,11 @@ AltDistance::AltDistance(const Graph& graph, const DistanceTables& tables)
     }
 }
 
-// Each landmark is as far as can be from those before it; the first one from vertex 0.
+// Each landmark is farthest from the landmarks before it; the first landmark from vertex 0.
 void AltDistance::choose_landmarks(const DistanceTables& tables) {
     std::vector<std::uint16_t> counts;
     if (!tables.steps_to(0, counts)) {
-        return;  // without landmarks it is a search in all directions
+        return;  // without landmarks: breadth-first search
     }
     std::vector<std::uint16_t> nearest(counts);
     const auto nearness = [](std::uint16_t steps) { return steps == unreachable ? 0 : steps; };
@@ -44,7 +44,7 @@ void AltDistance::choose_landmarks(const DistanceTables& tables) {
     }
 }
 
-// From a vertex to the target it is at least so far.
+// A lower bound of the distance from a vertex to the target.
 std::int32_t AltDistance::bound(VertexId vertex) const {
     const Row& row = rows_[vertex];
     std::int32_t most = 0;
@@ -53,7 +53,7 @@ std::int32_t AltDistance::bound(VertexId vertex) const {
             continue;
         }
         if (row[k] == unreachable) {
-            return endless;  // it would lead on from the target
+            return endless;  // a path to the target would continue to the landmark
         }
         most = std::max(most, std::int32_t{row[k]} - std::int32_t{target_row_[k]});
     }
@@ -97,7 +97,7 @@ std::int32_t AltDistance::between(VertexId from, VertexId target) {
                 return steps;
             }
             if (steps + bound(vertex) - first_bound_ < static_cast<std::int32_t>(k)) {
-                continue;  // reached by a shorter way since
+                continue;  // outdated: the vertex has a shorter path
             }
             for (const VertexId head : graph_.heads(vertex)) {
                 reach(head, steps + 1);

@@ -1,8 +1,8 @@
-// How many edges is it from one vertex to another? Asked once each of many pairs.
+// The number of edges between single pairs of vertices, without a table for each target.
 //
-// A table for each target would be made to read one number. A* with landmarks finds it on a few
-// vertices beside the way: how far a vertex is from a landmark, less how far the target is from
-// it, is a bound from below, and landmarks at the ends of the map make it a good one.
+// A* with landmarks (ALT). The distance from a vertex to a landmark minus the distance from the
+// target to the landmark is a lower bound of the distance to the target. Landmarks at the ends of
+// the map make the bound tight, so the search expands few vertices beside the path.
 //
 // Goldberg & Harrelson, "Computing the shortest path: A* search meets graph theory", SODA 2005.
 #pragma once
@@ -21,18 +21,18 @@ class AltDistance {
   public:
     static constexpr std::int32_t no_way = -1;
 
-    // Borrows both. The landmarks are chosen in what leads to the first vertex.
+    // Borrows both. All landmarks are vertices from which a path leads to vertex 0.
     AltDistance(const Graph& graph, const DistanceTables& tables);
 
-    // The least number of edges from one vertex to another, or `no_way`.
+    // The least number of edges from a vertex to the target, or `no_way`.
     std::int32_t between(VertexId from, VertexId target);
 
   private:
     static constexpr std::size_t n_landmarks = 8;
-    using Row = std::array<std::uint16_t, n_landmarks>;  // how far it is to each landmark
+    using Row = std::array<std::uint16_t, n_landmarks>;  // edges to each landmark
     struct Reached {
         std::int32_t steps;
-        std::int32_t search;  // in which that was
+        std::int32_t search;  // number of the search that set `steps`
     };
 
     void choose_landmarks(const DistanceTables& tables);
@@ -43,7 +43,7 @@ class AltDistance {
     std::vector<Row> rows_;  // of each vertex
     Row target_row_{};
     std::vector<Reached> reached_;
-    std::vector<std::vector<VertexId>> open_;  // by what the way is at least, from the first bound
+    std::vector<std::vector<VertexId>> open_;  // buckets: estimate - first_bound_
     std::int32_t first_bound_ = 0;
     std::int32_t search_ = 0;
 };

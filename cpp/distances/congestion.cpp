@@ -60,7 +60,7 @@ std::vector<VertexId> Congestion::path(RobotId robot, VertexId start, VertexId t
     return path;
 }
 
-// A* that goes on until every way that is as cheap as the cheapest is known.
+// A* that continues until all paths of least cost are known.
 void Congestion::search(RobotId robot, VertexId start, VertexId target,
                         std::span<const std::int32_t> to_go) {
     const Graph& graph = problem_.graph();
@@ -72,7 +72,7 @@ void Congestion::search(RobotId robot, VertexId start, VertexId target,
         const Open top = open_.back();
         open_.pop_back();
         if (top.cost - top.to_go > cost_[top.vertex] || top.vertex == target) {
-            continue;  // reached more cheaply since
+            continue;  // outdated: the vertex has a cheaper path
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
@@ -102,7 +102,7 @@ void Congestion::reach(VertexId vertex, VertexId from, std::int64_t cost, std::i
     cheapest_way_[vertex] = static_cast<std::int32_t>(ways_.size()) - 1;
 }
 
-// Marks every vertex that a cheapest path passes.
+// Marks the vertices of all cheapest paths.
 void Congestion::mark_cheapest(VertexId target) {
     std::vector<VertexId> to_mark{target};
     is_marked_[target] = 1;

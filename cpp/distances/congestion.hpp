@@ -1,10 +1,9 @@
-// Routes that keep clear of the others: shortest where that is free, and a little longer where it
-// spares meeting somebody.
+// Routes of least time plus congestion cost: short detours that avoid conflicts with other robots.
 //
-// Waiting on a route cannot pass a robot that stands or works on it, and of two that come head-on
-// one has to wait for the whole segment. So a vertex where another robot has its home or a stop
-// costs more to enter, and so does an edge for every robot that goes the other way. Costs are
-// whole numbers: times in shares of a tick, and surcharges in shares for each tick of an edge.
+// A robot cannot pass a robot that stands or works on its route, and of two opposing robots one
+// waits for the whole segment. So a vertex where another robot has its home or a stop costs more to
+// enter, and an edge costs more for each robot that drives the other way. Costs are integers: times
+// in shares of a tick, surcharges in shares per tick of the edge.
 #pragma once
 
 #include <compare>
@@ -19,18 +18,18 @@ namespace rightofway {
 
 class Congestion {
   public:
-    // Borrows the problem. A tick is counted in `shares`; `station` is the surcharge per tick to
-    // enter each vertex, where others have their home or a stop. Throws std::invalid_argument where
-    // these do not fit together.
+    // Borrows the problem. `shares` is the number of shares of a tick; `station` is the surcharge
+    // for the enter of each vertex, for homes and stops of other robots [shares per tick]. Throws
+    // std::invalid_argument if the arguments do not fit together.
     Congestion(const Problem& problem, std::int64_t shares, std::span<const std::int64_t> station);
 
-    // A cheapest path; of several, the one that takes the first edge of a vertex that it can.
-    // `to_go` has the least ticks from each vertex to the target, -1 where no way leads there.
-    // Throws std::invalid_argument if there is none from the start.
+    // A cheapest path; of several, the path with the first possible edge of each vertex. `to_go`
+    // has the least ticks from each vertex to the target, -1 if no path exists. Throws
+    // std::invalid_argument if no path leads from the start to the target.
     std::vector<VertexId> path(RobotId robot, VertexId start, VertexId target,
                                std::span<const std::int32_t> to_go);
 
-    // Has one more robot on a path: whoever goes against it pays so much more per tick.
+    // Adds a robot's path: opposing drives cost `oncoming` more [shares per tick].
     void add(std::span<const VertexId> path, std::int64_t oncoming);
 
     VertexId n_vertices() const { return static_cast<VertexId>(station_.size()); }
@@ -43,7 +42,7 @@ class Congestion {
         VertexId vertex;
         auto operator<=>(const Open&) const = default;
     };
-    // One of the cheapest ways to get to a vertex, in a list.
+    // The last edge of a cheapest path to a vertex; an entry of a linked list.
     struct Way {
         VertexId from;
         std::int32_t next;
@@ -58,14 +57,14 @@ class Congestion {
     void clear();
 
     const Problem& problem_;
-    std::vector<EdgeId> opposite_;  // of each edge, -1 for a one-way
+    std::vector<EdgeId> opposite_;  // of each edge, -1 if the edge is one-way
     std::int64_t shares_;
-    std::vector<std::int64_t> station_;   // what it costs more to enter a vertex
-    std::vector<std::int64_t> oncoming_;  // what it costs more to go against each edge
+    std::vector<std::int64_t> station_;   // surcharge for entering each vertex
+    std::vector<std::int64_t> oncoming_;  // surcharge for driving against each edge
 
-    // What a search works on; reused.
-    std::vector<std::int64_t> cost_;          // of each vertex that was reached
-    std::vector<std::int32_t> cheapest_way_;  // to it
+    // Memory of a search, kept for the next search.
+    std::vector<std::int64_t> cost_;          // of each reached vertex
+    std::vector<std::int32_t> cheapest_way_;  // of each vertex: head of its list
     std::vector<Way> ways_;
     std::vector<std::uint8_t> is_marked_;
     std::vector<VertexId> reached_;

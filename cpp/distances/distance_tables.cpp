@@ -33,7 +33,7 @@ DistanceTables::DistanceTables(std::span<const EdgeId> indptr, std::span<const V
     reverse(indptr, indices);
 }
 
-// A counting sort of the edges by the vertex they end at.
+// A counting sort of the edges by head.
 void DistanceTables::reverse(std::span<const EdgeId> indptr, std::span<const VertexId> indices) {
     const auto n_vertices = static_cast<VertexId>(indptr.size() - 1);
     arriving_.assign(indptr.size(), 0);
@@ -111,7 +111,7 @@ bool DistanceTables::steps_to(VertexId target, std::vector<std::uint16_t>& count
 
 std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
                                                    std::span<const std::int32_t> edge_ticks) const {
-    using Key = std::pair<Tick, VertexId>;  // a total order: equal distances by vertex
+    using Key = std::pair<Tick, VertexId>;  // total order: ties by vertex
     std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
     std::vector<Tick> best(n_vertices(), never);
     std::vector<std::int32_t> distance(n_vertices(), unreached);
@@ -123,7 +123,7 @@ std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
         if (distance[v] != unreached) {
             continue;
         }
-        // Only a least distance may be too large: a detour that is never taken does no harm.
+        // Overflow is checked for least distances only; longer paths may exceed int32.
         distance[v] = narrow(ticks, v, target);
         for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
             const Tick through = ticks + edge_ticks[edge_[k]];

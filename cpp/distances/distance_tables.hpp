@@ -1,8 +1,8 @@
-// How far is it from everywhere to one place?
+// Tables of the least distance from every vertex to one target.
 //
-// Every search for routes asks this of the same few targets again and again. A table answers it
-// for one target at once: a search from the target over the reversed edges. The graph is stored
-// reversed, once; what an edge takes depends on the robot's speed and is given with each request.
+// Route searches need the distances to few targets many times. One search from the target over the
+// reversed edges fills a table. The graph is reversed once; the ticks per edge depend on the
+// robot's speed and come with each request.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 
 namespace rightofway {
 
-// How far it is from everywhere to one vertex, read from a table that belongs to somebody else.
-// Where all edges are equally long, one table of edge counts serves robots of any speed.
+// A borrowed table of distances from every vertex to one target. With edges of equal length, one
+// table of edge counts serves robots of every speed.
 class DistanceView {
   public:
     static constexpr std::uint16_t no_way = UINT16_MAX;
 
     DistanceView() = default;
-    // `no_way` marks where no way leads on.
+    // Borrows edge counts; `no_way`: no path to the target.
     DistanceView(const std::uint16_t* counts, Tick ticks) : narrow_(counts), scale_(ticks) {}
-    // -1 marks where no way leads on.
+    // Borrows edge counts or ticks; -1: no path to the target.
     DistanceView(const std::int32_t* counts, Tick ticks) : wide_(counts), scale_(ticks) {}
 
-    // Ticks to the target, -1 where no way leads there.
+    // Least ticks from a vertex to the target, -1 if no path exists.
     Tick from(VertexId vertex) const {
         if (narrow_ != nullptr) {
             const std::uint16_t count = narrow_[vertex];
@@ -44,19 +44,19 @@ class DistanceView {
 
 class DistanceTables {
   public:
-    // The edges that leave vertex v are indptr[v] .. indptr[v + 1] - 1; edge e ends at indices[e].
-    // Throws std::invalid_argument if that is not a graph.
+    // Edges out of vertex v: indptr[v] .. indptr[v + 1] - 1; head of edge e: indices[e]. Throws
+    // std::invalid_argument if the arrays form no graph.
     DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
 
     VertexId n_vertices() const { return static_cast<VertexId>(arriving_.size() - 1); }
 
-    // The least ticks from each vertex to the target, -1 where no way leads there.
-    // Throws std::invalid_argument on a bad target or an edge that takes no time, and
-    // std::overflow_error if a least distance does not fit the type.
+    // The least ticks from each vertex to the target, -1 if no path exists. Throws
+    // std::invalid_argument for an unknown target or an edge of 0 ticks or less, and
+    // std::overflow_error if a least distance does not fit int32.
     std::vector<std::int32_t> to(VertexId target, std::span<const std::int32_t> edge_ticks) const;
 
-    // The fewest edges from each vertex to the target, DistanceView::no_way where no way leads
-    // there; false where a count does not fit, and then `counts` is of no use.
+    // The least number of edges from each vertex to the target, DistanceView::no_way if no path
+    // exists. False if a count does not fit uint16; `counts` is invalid then.
     bool steps_to(VertexId target, std::vector<std::uint16_t>& counts) const;
 
   private:
@@ -65,7 +65,7 @@ class DistanceTables {
     std::vector<std::int32_t> dijkstra(VertexId target,
                                        std::span<const std::int32_t> edge_ticks) const;
 
-    // The reversed graph: the edges that arrive at v are edge_[k], from source_[k], for k in
+    // The reversed graph: the edges into v are edge_[k], with tail source_[k], for k in
     // arriving_[v] .. arriving_[v + 1] - 1.
     std::vector<EdgeId> arriving_;
     std::vector<VertexId> source_;

@@ -7,7 +7,7 @@
 namespace rightofway {
 namespace {
 
-constexpr Tick alone_offset = 2;  // see alone_
+constexpr Tick alone_offset = 2;  // see `alone_`
 
 }  // namespace
 

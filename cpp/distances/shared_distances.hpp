@@ -1,9 +1,8 @@
-// Distance tables made when first asked for, shared by all who go to one place, and given up when
-// memory gets short.
+// A cache of distance tables: computed at the first request, shared by all robots with one target.
 //
-// Where all edges are equally long, one table of edge counts, two bytes a vertex, serves robots of
-// every speed. A table is quickly made anew, so it is no loss to forget the ones made longest ago;
-// whoever still reads a table keeps it alive.
+// With edges of equal length, one table of edge counts (2 bytes per vertex) serves robots of every
+// speed. Above the memory budget the oldest tables are dropped, because a table is quick to
+// compute; a reader's shared pointer keeps its table alive.
 #pragma once
 
 #include <atomic>
@@ -24,7 +23,7 @@ namespace rightofway {
 
 struct DistanceTable {
     std::vector<std::uint16_t> narrow;
-    std::vector<std::int32_t> wide;  // where the narrow one does not do
+    std::vector<std::int32_t> wide;  // if `narrow` does not fit
 
     DistanceView view(Tick scale) const {
         return narrow.empty() ? DistanceView(wide.data(), scale)
@@ -35,26 +34,26 @@ struct DistanceTable {
 
 class SharedDistances {
   public:
-    // Borrows the problem. Keeps at most so many bytes of tables, and always the latest one.
+    // Borrows the problem. Keeps at most `budget` bytes of tables, and always the latest table.
     explicit SharedDistances(const Problem& problem, std::size_t budget = std::size_t{256} << 20);
 
     const Problem& problem() const { return problem_; }
 
-    // A table to the target, in units of `scale`, for a robot and all of its pace. May be called by
-    // several threads at once.
+    // The table of a target, in units of `scale`, for a robot and all robots of its pace.
+    // Thread-safe.
     std::shared_ptr<const DistanceTable> to(VertexId target, RobotId robot);
 
-    // The ticks that a robot needs from one vertex to another, -1 where no way leads there; without
-    // keeping a table, where all edges are equally long.
+    // The least ticks of a robot from a vertex to the target, -1 if no path exists. Needs no table
+    // if all edges have equal length.
     Tick between(VertexId from, VertexId target, RobotId robot);
 
-    // The least completion of a robot without the others, -1 if it cannot get to a stage.
-    // Remembered, and may be asked by several threads at once.
+    // The completion time of a robot that drives alone, -1 if it cannot reach a stage. Cached;
+    // thread-safe.
     Tick alone(RobotId robot);
-    // The same of all robots, found by other distances of a problem with the same trips.
+    // Fills the cache of `alone` from the distances of a problem with the same trips.
     void take_alone(std::span<const Tick> alone);
 
-    // The ticks that one unit of the tables takes a robot.
+    // The robot's ticks per unit of the tables.
     Tick scale(RobotId robot) const {
         const auto pace = problem_.pace(robot);
         return is_uniform_ && !pace.empty() ? pace.front() : 1;
@@ -81,12 +80,12 @@ class SharedDistances {
     bool is_uniform_;
     std::size_t budget_;
     std::mutex ways_mutex_;
-    std::optional<AltDistance> ways_;  // made when first asked for
+    std::optional<AltDistance> ways_;  // made at the first request
     std::mutex mutex_;
     std::unordered_map<Key, std::shared_ptr<const DistanceTable>, Hash> known_;
     std::deque<Key> by_age_;
     std::size_t bytes_ = 0;
-    std::vector<std::atomic<Tick>> alone_;  // plus 2; 0 until it is asked for
+    std::vector<std::atomic<Tick>> alone_;  // value + 2; 0: not computed
 };
 
 }  // namespace rightofway

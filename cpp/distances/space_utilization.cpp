@@ -7,21 +7,21 @@ namespace {
 
 constexpr VertexId nowhere = -1;
 
-// What an edge costs, and what it costs more for each path against it and each at its end, up to
-// a bound: a crowd is worth a detour, but not any detour.
+// The cost of an edge; the surcharge per opposing path and per path at its head, each up to a bound
+// (so detours are bounded, too).
 constexpr std::int64_t cost_of_edge = 16;
 constexpr std::int64_t cost_against = 8;
 constexpr std::int64_t most_against = 64;
 constexpr std::int64_t cost_shared = 1;
 constexpr std::int64_t most_shared = 16;
-// What it costs to drive over a robot at the end of its trip: it has to make room, and come back.
+// The cost of passing a robot at the end of its trip: that robot has to make room and return.
 constexpr std::int64_t cost_ended = 320;
-// Above cost_of_edge, the estimate is greedy: fewer vertices are opened, for paths hardly worse.
+// Greater than cost_of_edge, so the estimate is greedy: fewer vertices opened, paths hardly worse.
 constexpr std::int64_t estimate_per_step = 24;
-// Estimates in one list differ by less than this.
+// The width of a list: its estimates differ by less.
 constexpr std::int64_t list_width = 4;
 
-// The effort is bounded. Where it comes to less than this for a leg, it would be spent in vain.
+// The most vertices opened in all; below the least number per leg, no leg gets a path.
 constexpr std::int64_t most_opened = 3'000'000;
 constexpr std::int64_t least_for_a_leg = 500;
 constexpr std::int64_t legs_between_questions = 32;
@@ -50,7 +50,7 @@ void SpaceUtilization::pair_edges() {
     }
 }
 
-// The last stages, and when their robots are there if nobody makes them wait.
+// The vertex of each last stage and the enter of its robot without waits.
 void SpaceUtilization::find_ends() {
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
         VertexId place = problem_.home(r);
@@ -82,7 +82,7 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
             if (++n_chosen % legs_between_questions == 0 && is_over()) {
                 return false;
             }
-            credit_ += most_opened / n_legs;  // what one leg leaves over is for the next ones
+            credit_ += most_opened / n_legs;  // unused credit is for later legs
             when = choose_leg({r, place, s}, when) + problem_.stage_dwell(s);
             place = problem_.stage_vertex(s);
         }
@@ -98,7 +98,7 @@ VertexId SpaceUtilization::next(std::int32_t stage, VertexId at) const {
     return hop != end && hop->from == at ? hop->to : nowhere;
 }
 
-// Returns when the robot would be there.
+// Returns the enter of the robot at the leg's end, without waits.
 Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when) {
     const VertexId target = problem_.stage_vertex(leg.stage);
     if (leg.start == target) {
@@ -128,7 +128,7 @@ bool SpaceUtilization::search(const Leg& leg, Tick when) {
         }
         const Best best = best_[top.vertex];
         if (top.cost > best.cost) {
-            continue;  // reached at less cost since
+            continue;  // outdated: the vertex has a cheaper path
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
@@ -160,10 +160,10 @@ void SpaceUtilization::open(VertexId vertex, const Best& reached, StepTables::Ta
     }
     open_.push_back({reached.cost, vertex, first_open_[list]});
     first_open_[list] = static_cast<std::int32_t>(open_.size()) - 1;
-    list_ = std::min(list_, list);  // the estimate is greedy, so it may fall
+    list_ = std::min(list_, list);  // a greedy estimate may decrease
 }
 
-// The last one opened of those with the least estimate.
+// The vertex opened last in the first list that is not empty.
 bool SpaceUtilization::take_next(Open& next) {
     while (list_ < first_open_.size() && first_open_[list_] == none) {
         ++list_;
@@ -176,7 +176,7 @@ bool SpaceUtilization::take_next(Open& next) {
     return true;
 }
 
-// Goes back along the edges by which the search came.
+// Traces the path back from the target and stores its hops.
 void SpaceUtilization::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
     for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {

@@ -1,13 +1,13 @@
-// A preferred path for every robot and stage, chosen one after another so that they spread.
+// Space utilization optimization: a preferred path for each robot and stage, spread over the map.
 //
-// Robots that all follow shortest paths meet head-on in the same few aisles, and drive into others
-// that have ended their trips there. So each path is a cheap one where driving against earlier
-// paths costs most, a vertex of many paths costs a little, passing a robot at the end of its trip
-// costs a detour, and every edge costs something. Directions of traffic come about by themselves.
+// Robots on shortest paths meet head-on in few aisles and drive into robots that have completed
+// there. So paths are chosen one after another at least cost: each edge has a cost; driving against
+// earlier paths adds most, a vertex of many paths adds a little, and a robot at the end of its trip
+// adds the cost of a detour. Lanes of one direction result.
 //
 // Okumura, "Engineering LaCAM*: Towards real-time, large-scale, and near-optimal multi-agent
-// pathfinding", AAMAS 2024, spreads paths by the conflicts that they would have in time. Counting
-// uses asks less of the times, which with own speeds are known only roughly beforehand.
+// pathfinding", AAMAS 2024, spreads paths by their conflicts in time. Here paths are counted per
+// edge and vertex instead, because own speeds make times uncertain before planning.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ namespace rightofway {
 
 class SpaceUtilization {
   public:
-    // Without a preference for anything. Borrows both.
+    // Has no preferred paths yet. Borrows both.
     SpaceUtilization(const Problem& problem, StepTables& tables);
 
-    // Chooses the paths; false if told to stop before that was done. The effort is bounded: in a
-    // large fleet some robots are left without a path, and in a very large one all of them.
+    // Chooses the paths; false if `is_over` became true before. The effort is bounded: in a large
+    // fleet some robots get no path, in a very large fleet all robots.
     bool choose(const StopCondition& is_over);
 
-    // Where the path to a stage goes on from a vertex; -1 where it does not pass.
+    // The next vertex on the path to a stage; -1 if the path does not pass `at`.
     VertexId next(std::int32_t stage, VertexId at) const;
 
   private:
@@ -44,14 +44,14 @@ class SpaceUtilization {
         VertexId to;
     };
     struct Open {
-        std::int64_t cost;  // so far
+        std::int64_t cost;  // of the path from the start
         VertexId vertex;
-        std::int32_t next;  // of about the same estimate
+        std::int32_t next;  // next entry of the list
     };
-    // How a vertex is reached at least cost, in the search of this round.
+    // The cheapest path to a vertex in the search number `round`.
     struct Best {
         std::int64_t cost;
-        Tick when;  // the robot would be there, without waits
+        Tick when;  // enter of the robot without waits
         EdgeId by;
         std::int32_t round;
     };
@@ -67,21 +67,21 @@ class SpaceUtilization {
     const Problem& problem_;
     StepTables& tables_;
     std::vector<VertexId> tail_;           // of each edge
-    std::vector<EdgeId> back_;             // of each edge: the one the other way, or -1
-    std::vector<Tick> ended_from_;         // of each vertex: when a trip ends there at the soonest
-    std::vector<std::int64_t> edge_cost_;  // of each edge: against the paths so far
-    std::vector<std::int64_t> into_cost_;  // of each vertex: shared with the paths so far
-    std::vector<Hop> hops_;                // of all paths, those of one by `from`
+    std::vector<EdgeId> back_;             // of each edge: the opposite edge, or -1
+    std::vector<Tick> ended_from_;         // of each vertex: earliest end of a trip there
+    std::vector<std::int64_t> edge_cost_;  // of each edge: cost against earlier paths
+    std::vector<std::int64_t> into_cost_;  // of each vertex: cost of earlier paths
+    std::vector<Hop> hops_;                // of all paths; within a path by `from`
     std::vector<std::size_t> first_hop_;   // of each stage
     std::vector<std::size_t> end_hop_;
-    std::int64_t credit_ = 0;  // how many vertices may still be opened
+    std::int64_t credit_ = 0;  // number of vertices that may still be opened
     std::int32_t round_ = 0;
     std::vector<Best> best_;  // of each vertex
-    // Open vertices in lists by their estimates, which begin with the least that there can be.
+    // Open vertices in lists by estimate (buckets); the first list has the least estimate.
     std::vector<Open> open_;
     std::vector<std::int32_t> first_open_;  // of each list
-    std::int64_t least_ = 0;                // the estimate where the lists begin
-    std::size_t list_ = 0;                  // those before it are empty
+    std::int64_t least_ = 0;                // least estimate of the first list
+    std::size_t list_ = 0;                  // the lists before it are empty
 };
 
 }  // namespace rightofway

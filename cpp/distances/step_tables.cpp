@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::size_t first_block_size = std::size_t{1} << 20;
 constexpr std::size_t most_block_size = std::size_t{1} << 26;
-// Vertices of one line are at most so far from its first one.
+// The greatest distance of a vertex from the first vertex of its line [edges].
 constexpr std::int32_t line_radius = 15;
 constexpr std::int32_t most_steps = std::numeric_limits<std::uint16_t>::max() - 1;
 constexpr std::size_t legs_between_questions = 64;
 constexpr std::size_t least_for_a_thread = 16;
 
-// Whether some edge does not lead back.
+// Whether some edge has no opposite edge.
 bool has_one_way(const Graph& graph) {
     for (VertexId v = 0; v < graph.n_vertices(); ++v) {
         for (const VertexId head : graph.heads(v)) {
@@ -37,7 +37,7 @@ bool has_one_way(const Graph& graph) {
     return false;
 }
 
-// Robots read from all over their tables: with small pages, most of the time goes to finding these.
+// Reads scatter over all tables; with small pages, page lookups take most of the time.
 void ask_for_large_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     constexpr std::size_t large = std::size_t{1} << 21;
@@ -71,11 +71,11 @@ StepTables::StepTables(const Graph& graph)
     }
 }
 
-// Each line takes the first vertex that has no place yet, and those nearest to it.
+// Each line takes the first vertex without a place and its nearest vertices without a place.
 void StepTables::find_places(const Graph& graph) {
     const Place cell_size = is_wide_ ? 2 : 1;
     std::vector<VertexId> reached;
-    std::vector<VertexId> reached_from(place_.size(), none);  // by which search
+    std::vector<VertexId> reached_from(place_.size(), none);  // by the search of this first vertex
     for (VertexId first = 0; first < graph.n_vertices(); ++first) {
         if (place_[first] != none) {
             continue;
@@ -123,15 +123,15 @@ void StepTables::write(Byte* table, Place place, std::int32_t steps) const {
         *reinterpret_cast<std::uint16_t*>(table + place) = static_cast<std::uint16_t>(steps + 1);
         return;
     }
-    if (base(table, place) == 0) {  // searches go outwards, so this is the least
+    if (base(table, place) == 0) {  // breadth-first order: the first count is the least
         *reinterpret_cast<std::uint16_t*>(table + place / line_size * line_size) =
             static_cast<std::uint16_t>(steps + 1);
     }
     table[place] = static_cast<Byte>(steps + 2 - base(table, place));
 }
 
-// Tables come from blocks that the system hands out zeroed, and mostly page by page as they are
-// used. Each is twice as large as the one before.
+// Takes a table from a block of zeroed memory, which the system mostly provides page by page at the
+// first use. Each block is twice as large as the block before.
 StepTables::Byte* StepTables::new_cells() {
     const auto size = static_cast<std::size_t>(size_);
     if (n_free_ < size) {
@@ -162,7 +162,7 @@ std::int32_t StepTables::search_on(TableId table, VertexId from) {
     return unreachable;
 }
 
-// Each thread has tables of its own.
+// No two threads share a table.
 void StepTables::search_all(std::span<const Request> requests) {
     const auto search_share = [&](std::size_t share, std::size_t n_shares) {
         std::vector<Place> scratch;

@@ -1,13 +1,11 @@
-// How many edges is it from here to there? Asked of many targets, and mostly of places near the
-// way.
+// Tables of edge counts to many targets, computed lazily, mostly near the routes.
 //
-// One breadth-first search per target over the reversed edges, which goes on only until it has
-// reached the vertex that was asked for, and is taken up again when one further away is asked for.
-// Robots with one target share its table, whatever their speeds. Tables are made of lines, as the
-// processor's cache is: each holds vertices near each other, whatever their numbers, so what a
-// robot asks for lies next to what it asked for before. Where every edge leads back, these differ
-// by a few steps, and one byte a vertex above a base for each line does: ten thousand targets on a
-// large map fit. On other graphs it takes two bytes.
+// One breadth-first search per target over the reversed edges stops at the requested vertex and
+// resumes at the next request beyond it. Robots of all speeds with one target share its table. A
+// table consists of lines of one cache line each; a line holds neighbouring vertices, so successive
+// requests of a robot mostly read one line. If every edge has an opposite edge, the counts of a
+// line differ by a few steps: a line stores a base and 1 byte per vertex (10 000 targets on a large
+// map fit into memory). On other graphs a vertex takes 2 bytes.
 #pragma once
 
 #include <cstdint>
@@ -29,22 +27,22 @@ class StepTables {
     using TableId = std::int32_t;
     static constexpr std::int32_t unreachable = 1 << 24;  // far above every count, safe to add to
 
-    // Borrows nothing: the graph is kept reversed.
+    // Borrows nothing: stores the reversed graph.
     explicit StepTables(const Graph& graph);
 
     VertexId n_vertices() const { return static_cast<VertexId>(place_.size()); }
 
-    // The table of a target, made at the first request.
+    // The table of a target; the first request makes it.
     TableId table_of(VertexId target);
 
     // The least number of edges from a vertex to the target of a table, or `unreachable`. Throws
-    // std::overflow_error if that does not fit the type.
+    // std::overflow_error if the number does not fit uint16.
     std::int32_t steps(TableId table, VertexId from) {
         const std::int32_t known = read(cells_[table], place_[from]);
         return known >= 0 ? known : search_on(table, from);
     }
 
-    // Searches tables as far as a vertex each, on all cores; what comes out is the same.
+    // Extends each table up to a vertex, on all cores; the counts do not depend on the threads.
     struct Request {
         TableId table;
         VertexId from;
@@ -63,9 +61,8 @@ class StepTables {
         std::int32_t depth;  // of the frontier
     };
 
-    // A line of bytes begins with its base, the least steps in it, plus 1; a cell is the steps
-    // above the least, plus 1. A wide cell is the steps plus 1. Where it is 0, the search has not
-    // been yet.
+    // A line of bytes begins with its base: least steps of the line + 1. A cell is steps - least
+    // steps + 1, a wide cell is steps + 1. 0: not searched.
     std::int32_t read(const Byte* table, Place place) const {
         if (is_wide_) {
             return std::int32_t{*reinterpret_cast<const std::uint16_t*>(table + place)} - 1;
@@ -85,19 +82,19 @@ class StepTables {
 
     bool is_wide_;
     std::vector<Place> place_;      // of each vertex
-    Place size_ = 0;                // of a table
-    std::vector<EdgeId> arriving_;  // the edges that arrive at a place come from source_[k], for k
+    Place size_ = 0;                // of a table [bytes]
+    std::vector<EdgeId> arriving_;  // edges into a place: tails are source_[k], for k
     std::vector<Place> source_;     // in arriving_[place] .. arriving_[place + 1] - 1
     std::vector<TableId> by_target_;
     std::vector<Byte*> cells_;      // of each table
     std::vector<Search> searches_;  // of each table
     std::vector<std::unique_ptr<Byte, Free>> blocks_;
     Byte* next_cells_ = nullptr;  // in the last block
-    std::size_t n_free_ = 0;      // bytes there
+    std::size_t n_free_ = 0;      // free bytes in the last block
     std::vector<Place> scratch_;
 };
 
-// Whether every robot, if it were alone, could go through all of its stages: `found` if so.
+// `found` if each robot, driving alone, can reach all of its stages.
 SearchEnd reach_all(const Problem& problem, StepTables& tables, const StopCondition& is_over);
 
 }  // namespace rightofway

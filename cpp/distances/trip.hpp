@@ -1,4 +1,4 @@
-// What one robot has to do, with a table of how far it is to each stage: what a search is given.
+// The itinerary of one robot with a distance table for each stage: the input of a search.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,20 @@
 namespace rightofway {
 
 struct Trip : Itinerary {
-    std::vector<DistanceView> to_stage;  // to the vertex of each stage
+    std::vector<DistanceView> to_stage;  // distances to each stage's vertex
 };
 
-// Throws std::invalid_argument where the arrays of a trip do not fit together or to the roads, or a
-// stage cannot be reached.
+// Throws std::invalid_argument if the arrays of a trip do not fit each other or the roads, or if
+// the robot cannot reach a stage.
 void require_trip(const Roads& roads, const Trip& trip);
 
-// Makes a robot's trip ready for a search, in memory that is used again; one for each thread.
+// Builds the trip of a robot in reused memory; one reader per thread.
 class TripReader {
   public:
     // Borrows the distances.
     explicit TripReader(SharedDistances& distances) : distances_(distances) {}
 
-    // Valid until the next call.
+    // The trip of a robot, valid until the next call.
     const Trip& read(RobotId robot);
 
   private:
@@ -35,8 +35,8 @@ class TripReader {
     std::vector<std::shared_ptr<const DistanceTable>> tables_;
 };
 
-// When the trip of a track is complete, -1 if it leaves out a stage. `stage_after` is set to the
-// first stage that is left after each visit.
+// The completion time of a track, -1 if the track leaves out a stage. Sets `stage_after` to the
+// first stage not served after each visit.
 Tick completion(const Itinerary& itinerary, std::span<const Visit> track,
                 std::vector<std::int32_t>* stage_after = nullptr);
 

@@ -8,13 +8,12 @@
 namespace rightofway {
 namespace {
 
-// Two odd numbers whose product is 1 modulo 2^64: a power of the first counts ticks ahead, a power
-// of the second takes them back. So the sum over all busy robots need not be made anew as the
-// clock goes on.
+// `base` and its inverse `back` modulo 2^64 (both odd): powers of `base` shift keys ahead by ticks,
+// powers of `back` shift keys back. So the sum over busy robots stays valid as the clock advances.
 constexpr std::uint64_t base = 0x9e3779b97f4a7c15U;
 
 constexpr std::uint64_t inverse_of(std::uint64_t odd) {
-    std::uint64_t inverse = odd;  // right in the last three bits; each round doubles them
+    std::uint64_t inverse = odd;  // the last 3 bits are right; each round doubles their number
     for (int round = 0; round < 5; ++round) {
         inverse *= 2 - odd * inverse;
     }
@@ -90,7 +89,8 @@ void FleetState::take_off_list(RobotId robot) {
     }
 }
 
-// Works where there is work; the last stage needs none here, for nothing comes after it.
+// Begins the work of the stage if its vertex is here; skips stages of 0 ticks. The last stage has
+// no work here, because no move follows.
 void FleetState::begin_stage(RobotId robot) {
     Robot& r = robots_[robot];
     while (!problem_->is_last(robot, r.stage) && r.at == target(robot)) {
@@ -131,7 +131,7 @@ bool FleetState::advance() {
         finished_.push_back(events_.back().robot);
         events_.pop_back();
     }
-    for (const RobotId robot : finished_) {  // all leave before the first arrives
+    for (const RobotId robot : finished_) {  // all leave before the first enter
         const Robot& r = robots_[robot];
         sum_busy_ -= key(robot) * base_to_now_;
         if (r.at != r.to) {
@@ -145,7 +145,7 @@ bool FleetState::advance() {
             r.at = r.to;
             vertices_[r.at].here = robot;
             vertices_[r.at].comes = nobody;
-        } else {  // its work is done
+        } else {  // the work is complete
             ++r.stage;
             r.since = now_;
         }

@@ -1,9 +1,9 @@
-// Where every robot of a fleet is at an instant, where it drives to, and until when it is busy.
+// The state of a fleet at an instant: the position, the move and the ready tick of each robot.
 //
-// A move is booked whole when it is decided: the robot stays where it is until it arrives. Only
-// robots that are not busy decide. So the state changes by two means: robots decide, and the clock
-// goes on to the next instant at which one of them has finished. Both cost what changes, not what
-// there is.
+// A decision books a move as a whole: the robot keeps its vertex until it arrives at the next one.
+// Only robots that are not busy decide. The state changes in two ways: a robot decides, or the
+// clock advances to the next instant at which a robot finishes a move or its work. The time of both
+// grows with the number of changed robots, not with the fleet.
 #pragma once
 
 #include <compare>
@@ -16,7 +16,7 @@
 
 namespace rightofway {
 
-// A robot is to be at a vertex from `arrival` on.
+// A move of a robot: it enters the vertex at `arrival`.
 struct Decision {
     RobotId robot;
     VertexId vertex;
@@ -25,38 +25,38 @@ struct Decision {
 
 class FleetState {
   public:
-    // Everybody at home at tick 0, those without work there free to go. Borrows the problem.
+    // All robots at home at tick 0; robots without work there are free. Borrows the problem.
     explicit FleetState(const Problem& problem);
 
     Tick now() const { return now_; }
     VertexId at(RobotId robot) const { return robots_[robot].at; }
-    VertexId to(RobotId robot) const { return robots_[robot].to; }  // `at`, unless it moves
+    VertexId to(RobotId robot) const { return robots_[robot].to; }  // `at`, unless the robot moves
     std::int32_t stage(RobotId robot) const { return robots_[robot].stage; }
     VertexId target(RobotId robot) const { return problem_->stage_vertex(robots_[robot].stage); }
-    Tick ready(RobotId robot) const { return robots_[robot].ready; }  // of one that is busy
+    Tick ready(RobotId robot) const { return robots_[robot].ready; }  // of a busy robot
     Tick on_its_way_since(RobotId robot) const { return robots_[robot].since; }
     bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
     bool has_arrived(RobotId robot) const { return robots_[robot].place == arrived; }
 
-    RobotId here(VertexId vertex) const { return vertices_[vertex].here; }    // until it has left
-    RobotId comes(VertexId vertex) const { return vertices_[vertex].comes; }  // its move is booked
-    Tick left(VertexId vertex) const { return vertices_[vertex].left; }  // last, -headway: never
+    RobotId here(VertexId vertex) const { return vertices_[vertex].here; }    // until its leave
+    RobotId comes(VertexId vertex) const { return vertices_[vertex].comes; }  // by a booked move
+    Tick left(VertexId vertex) const { return vertices_[vertex].left; }  // latest leave or -headway
 
-    // Those that are neither busy nor at the end of their problem, in no order.
+    // The robots that are neither busy nor arrived, in no particular order.
     std::span<const RobotId> undecided() const { return undecided_; }
     bool is_goal() const { return n_arrived_ == problem_->n_robots(); }
 
     void decide(const Decision& decision);
 
-    // Goes on to the next instant at which a robot finishes something; false if nobody is busy.
+    // Advances the clock to the next instant at which a robot finishes; false if no robot is busy.
     bool advance();
 
-    // The same for states that differ only by the time on the clock; other states hardly ever
-    // have the same.
+    // A hash of the state relative to the clock: equal for states that differ only by the tick; for
+    // other states equal only by chance (64 bits).
     std::uint64_t fingerprint() const;
 
   private:
-    // `place` is the index among the undecided, or one of these.
+    // Values of `place`; otherwise `place` is an index into `undecided_`.
     static constexpr std::int32_t busy = -1;
     static constexpr std::int32_t arrived = -2;
     struct Robot {
@@ -93,9 +93,9 @@ class FleetState {
     std::vector<RobotId> finished_;
     RobotId n_arrived_ = 0;
     std::uint64_t sum_free_ = 0;
-    std::uint64_t sum_busy_ = 0;     // each key times base to the power of its ready tick
-    std::uint64_t base_to_now_ = 1;  // base to the power of the time on the clock
-    std::uint64_t back_to_now_ = 1;  // times that, it is 1
+    std::uint64_t sum_busy_ = 0;     // sum of key * base ^ ready tick
+    std::uint64_t base_to_now_ = 1;  // base ^ now_
+    std::uint64_t back_to_now_ = 1;  // inverse of base_to_now_
 };
 
 }  // namespace rightofway

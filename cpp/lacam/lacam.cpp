@@ -61,7 +61,7 @@ SearchEnd Lacam::expand() {
         return SearchEnd::found;
     }
     if (!next_constraint(nodes_[top])) {
-        open_.pop_back();  // every choice from here has been tried
+        open_.pop_back();  // all constraints are tried
         return SearchEnd::stopped;
     }
     if (pibt_.choose(state_, by_urgency())) {
@@ -70,11 +70,11 @@ SearchEnd Lacam::expand() {
     return SearchEnd::stopped;
 }
 
-// Tells the robots of the node's next constraint where to go; false if there is none left. Each
-// constraint is followed by those that tell one robot more, but only when somebody asks.
+// Fixes the robots of the node's next constraint; false if none is left. The children of a
+// constraint (one more robot fixed) are added lazily.
 bool Lacam::next_constraint(Node& node) {
     if (node.next_constraint > node.constraints.size()) {
-        return false;  // it was asked in vain before
+        return false;  // no constraint was left before
     }
     const auto k = static_cast<std::int32_t>(node.next_constraint++);
     if (k == 0) {
@@ -91,7 +91,7 @@ bool Lacam::next_constraint(Node& node) {
     return true;
 }
 
-// Tells one more robot where to go, in every way there is.
+// Adds the children of a constraint: one more robot fixed, to each neighbour or to its own vertex.
 void Lacam::branch(Node& node, std::int32_t constraint) {
     if (constraint == 0) {
         const auto undecided = by_urgency();
@@ -114,7 +114,7 @@ void Lacam::branch(Node& node, std::int32_t constraint) {
     node.constraints.push_back({constraint, depth + 1, robot, here});
 }
 
-// Who has been on its way for long is urgent; between equals, the longer way counts.
+// Undecided robots by urgency: pace times ticks since the last stage; ties by the longer way.
 std::span<const RobotId> Lacam::by_urgency() {
     urgencies_.clear();
     for (const RobotId robot : state_.undecided()) {
@@ -132,7 +132,7 @@ std::span<const RobotId> Lacam::by_urgency() {
     return order_;
 }
 
-// Takes the decisions and lets the clock go on to the next state.
+// Applies the decisions and advances the clock to the next state.
 void Lacam::go_on(std::int32_t from) {
     const std::size_t first = decisions_.size();
     for (const Decision& decision : pibt_.decisions()) {
@@ -140,7 +140,7 @@ void Lacam::go_on(std::int32_t from) {
         state_.decide(decision);
     }
     if (!state_.advance()) {
-        return;  // nobody moves, so nothing ever changes
+        return;  // no robot is busy, so the state cannot change
     }
     state_of_ = none;
     if (!add(from, first)) {
@@ -149,7 +149,7 @@ void Lacam::go_on(std::int32_t from) {
     }
 }
 
-// False if the state is known.
+// Adds a node for the state; false if the state is known.
 bool Lacam::add(std::int32_t parent, std::size_t first_decision) {
     const auto node = static_cast<std::int32_t>(nodes_.size());
     if (!known_.emplace(state_.fingerprint(), node).second) {

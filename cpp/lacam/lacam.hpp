@@ -1,14 +1,14 @@
-// A plan for a fleet with clocks, instant by instant.
+// LaCAM with times: a plan for a fleet with own speeds and work times.
 //
-// Depth-first search over the states of the fleet at the instants at which somebody has finished
-// something. Each state asks for one successor at a time, and only when asked again is told a
-// little more of where which robot has to go, so a greedy choice (Pibt) mostly does. A state
-// is kept as the decisions that lead to it, and made again by taking them again, from a snapshot
-// on the way.
+// Depth-first search over states of the fleet at the instants when a robot finishes a move or its
+// work. Each visit of a state generates one successor with `Pibt` under one constraint (the next
+// vertices of some robots); constraints are added lazily, so a greedy choice mostly suffices. A
+// node stores the decisions that lead to its state; the state is restored from a snapshot of an
+// ancestor.
 //
-// With one speed, no work and no booking ahead this is LaCAM (see untimed_lacam.hpp). States are
-// told apart by fingerprints of 64 bits, and robots at work cannot be pushed: to prove that there
-// is no plan, ask UntimedLacam.
+// With one speed, no work and no booking ahead this is LaCAM (see untimed_lacam.hpp). The search is
+// incomplete: fingerprints of 64 bits identify states, and robots at work cannot be pushed.
+// `UntimedLacam` can prove that no plan exists.
 #pragma once
 
 #include <cstdint>
@@ -30,30 +30,30 @@ class Lacam {
     Lacam(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
           std::uint64_t seed);
 
-    // Stops when `is_over` says so, asked every few thousand units of effort, or when that is
-    // spent. A choice of a robot is a unit, and so is a decision that is taken again to make a
-    // state. `proven_none` is not among its ends.
+    // Stops once `is_over` is true (evaluated every few thousand units of effort) or after
+    // `most_effort` units. One unit is a choice of a robot or a decision repeated to restore a
+    // state. Never returns `proven_none`.
     SearchEnd run(const StopCondition& is_over, std::int64_t most_effort);
 
-    // Where each robot is, when; empty unless a plan was found.
+    // The tracks of all robots; empty unless the search found a plan.
     Tracks tracks() const;
 
   private:
-    // Some robots are told where to go: this one, and those up the chain of parents.
+    // Fixes the next vertex of `robot`, and of the robots up the chain of parents.
     struct Constraint {
         std::int32_t parent;
-        std::int32_t depth;  // how many robots are told
+        std::int32_t depth;  // number of fixed robots
         RobotId robot;
         VertexId vertex;
     };
     struct Node {
         std::int32_t parent;
-        std::int32_t level;          // how many nodes are above
-        std::size_t first_decision;  // those that led here from the parent
+        std::int32_t level;          // number of ancestors
+        std::size_t first_decision;  // decisions from the parent to here
         std::size_t end_decision;
         std::size_t next_constraint;
         std::vector<Constraint> constraints;
-        std::vector<RobotId> order;  // who is told first; made when first needed
+        std::vector<RobotId> order;  // of constraints; made at the first use
     };
 
     struct Urgency {
@@ -82,16 +82,16 @@ class Lacam {
     Pibt pibt_;
     const FleetState start_;
     FleetState state_;
-    std::int32_t state_of_;  // the node whose state that is
+    std::int32_t state_of_;  // the node of `state_`
     std::vector<Snapshot> snapshots_;
     std::size_t oldest_snapshot_ = 0;
-    std::vector<std::int32_t> rank_;  // of each robot: longest way first
+    std::vector<std::int32_t> rank_;  // of each robot; longest way: 0
     std::vector<Urgency> urgencies_;
-    std::vector<RobotId> order_;  // of the undecided, the most urgent first
+    std::vector<RobotId> order_;  // of undecided robots, most urgent first
     std::vector<Node> nodes_;
     std::vector<std::int32_t> open_;
     std::vector<Decision> decisions_;
-    std::int64_t n_retaken_ = 0;                             // decisions, to make states again
+    std::int64_t n_retaken_ = 0;                             // decisions repeated by `restore`
     std::unordered_map<std::uint64_t, std::int32_t> known_;  // by fingerprint
     std::int32_t goal_;
 };

@@ -14,7 +14,7 @@ constexpr std::uint64_t draw_step = 0x9e3779b97f4a7c15U;  // from one random num
 
 }  // namespace
 
-// The fleet as it is while robots choose.
+// The fleet during a choice, as `Swaps` reads it.
 struct Pibt::Choosing {
     Pibt& pibt;
     const FleetState& now;
@@ -74,7 +74,7 @@ bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
     const auto choose_next = [&](RobotId r) { return next_[r] != nowhere || choose_one(now, r); };
     return std::all_of(order.begin(), order.end(), choose_next) &&
            std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
-               const RobotId other = now.here(fixed.vertex);  // it may have arrived already
+               const RobotId other = now.here(fixed.vertex);  // maybe a robot that has arrived
                return other == nobody || now.is_busy(other) || choose_next(other);
            });
 }
@@ -87,7 +87,7 @@ void Pibt::take(RobotId robot, VertexId vertex) {
     next_[robot] = vertex;
 }
 
-// Nobody else comes there, and the robot that is there is not at work and does not come here.
+// Whether no other robot enters the place, and the robot there neither works nor wants to swap.
 bool Pibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
     if (now.comes(place) != nobody || claim_[place] != nobody) {
         return false;
@@ -114,7 +114,7 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     const VertexId here = now.at(robot);
     if (has_to_wait(now, robot)) {
         draw_ +=
-            draw_step * (problem_.graph().heads(here).size() + 1);  // as if its places were ranked
+            draw_step * (problem_.graph().heads(here).size() + 1);  // as after a ranking of places
         const bool may_stay = is_open(now, robot, here);
         take(robot, here);
         return may_stay;
@@ -134,10 +134,10 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     return found;
 }
 
-// Whether it is plain that the robot stays, without a ranking of its places: so it is for most that
-// have been waiting. Either it may not stay, but nothing beside it is open; or it may, and no place
-// is open that may rank before where it is. It does not change places with anybody then if robots
-// on the move have booked them all: they come first.
+// Whether the robot stays; a shortcut without a ranking of places, for most waiting robots. True if
+// staying is forbidden and no neighbour is open, or if staying is allowed, no neighbour that may
+// rank before it is open, and there is no swap. A swap is excluded if moving robots have booked all
+// those neighbours, because moving robots go first.
 bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
     const Outlook& ahead = outlook(now, robot);
     const auto heads = problem_.graph().heads(ahead.here);
@@ -164,7 +164,7 @@ bool Pibt::has_partner(const FleetState& now, RobotId robot) {
     const std::int32_t* steps = steps_beside(robot);
     Place best = place(now, robot, n_heads);
     for (std::size_t k = 0; k < n_heads; ++k) {
-        if (steps[k] <= ahead.steps) {  // others rank behind staying
+        if (steps[k] <= ahead.steps) {  // the others rank after staying
             best = std::min(best, place(now, robot, k), ranks_before);
         }
     }
@@ -183,7 +183,7 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
         }
         take(robot, place);
         if (other != robot && other != nobody && is_idle(now, other) && !choose_one(now, other)) {
-            continue;  // `other` stays, so this place is taken
+            continue;  // `other` stays, so the place is occupied
         }
         const bool pulls = partner != nobody && k == first && place != here;
         if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
@@ -203,7 +203,7 @@ std::int32_t Pibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
     return tables_.steps(stage_table_[now.stage(robot)], vertex);
 }
 
-// When the robot could be there, if whoever is free makes room at once.
+// The earliest arrival at a place if a free robot there leaves at once.
 Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const {
     const RobotId other = now.here(place);
     const bool drives_away = other != nobody && other != robot && now.is_busy(other);
@@ -211,7 +211,7 @@ Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick dr
     return std::max(now.now() + drive, left + problem_.gap(drive));
 }
 
-// How far it is from where a robot is and from the places beside it. Who waits asks many times.
+// The steps to the target from the robot's vertex and its neighbours; cached for waiting robots.
 const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
     Outlook& outlook = outlook_[robot];
     const VertexId here = now.at(robot);
@@ -230,8 +230,8 @@ const Pibt::Outlook& Pibt::outlook(const FleetState& now, RobotId robot) {
     return outlook;
 }
 
-// The place over the k-th edge from where a robot is, or that one itself. A step along the
-// preferred path counts as one nearer, and goes first among equals; other ties are at random.
+// The candidate over the k-th edge of the robot's vertex, or the vertex itself. The next vertex of
+// the preferred path counts as one step nearer and wins ties; other ties are random.
 Pibt::Place Pibt::place(const FleetState& now, RobotId robot, std::size_t k) const {
     const Outlook& ahead = outlook_[robot];
     const EdgeId edge = problem_.graph().indptr[ahead.here] + static_cast<EdgeId>(k);
@@ -254,7 +254,7 @@ bool Pibt::ranks_before(const Place& left, const Place& right) {
                                    : left.vertex < right.vertex;
 }
 
-// All places to go to, that from where the target is reached soonest first.
+// Pushes all candidates, earliest arrival at the target first.
 void Pibt::push_places(const FleetState& now, RobotId robot) {
     const auto begin = static_cast<std::ptrdiff_t>(places_.size());
     const std::size_t n_places = problem_.graph().heads(outlook(now, robot).here).size() + 1;
@@ -278,8 +278,8 @@ bool Pibt::settle_arrivals(const FleetState& now) {
     return true;
 }
 
-// Follows the queue to its front, then settles it from there. False if it is a circle that may not
-// rotate.
+// Follows the queue to its front and computes the arrivals from there. False if the queue is a
+// circle and rotations are forbidden.
 bool Pibt::settle_queue(const FleetState& now, RobotId last) {
     queue_.clear();
     RobotId robot = last;

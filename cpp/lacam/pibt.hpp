@@ -1,15 +1,14 @@
-// Priority inheritance with backtracking at one instant of a fleet with clocks.
+// Priority inheritance with backtracking (PIBT) with times: the decisions of one instant.
 //
-// Only robots that are free decide, in order of priority. Each wants the neighbour from where it
-// would be at its target soonest: a robot that drives away from there is followed, and one that
-// stands there and is free inherits the priority and decides next; if that finds no place, the
-// first one tries its second choice. Robots on the move and at work cannot be pushed, and who wants
-// to go only where others drive to waits for them. When all have chosen, the arrivals follow, from
-// the front of each queue to its end; where robots may rotate, a circle arrives at one instant,
-// that of its slowest.
+// Free robots choose in order of priority. A robot prefers the neighbour from which it reaches its
+// target earliest. If a robot drives away from that vertex, the robot follows it; if a free robot
+// stands there, that robot inherits the priority and chooses next; if it finds no vertex, the first
+// robot tries its second choice. Robots that drive or work cannot be pushed; a robot waits if other
+// robots drive to all vertices that it prefers. After all choices, arrivals are computed from the
+// front of each queue to its end; a rotation arrives at one instant, the arrival of its slowest
+// robot.
 //
-// With one speed, no work and no booking ahead this is PIBT (see untimed_pibt.hpp, for references
-// too).
+// With one speed, no work and no booking ahead this is PIBT (references: untimed_pibt.hpp).
 #pragma once
 
 #include <cstdint>
@@ -29,20 +28,20 @@ class Pibt {
     Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& paths,
          std::uint64_t seed);
 
-    // Says where a free robot goes at this instant; its own place: it stays.
+    // Fixes the next vertex of a free robot at this instant; its own vertex: the robot stays.
     void fix(RobotId robot, VertexId vertex);
 
-    // Lets these robots choose in this order, and those they push; false if that does not work
-    // out. The fixed robots are free again afterwards.
+    // Chooses for these robots in this order, and for the robots that they push; false if no choice
+    // is possible. Removes all fixes.
     bool choose(const FleetState& now, std::span<const RobotId> order);
 
-    // The moves that were chosen last.
+    // The moves of the latest choice.
     std::span<const Decision> decisions() const { return decisions_; }
 
     // The ticks that a robot needs for its quickest edge.
     Tick pace(RobotId robot) const { return pace_[robot]; }
 
-    // How often a robot has chosen, since the beginning.
+    // The number of choices of single robots since construction.
     std::int64_t n_choices() const { return n_choices_; }
 
   private:
@@ -92,16 +91,16 @@ class Pibt {
     const SpaceUtilization& paths_;
     std::vector<StepTables::TableId> stage_table_;
     std::vector<Tick> pace_;
-    std::vector<Outlook> outlook_;            // of each robot, when it last chose
-    std::size_t most_heads_ = 0;              // of any vertex
-    std::vector<std::int32_t> steps_beside_;  // of each robot: from that many neighbours
+    std::vector<Outlook> outlook_;            // of each robot, at its latest choice
+    std::size_t most_heads_ = 0;              // greatest out-degree
+    std::vector<std::int32_t> steps_beside_;  // per robot: most_heads_ neighbours
     std::uint64_t draw_;                      // state of the random numbers for ties
-    std::vector<RobotId> claim_;   // who will be at each vertex by a choice of this instant
-    std::vector<VertexId> next_;   // where each robot will be by that
-    std::vector<Tick> arrival_;    // of each robot, once it is settled
-    std::vector<RobotId> chosen_;  // this instant
+    std::vector<RobotId> claim_;              // of each vertex: robot that chose it at this instant
+    std::vector<VertexId> next_;              // of each robot: its choice
+    std::vector<Tick> arrival_;               // of each robot, once computed
+    std::vector<RobotId> chosen_;             // robots with a choice
     std::vector<RobotId> queue_;
-    std::vector<Place> places_;  // a stack: those of each robot that is choosing
+    std::vector<Place> places_;  // a stack: candidates of each robot that is choosing
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;
     std::int64_t n_choices_ = 0;

@@ -1,7 +1,7 @@
-// Two robots that face each other in a corridor: do they have to change places, and can they?
+// The swap operation of PIBT: two robots that face each other in a corridor change places.
 //
-// One pulls the other back to where there is room. Looking ahead is along the corridor only, where
-// a robot that is pushed on has one way to go.
+// One robot pulls the other back to a vertex with room. Tests whether a swap is necessary and
+// possible look ahead along the corridor only, where a pushed robot has one way.
 //
 // Okumura, "Improving LaCAM for scalable eventually optimal multi-agent pathfinding", IJCAI 2023.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace rightofway {
 
-// What there is to know of a fleet while its robots choose.
+// The queries of `Swaps` to a fleet whose robots choose.
 template <class F>
 concept ChoosingFleet = requires(const F& fleet, RobotId robot, VertexId vertex) {
     { fleet.graph() } -> std::convertible_to<const Graph&>;
@@ -22,8 +22,8 @@ concept ChoosingFleet = requires(const F& fleet, RobotId robot, VertexId vertex)
     { fleet.here(vertex) } -> std::same_as<RobotId>;
     { fleet.target(robot) } -> std::same_as<VertexId>;
     { fleet.way(robot, vertex) } -> std::same_as<std::int32_t>;  // edges to the target
-    { fleet.is_free(robot) } -> std::same_as<bool>;              // it can choose now, or has chosen
-    { fleet.is_idle(robot) } -> std::same_as<bool>;              // it can, and has not chosen yet
+    { fleet.is_free(robot) } -> std::same_as<bool>;              // can choose or has chosen
+    { fleet.is_idle(robot) } -> std::same_as<bool>;              // can choose, has not chosen
 };
 
 template <ChoosingFleet F>
@@ -31,8 +31,8 @@ class Swaps {
   public:
     explicit Swaps(const F& fleet) : fleet_(fleet) {}
 
-    // The robot to change places with: the one that stands where this one wants to go, or one
-    // behind this one that has to get past it.
+    // The robot to swap with: the robot at the wanted vertex, or a robot behind this one that has
+    // to pass it; `nobody` if no swap is needed or possible.
     RobotId partner(RobotId robot, VertexId wanted) const {
         const VertexId here = fleet_.at(robot);
         if (wanted == here) {
@@ -59,11 +59,11 @@ class Swaps {
     struct Pair {
         RobotId pusher;
         RobotId puller;
-        VertexId behind;  // where the pusher is, and the puller ahead of it
+        VertexId behind;  // the pusher's vertex; the puller is at `ahead`
         VertexId ahead;
     };
 
-    // The one way on for whoever is pushed back along a corridor; `more` if there are several, and
+    // The only next vertex of a robot pushed along a corridor; `more` if there are several,
     // `nowhere` if there is none.
     VertexId only_way_on(VertexId from, VertexId at) const {
         VertexId found = nowhere;
@@ -79,7 +79,7 @@ class Swaps {
         return found;
     }
 
-    // A dead end whose robot is at its target.
+    // Whether the vertex is a dead end whose robot is at its target.
     bool is_blind(VertexId vertex) const {
         if (fleet_.graph().heads(vertex).size() != 1) {
             return false;
@@ -88,13 +88,13 @@ class Swaps {
         return resident != nobody && fleet_.target(resident) == vertex;
     }
 
-    // Whether the pusher, following the puller down the corridor, would only ever push it further
-    // from where the puller wants to go.
+    // Whether the pusher, following the puller along the corridor, would only push the puller away
+    // from its target.
     bool must_swap(Pair pair) const {
         auto [pusher, puller, behind, ahead] = pair;
         VertexId on = only_way_on(behind, ahead);
         if (on == more && fleet_.target(pusher) != behind) {
-            return false;  // so it would come out below, but for many looks at tables
+            return false;  // the result of the code below, without table reads
         }
         std::int32_t from_behind = fleet_.way(pusher, behind);
         std::int32_t from_ahead = fleet_.way(pusher, ahead);
@@ -112,8 +112,7 @@ class Swaps {
                (fleet_.target(pusher) == behind || from_ahead < from_behind);
     }
 
-    // Whether, going back along the corridor, there comes a place where the two can pass each
-    // other.
+    // Whether the way back along the corridor has a junction where the two robots can pass.
     bool can_swap(VertexId behind, VertexId ahead) const {
         const VertexId start = behind;
         while (ahead != start) {

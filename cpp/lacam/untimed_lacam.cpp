@@ -44,7 +44,7 @@ SearchEnd UntimedLacam::run(const StopCondition& is_over) {
             return SearchEnd::found;
         }
         if (node.next_constraint == node.constraints.size()) {
-            open_.pop_back();  // every step from here has been tried
+            open_.pop_back();  // all constraints are tried
             continue;
         }
         const auto constraint = static_cast<std::int32_t>(node.next_constraint++);
@@ -76,8 +76,8 @@ void UntimedLacam::add(Configuration&& now, std::int32_t parent) {
     open_.push_back(node);
 }
 
-// Who has been on its way for long is urgent; who has arrived or done a stage begins anew. At first
-// and between equals, the longer way counts.
+// The urgency of each robot: steps since its last stage, reset at each stage and at the target. The
+// fraction follows the length of the first way and breaks ties.
 std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t parent) const {
     std::vector<float> urgent(now.at.size());
     for (RobotId r = 0; r < problem_.n_robots(); ++r) {
@@ -96,7 +96,7 @@ std::vector<float> UntimedLacam::urgency(const Configuration& now, std::int32_t 
     return urgent;
 }
 
-// Tells one more robot where to go, in every way there is.
+// Adds the children of a constraint: one more robot fixed, to each neighbour or to its own vertex.
 void UntimedLacam::branch(Node& node, std::int32_t constraint) {
     const std::int32_t depth = node.constraints[constraint].depth;
     if (depth == problem_.n_robots()) {

@@ -1,13 +1,12 @@
-// A sequence of configurations that brings every robot through all of its stages.
+// LaCAM without times: a sequence of configurations that leads each robot through all its stages.
 //
-// Depth-first search over configurations of the whole fleet. Each configuration asks for one
-// successor at a time, and only when asked again is told a little more of where which robot has to
-// go; so a greedy step for all robots (UntimedPibt) mostly does, and yet in the end every possible
-// step is tried. The search is complete: it finds a sequence, or proves that there is none.
+// Depth-first search over configurations of the whole fleet. Each visit of a node generates one
+// successor with `UntimedPibt` under one constraint (the next vertices of some robots). Constraints
+// are added lazily, so a greedy step mostly suffices, but in the end every step is tried. The
+// search is complete: it finds a sequence or proves that none exists.
 //
 // Okumura, "LaCAM: Search-based algorithm for quick multi-agent pathfinding", AAAI 2023. Here a
-// configuration also says how far each robot is on its trip, so stops and the way home are part
-// of the one search.
+// configuration includes the stage of each robot, so one search covers stops and the way home.
 #pragma once
 
 #include <cstdint>
@@ -24,21 +23,21 @@ class UntimedLacam {
   public:
     static constexpr std::int64_t steps_between_questions = 64;
 
-    // Borrows everything. `ends_anywhere` is for each robot, or empty.
+    // Borrows everything. `ends_anywhere`: per robot, or empty (see `is_goal`).
     UntimedLacam(const Problem& problem, StepTables& tables, std::uint32_t seed,
                  std::span<const std::uint8_t> ends_anywhere = {});
 
-    // `is_over` is asked every `steps_between_questions` steps whether to stop.
+    // Evaluates `is_over` every `steps_between_questions` steps.
     SearchEnd run(const StopCondition& is_over);
 
-    // Where all robots are, step by step: the first n_robots entries are the homes.
+    // The configurations, n_robots vertices per step; the first n_robots entries are the homes.
     std::vector<VertexId> steps() const;
 
   private:
-    // Some robots are told where to go: this one, and those up the chain of parents.
+    // Fixes the next vertex of `robot`, and of the robots up the chain of parents.
     struct Constraint {
         std::int32_t parent;
-        std::int32_t depth;  // how many robots are told
+        std::int32_t depth;  // number of fixed robots
         RobotId robot;
         VertexId vertex;
     };

@@ -15,7 +15,7 @@ bool has(std::span<const VertexId> vertices, VertexId wanted) {
 
 }  // namespace
 
-// The fleet as it is while robots choose.
+// The fleet during a choice, as `Swaps` reads it.
 struct UntimedPibt::Choosing {
     const UntimedPibt& pibt;
     const Configuration& now;
@@ -78,7 +78,7 @@ bool UntimedPibt::take_fixed(const Configuration& now) {
     });
 }
 
-// Whether the robot that is there now comes the other way.
+// Whether the robot at the vertex moves to this robot's vertex.
 bool UntimedPibt::is_swap(const Configuration& now, RobotId robot, VertexId vertex) const {
     const RobotId other = here_[vertex];
     return other != nobody && other != robot && next_[other] == now.at[robot];
@@ -104,7 +104,7 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
         }
         take(robot, place);
         if (other != nobody && other != robot && next_[other] == nowhere && !choose(now, other)) {
-            continue;  // `other` stays, so this place is taken
+            continue;  // `other` stays, so the place is occupied
         }
         const bool pulls = partner != nobody && place == places.front() && place != here;
         if (pulls && next_[partner] == nowhere && comes_[here] == nobody &&
@@ -117,7 +117,7 @@ bool UntimedPibt::choose(const Configuration& now, RobotId robot) {
     return false;
 }
 
-// All places to go to, the nearest to the robot's stage first; ties at random.
+// All candidates, nearest to the robot's stage first; ties are random.
 std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, RobotId robot) {
     const auto heads = problem_.graph().heads(now.at[robot]);
     std::vector<VertexId> places(heads.begin(), heads.end());
@@ -135,9 +135,9 @@ std::vector<VertexId> UntimedPibt::places_by_distance(const Configuration& now, 
     return places;
 }
 
-// Follows every robot to the one it displaces; three or more that come back to the first rotate.
+// Follows each robot to the robot that it displaces; three or more that return to the first rotate.
 bool UntimedPibt::closes_rotation(const Configuration& now) const {
-    std::vector<RobotId> seen(next_.size(), nobody);  // in whose walk
+    std::vector<RobotId> seen(next_.size(), nobody);  // first robot of the walk
     for (RobotId first = 0; first < problem_.n_robots(); ++first) {
         RobotId robot = first;
         while (robot != nobody && seen[robot] == nobody) {

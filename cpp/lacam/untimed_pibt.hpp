@@ -1,9 +1,9 @@
-// Priority inheritance with backtracking: one step for the whole fleet, greedily.
+// Priority inheritance with backtracking (PIBT): one greedy step of the whole fleet.
 //
-// The robots choose in order of priority. Each wants the neighbour that brings it nearest; a robot
-// that stands there inherits the priority and chooses next, and if it finds no place the first one
-// tries its second choice. Two robots that face each other in a corridor exchange their places by
-// the swap operation: one pulls the other back to where there is room.
+// Robots choose in order of priority. Each robot prefers the neighbour nearest to its target. A
+// robot that stands there inherits the priority and chooses next; if it finds no vertex, the first
+// robot tries its second choice. Two robots that face each other in a corridor use the swap
+// operation: one robot pulls the other back to a vertex with room.
 //
 // Okumura, Machida, Defago & Tamura, "Priority inheritance with backtracking for iterative
 // multi-agent path finding", Artificial Intelligence 310, 2022; the swap operation: Okumura,
@@ -21,8 +21,8 @@
 
 namespace rightofway {
 
-// A fleet without clocks: where every robot is, and the stage that it is on its way to. Whether
-// robots can get where they have to go does not depend on times, because every robot can wait.
+// The vertex and the next stage of each robot, without times. Whether all robots can reach their
+// stages does not depend on times, because every robot can wait.
 struct Configuration {
     std::vector<VertexId> at;
     std::vector<std::int32_t> stage;
@@ -30,7 +30,7 @@ struct Configuration {
     bool operator==(const Configuration&) const = default;
 };
 
-// Moves a robot on to the first stage that it has not reached; the last one it keeps for ever.
+// Advances a robot to its first stage not reached; a robot keeps its last stage for ever.
 inline void advance(const Problem& problem, Configuration& now, RobotId robot) {
     while (!problem.is_last(robot, now.stage[robot]) &&
            problem.stage_vertex(now.stage[robot]) == now.at[robot]) {
@@ -38,8 +38,8 @@ inline void advance(const Problem& problem, Configuration& now, RobotId robot) {
     }
 }
 
-// Whether every robot is on its last stage, and there unless it may end anywhere: such a robot only
-// prefers its last stage. `ends_anywhere` is for each robot, or empty.
+// Whether every robot is on its last stage and at its vertex. A robot with `ends_anywhere` only
+// prefers that vertex. `ends_anywhere`: per robot, or empty.
 inline bool is_goal(const Problem& problem, std::span<const std::uint8_t> ends_anywhere,
                     const Configuration& now) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
@@ -57,17 +57,17 @@ class UntimedPibt {
     // Borrows the problem and the tables.
     UntimedPibt(const Problem& problem, StepTables& tables, std::uint32_t seed);
 
-    // How many edges it is from a vertex to the stage of a robot.
+    // The least number of edges from a vertex to the robot's stage.
     std::int32_t way(const Configuration& now, RobotId robot, VertexId vertex) const;
 
-    // Says where a robot goes in the coming step.
+    // Fixes the vertex of a robot after the coming step.
     void fix(RobotId robot, VertexId vertex);
 
-    // Chooses for all robots that are not fixed, in this order; false if that gives no step. The
-    // fixed robots are free again afterwards.
+    // Chooses for all robots that are not fixed, in this order; false if no step results. Removes
+    // all fixes.
     bool step(const Configuration& now, std::span<const RobotId> order);
 
-    // Where each robot goes in the step that was chosen last.
+    // The vertex of each robot after the latest step.
     std::span<const VertexId> next() const { return next_; }
 
   private:
@@ -88,10 +88,10 @@ class UntimedPibt {
     StepTables& tables_;
     std::vector<StepTables::TableId> stage_table_;
     std::mt19937 draw_;
-    std::vector<RobotId> here_;       // who is at each vertex
-    std::vector<RobotId> comes_;      // who will be at each vertex
-    std::vector<VertexId> next_;      // where each robot will be
-    std::vector<std::uint32_t> tie_;  // of each vertex; drawn anew for each choice
+    std::vector<RobotId> here_;       // of each vertex: robot now
+    std::vector<RobotId> comes_;      // of each vertex: robot after the step
+    std::vector<VertexId> next_;      // of each robot: vertex after the step
+    std::vector<std::uint32_t> tie_;  // of each vertex; drawn for each choice
     std::vector<Fixed> fixed_;
 };
 

@@ -72,7 +72,7 @@ void FleetPlan::hold_home(RobotId robot, Tick until) {
     }
 }
 
-// Tells of every booking in the way, until `found` has heard enough.
+// Calls `found` for each booking in conflict with the track until `found` ends the loop.
 template <class Found>
 void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found) const {
     const bool may_swap = problem_->may_follow();

@@ -1,4 +1,4 @@
-// The tracks of a fleet, what they book, and what they cost. Robots may be without a track.
+// The tracks of a fleet with their bookings and flowtime. A robot may have no track.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace rightofway {
 
 struct TimedTrack {
-    std::vector<Visit> visits;  // none: the robot has no track
+    std::vector<Visit> visits;  // empty: the robot has no track
     Tick completion = 0;
 };
 
@@ -28,22 +28,22 @@ class FleetPlan {
     Tick flowtime() const { return flowtime_; }
     Tracks tracks() const;
 
-    // Exchanges a robot's track, bookings included, for the given one; either may be empty.
+    // Swaps a robot's track with `track` and updates the bookings; either track may be empty.
     void exchange(RobotId robot, TimedTrack& track);
 
-    // Whether a track overlaps no booking of another robot, and swaps with none.
+    // Whether a track has no vertex conflict and no swap conflict with another robot.
     bool fits(RobotId robot, const TimedTrack& track) const;
 
-    // The other robots that a track would overlap or swap with, each once, in order.
+    // The robots in conflict with a track (vertex or swap), each once, in order of id.
     void in_the_way(RobotId robot, const TimedTrack& track, std::vector<RobotId>& robots) const;
 
-    // Keeps the home of a robot without a track free until then; 0 ends that.
+    // Books the home of a robot without a track until a tick; 0 removes the booking.
     void hold_home(RobotId robot, Tick until);
 
-    // Makes all robots as early as the order of visits at every vertex allows; each has a track.
+    // Shifts each visit to the earliest time that keeps the order at each vertex. Needs all tracks.
     void retime();
 
-    // What visit k of a track books.
+    // The booking of visit k of a track.
     Booking booking(const TimedTrack& track, std::size_t k) const;
 
   private:

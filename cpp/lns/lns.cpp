@@ -5,8 +5,8 @@
 namespace rightofway {
 namespace {
 
-// Tasks of a round: many, so that threads seldom wait for each other; few where they would get in
-// each other's way.
+// Tasks per round: many, so that threads seldom wait; fewer in small fleets, where results of tasks
+// would conflict.
 constexpr std::size_t robots_per_task = 4;
 constexpr std::size_t least_in_round = 4;
 constexpr std::size_t most_in_round = 32;
@@ -88,7 +88,7 @@ void Lns::attempt(Worker& worker, Task& task, Random& random, const StopConditio
     task.robots = worker.neighbourhoods.choose(kind, size, random);
     const RobotId seed = task.robots.front();
     random.shuffle(task.robots);
-    if (random.below(2) == 0) {  // the robot that it began with goes first
+    if (random.below(2) == 0) {  // the seed robot goes first
         std::swap(task.robots.front(), *std::find(task.robots.begin(), task.robots.end(), seed));
     }
     const std::int64_t before = worker.search.n_expanded();
@@ -96,13 +96,13 @@ void Lns::attempt(Worker& worker, Task& task, Random& random, const StopConditio
     task.effort = worker.search.n_expanded() - before + 1;
 }
 
-// Plans the robots of a task anew, notes the tracks in the task, and leaves the plan as it was.
+// Replans the robots of a task, stores the tracks in the task, and restores the plan.
 void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     const std::size_t n = task.robots.size();
     if (task.tracks.size() < n) {
         task.tracks.resize(n);
     }
-    Tick slack = 0;  // what all may take together, beyond what each would take alone
+    Tick slack = 0;  // allowed sum of completion times above `alone`
     for (std::size_t k = 0; k < n; ++k) {
         task.tracks[k].visits.clear();
         task.tracks[k].completion = 0;
@@ -130,7 +130,7 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     task.gain = is_found ? slack : -1;
 }
 
-// Takes over, in their order, the results that still fit.
+// Adopts, in order of tasks, the results that still fit together.
 void Lns::settle(std::size_t n) {
     std::fill(is_touched_.begin(), is_touched_.end(), 0);
     bool is_changed = false;
@@ -146,7 +146,7 @@ void Lns::settle(std::size_t n) {
     neighbourhood_.settle();
 }
 
-// Takes over a result into all replicas, if robots taken over before leave it possible.
+// Adopts a result in the plan and all replicas, unless it conflicts with results adopted before.
 bool Lns::adopt(Task& task, bool may_clash) {
     const std::size_t n = task.robots.size();
     for (const RobotId robot : task.robots) {

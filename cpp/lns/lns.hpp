@@ -1,12 +1,11 @@
-// Anytime improvement of one plan by large neighbourhood search, on several threads.
+// Large neighbourhood search (LNS): anytime improvement of one plan on several threads.
 //
-// Again and again a few robots give up their tracks and get new ones, one after another in random
-// order, half of the time with the one first for whose sake they were chosen; the better plan
-// stays. Work goes in rounds of a fixed number of tasks. Each task draws from a stream of its own,
-// made of seed, round and place in the round, and starts from the plan at the beginning of the
-// round; each thread has a replica of the plan. After a round the results are taken in their order,
-// as far as they still fit together. So the outcome depends on the seed and the number of tasks,
-// not on threads or their speed.
+// A task removes the tracks of a few robots and replans them one after another, in random order;
+// in half of the tasks the seed robot of the neighbourhood goes first. The plan keeps the result if
+// its flowtime is no greater. A round has a fixed number of tasks. Each task starts from the plan
+// at the beginning of the round, on the thread's replica, with the random stream (seed, round,
+// task). After a round, results that still fit together are adopted in order of tasks. So the
+// outcome depends on the seed and the number of tasks, not on the threads.
 //
 // Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021.
 #pragma once
@@ -28,14 +27,14 @@ namespace rightofway {
 
 class Lns {
   public:
-    // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
+    // Borrows all; every robot needs a track. `alone`: completion time of each robot driving alone.
     Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
         std::uint64_t seed, std::size_t n_threads);
     ~Lns();
 
-    // Does that many tasks; less after `patience` of them in a row without a gain, if `is_over`
-    // says so, or after the first round that ends when `is_due` does. Both are asked by the calling
-    // thread only. What `is_over` throws is passed on when the plan is whole again.
+    // Does `n_tasks` tasks. Stops early after `patience` tasks in a row without a gain, once
+    // `is_over` is true, or at the end of a round if `is_due` is true. Only the calling thread
+    // evaluates both. Rethrows an exception of `is_over` once the plan is complete.
     void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
              const StopCondition& is_due);
 
@@ -49,8 +48,8 @@ class Lns {
     struct Task {
         std::vector<RobotId> robots;
         std::vector<TimedTrack> tracks;
-        std::size_t neighbourhood = 0;  // its kind and size
-        Tick gain = -1;                 // below 0: nothing found
+        std::size_t neighbourhood = 0;  // index of kind and size
+        Tick gain = -1;                 // below 0: no tracks found
         std::int64_t effort = 0;
     };
     struct Worker;

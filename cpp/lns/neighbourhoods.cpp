@@ -59,7 +59,7 @@ void Neighbourhoods::add(RobotId robot) {
     }
 }
 
-// Adds those who book any of that time.
+// Adds the robots with a booking of the vertex that overlaps [start, end).
 void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t size) {
     const auto here = plan_.bookings().at(vertex);
     for (std::int32_t k = BookingTable::started(here, end - 1);
@@ -76,7 +76,7 @@ void Neighbourhoods::fill_up(std::size_t size, Random& random) {
     }
 }
 
-// A robot drawn by its delay; any robot if none is late.
+// A robot drawn with probability proportional to its delay; any robot if none is late.
 RobotId Neighbourhoods::late_robot(Random& random) {
     const Tick all = plan_.flowtime();
     Tick bound = 0;
@@ -94,7 +94,7 @@ RobotId Neighbourhoods::late_robot(Random& random) {
     return robot;
 }
 
-// From a random visit on, goes on as if alone, and takes whom it meets.
+// Continues from a random visit as if alone and adds the robots met.
 void Neighbourhoods::blockers(std::size_t size, Random& random) {
     const RobotId robot = late_robot(random);
     add(robot);
@@ -142,8 +142,8 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
     }
 }
 
-// Walks at random from a random visit on, as long as the robot could still come earlier than it
-// does, and takes whom it meets.
+// Walks at random from a random visit while the robot could still complete earlier than planned;
+// adds the robots met.
 void Neighbourhoods::delay(std::size_t size, Random& random) {
     const RobotId robot = late_robot(random);
     add(robot);
@@ -186,7 +186,7 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
     }
 }
 
-// Takes who passes around a random visit, nearest places first.
+// Adds the robots that pass near a random visit, nearest vertices first.
 void Neighbourhoods::congestion(std::size_t size, Random& random) {
     const RobotId robot = static_cast<RobotId>(random.below(alone_.size()));
     add(robot);
@@ -207,7 +207,7 @@ void Neighbourhoods::congestion(std::size_t size, Random& random) {
     }
 }
 
-// Takes those who drive some of the edges around a random visit the other way, soonest first.
+// Adds the robots that drive edges around a random visit the opposite way, nearest in time first.
 void Neighbourhoods::segment(std::size_t size, Random& random) {
     const RobotId robot = late_robot(random);
     add(robot);
@@ -227,7 +227,7 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
             if (one.robot == robot) {
                 continue;
             }
-            // Somebody who was at the next vertex just before.
+            // The robot that was at the next vertex just before.
             std::int32_t i = BookingTable::started(there, one.time.start);
             for (; i > 0 && there[i - 1].reach >= one.time.start; --i) {
                 if (there[i - 1].robot == one.robot && there[i - 1].time.end >= one.time.start) {

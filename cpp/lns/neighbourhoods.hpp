@@ -1,4 +1,4 @@
-// Which robots to plan anew together: a few whose tracks have to do with each other.
+// The neighbourhoods of LNS: small sets of robots with related tracks, to be replanned together.
 //
 // Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021.
 #pragma once
@@ -15,10 +15,10 @@
 namespace rightofway {
 
 enum class NeighbourhoodKind : std::int32_t {
-    blockers,    // a late robot, and those on the way it would take if it were alone
-    delay,       // a late robot, and those met on random walks from its track
-    congestion,  // robots that pass one place at about one time
-    segment,     // a late robot, and those that come towards it
+    blockers,    // a late robot, and the robots on its route alone
+    delay,       // a late robot, and the robots met on random walks from its track
+    congestion,  // robots near one vertex at about one time
+    segment,     // a late robot, and the opposing robots of a segment
     random,
 };
 inline constexpr std::size_t n_neighbourhood_kinds = 5;
@@ -50,7 +50,7 @@ class AdaptiveChoice {
 
 class Neighbourhoods {
   public:
-    // Borrows all. `alone` is the least completion of each robot.
+    // Borrows all. `alone`: completion time of each robot driving alone.
     Neighbourhoods(SharedDistances& distances, const FleetPlan& plan, std::span<const Tick> alone);
 
     // Chooses at most `size` robots, each once.

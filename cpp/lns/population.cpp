@@ -12,10 +12,10 @@ namespace rightofway {
 namespace {
 
 constexpr std::size_t n_members = 4;
-constexpr std::int64_t tasks_per_robot = 30;  // for each new plan
+constexpr std::int64_t tasks_per_robot = 30;  // for each child
 
-// How many robots change sides, in percent of those whose tracks differ; and how many are planned
-// anew where there is nobody to take tracks from.
+// The share of robots that take the mate's tracks [% of the robots with different tracks]; the most
+// is also the share of replanned robots if the mate's tracks are equal [% of all].
 constexpr std::size_t least_share = 20;
 constexpr std::size_t most_share = 60;
 
@@ -40,8 +40,8 @@ std::vector<RobotId> all_that_differ(const FleetPlan& left, const FleetPlan& rig
     return robots;
 }
 
-// Grows a group around a robot, by those who are in the way of somebody in it if one of the two
-// changes sides and the other does not. It may end before it has that many.
+// Grows a group around a robot: adds robots in conflict with a member when only one of the two
+// takes the mate's track. The group may have fewer than `size` robots.
 std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId first,
                           std::size_t size, Random& random) {
     std::vector<RobotId> group{first};
@@ -70,7 +70,7 @@ std::vector<RobotId> grow(const FleetPlan& plan, const FleetPlan& mate, RobotId 
     return group;
 }
 
-// That many percent of all robots, drawn evenly, at least one.
+// A uniform sample of `percent` % of all robots, at least one.
 std::vector<RobotId> some(RobotId n_robots, std::size_t percent, Random& random) {
     std::vector<RobotId> robots(static_cast<std::size_t>(n_robots));
     std::iota(robots.begin(), robots.end(), 0);
@@ -86,7 +86,7 @@ void take_away_all(FleetPlan& plan, std::span<const RobotId> robots) {
     }
 }
 
-// After so many tasks in a row without a gain a plan is stuck.
+// A plan is stuck after this number of tasks per robot in a row without a gain.
 constexpr std::int64_t idle_tasks_per_robot = 50;
 
 }  // namespace
@@ -120,7 +120,7 @@ void Population::run(std::int64_t n_tasks, std::int64_t patience, const StopCond
     crew_.pass_on();
 }
 
-// Shares out tasks to the next children; returns how many of those there are.
+// Assigns tasks to the next children; returns the number of children.
 std::size_t Population::begin_generation(std::int64_t n_tasks) {
     const std::size_t most = has_all_members() ? n_members : n_members - members_.size();
     const std::int64_t each = tasks_per_robot * plan_.n_robots();
@@ -141,7 +141,7 @@ void Population::bring_up(std::size_t k, const StopCondition& is_over) {
     Child& child = children_[k];
     Random random(seed_, n_generations_, k);
     if (!vary(child, has_all_members() ? k : 0, random, is_over)) {
-        child.n_tasks = is_over() ? 0 : child.most_tasks;  // in vain
+        child.n_tasks = is_over() ? 0 : child.most_tasks;  // count failed tasks, too
         return;
     }
     Lns improver(distances_, child.plan, alone_, random.next(), 1);
@@ -151,7 +151,7 @@ void Population::bring_up(std::size_t k, const StopCondition& is_over) {
     child.is_whole = true;
 }
 
-// Makes a plan unlike the one it comes from; false if some robots got no track.
+// Makes a variant of the parent's plan; false if some robots got no track.
 bool Population::vary(Child& child, std::size_t parent, Random& random,
                       const StopCondition& is_over) {
     child.plan = members_[parent];
@@ -173,7 +173,7 @@ bool Population::vary(Child& child, std::size_t parent, Random& random,
     return is_found;
 }
 
-// Some robots take over the mate's tracks. Returns those that were in the way, and have none now.
+// Gives a group of robots the mate's tracks. Returns the robots that lost their tracks by that.
 std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mate,
                                            std::span<const RobotId> differing,
                                            Random& random) const {
@@ -194,8 +194,8 @@ std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mat
     return out;
 }
 
-// Takes up the children in their order: each instead of its parent if it is no worse than that, or
-// else instead of the worst member if it is no worse than that one.
+// Inserts the children in order: a child replaces its parent if its flowtime is no greater, else
+// the worst member if its flowtime is no greater than the worst.
 void Population::take_up(std::size_t n_children) {
     const bool are_parents = has_all_members();
     const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {

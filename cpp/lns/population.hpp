@@ -1,15 +1,14 @@
-// Improvement of several plans of one fleet, crossed with each other, where one alone is stuck.
+// A memetic algorithm: crossover of several plans of one fleet and LNS, for a plan that is stuck.
 //
-// A plan that no small neighbourhood makes better is still far from the best: other seeds end in
-// plans about as good, in which robots settle their conflicts another way. A child is a plan in
-// which some robots take over their tracks from a second plan. Those are robots that are in each
-// other's way between the two plans: each of them could hardly change sides alone. Whoever else is
-// then in the way is planned anew, and the child is improved before it has to stand beside its
-// parents.
+// A local optimum of LNS is far from the best plan: other seeds end in plans of similar flowtime
+// with other rights of way. Crossover: in a copy of the parent, a group of robots takes the tracks
+// of a second plan (the mate). The robots of the group conflict with each other across the two
+// plans, so a single robot could hardly change its track. Other robots in conflict with the group
+// are replanned. LNS then improves the child before the child competes with its parent.
 //
-// The first members come from one plan by planning more than half of the robots anew. Each child
-// draws from a stream of its own and they are taken up in their order, so what comes out depends on
-// the seed and the number of tasks, not on threads or their speed.
+// The first members are variants of one plan with more than half of the robots replanned. Each
+// child has its own random stream, and children are inserted in order, so the outcome depends on
+// the seed and the number of tasks, not on the threads.
 //
 // Moscato & Norman, "A memetic approach for the traveling salesman problem", 1992. Prins, "A simple
 // and effective evolutionary algorithm for the vehicle routing problem", Computers & Operations
@@ -33,14 +32,14 @@ namespace rightofway {
 
 class Population {
   public:
-    // Borrows all; every robot of the plan has a track. `alone` is the least completion of each,
-    // `n_idle` after how many tasks without a gain this begins.
+    // Borrows all; every robot needs a track. `alone`: completion time of each robot driving alone.
+    // `n_idle`: number of tasks without a gain before the start.
     Population(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                std::uint64_t seed, std::size_t n_threads, std::int64_t n_idle);
 
-    // Brings up children with that many tasks of an `Lns` in all; with less after `patience`
-    // of them in a row without a better plan, if `is_over` says so, or when `is_due` does between
-    // generations. Both are asked by the calling thread only. What `is_over` throws is passed on.
+    // Improves children with `n_tasks` tasks of `Lns` in all. Stops early after `patience` tasks in
+    // a row without a better plan, once `is_over` is true, or between generations if `is_due` is
+    // true. Only the calling thread evaluates both. Rethrows an exception of `is_over`.
     void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
              const StopCondition& is_due);
 
@@ -52,7 +51,7 @@ class Population {
     struct Child {
         FleetPlan plan;
         std::int64_t most_tasks = 0;
-        std::int64_t n_tasks = 0;  // that were done
+        std::int64_t n_tasks = 0;  // tasks done
         std::int64_t n_expanded = 0;
         bool is_whole = false;  // every robot has a track
     };
@@ -78,10 +77,10 @@ class Population {
     std::int64_t n_expanded_ = 0;
 };
 
-// Improvement of a plan: of that one alone until it is stuck, then of a population.
+// Anytime improvement of a plan: LNS until the plan is stuck, then a population.
 class AnytimeLns {
   public:
-    // Borrows all; every robot of the plan has a track. `alone` is the least completion of each.
+    // Borrows all; every robot needs a track. `alone`: completion time of each robot driving alone.
     AnytimeLns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
                std::uint64_t seed, std::size_t n_threads);
 

@@ -8,14 +8,13 @@
 namespace rightofway {
 namespace {
 
-// For how many of its slowest edges a robot's home is kept free: at first, and as much longer each
-// time it has lost its track.
+// The start hold of a robot in drives of its slowest edge: at first, and the increase per eviction.
 constexpr Tick hold_edges = 16;
 
 constexpr double raise = 1.25;
 constexpr double highest_level = 1000;
 
-// See SearchRequest.
+// See `SearchRequest`.
 constexpr Tick greed = 1;
 
 constexpr auto between_questions = std::chrono::milliseconds(5);
@@ -101,7 +100,7 @@ bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
     return true;
 }
 
-// Leaves those whose tracks it has taken away in met_.
+// Evicts the robots in met_ that have tracks; met_ keeps the evicted robots.
 bool Prioritized::evict_those_met() {
     std::erase_if(met_, [this](RobotId other) { return !plan_.has_track(other); });
     for (const RobotId other : met_) {
@@ -110,7 +109,7 @@ bool Prioritized::evict_those_met() {
     return !met_.empty();
 }
 
-// Whether the track leads through the homes of those in met_ while these are kept free.
+// Whether the track conflicts with the start hold of a robot in met_.
 bool Prioritized::crosses_their_homes(RobotId robot) {
     evicted_.swap(met_);
     plan_.in_the_way(robot, track_, met_);
@@ -144,13 +143,13 @@ void PrioritizedPortfolio::Side::run(std::int64_t n_searches, const StopConditio
     is_there = planner.run(n_searches, is_over) == SearchEnd::found;
 }
 
-// Whether the other one was there before and does not look worse.
+// Whether the other run finished in no more states with a flowtime no greater than projected here.
 bool PrioritizedPortfolio::Side::is_beaten_by(const Side& other) const {
     return other.is_there && other.planner.n_expanded() <= planner.n_expanded() &&
            other.plan.flowtime() <= planner.highest_outlook();
 }
 
-// Goes on with a plan in another thread, as long as this lives and it may be better than the rival.
+// Runs a side in another thread until destruction or until the rival has beaten it.
 class PrioritizedPortfolio::Beside {
   public:
     Beside(Side& side, const Side& rival, std::int64_t n_searches)
@@ -174,7 +173,7 @@ class PrioritizedPortfolio::Beside {
   private:
     std::atomic<bool> has_ended_ = false;
     std::atomic<bool> is_stopped_ = false;
-    std::thread thread_;  // last, as it uses the others
+    std::thread thread_;  // last: uses the other members
 };
 
 PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
@@ -209,7 +208,7 @@ bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
     return patient_.is_there || hasty_.is_there;
 }
 
-// Not simply whose flowtime is less, as either might have been given up because it did not look so.
+// Compares projections before flowtimes, because a run may have been stopped for its projection.
 bool PrioritizedPortfolio::is_hasty_better() const {
     return patient_.is_beaten_by(hasty_) ||
            (!hasty_.is_beaten_by(patient_) && plan_in_haste_.flowtime() < plan_.flowtime());

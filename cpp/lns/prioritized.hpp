@@ -1,16 +1,15 @@
-// A first plan, one robot after another: each gets the best track among those that have one.
+// Prioritized planning of a first plan: each robot gets the best track among earlier tracks.
 //
-// The home of a robot without a track is kept free for a while, so that it can leave. A track may
-// run across others, at a price for each; those robots lose their tracks and queue again. The more
-// often a robot has lost its track, the more it costs to take it away and the longer its home is
-// kept free, so that in the end somebody else gives way, or lets it out first (ejection chains with
-// a memory).
+// The home of a robot without a track stays booked for a while (start hold), so the robot can
+// leave. A track may conflict with earlier tracks at a price per robot; those robots are evicted
+// (they lose their tracks) and queue again. Each eviction of a robot raises its price and lengthens
+// its start hold, so in the end another robot gives way or lets it out first (ejection chains with
+// memory).
 //
-// A way may lead through the homes of robots that lose their tracks by it and could not have got
-// out in time. Looking for it once more, with these homes kept free, settles neighbours who would
-// take away each other's tracks for ever; but two who must change places may need just such a way.
-// So a robot that has lost its own track does so every other time, drawn by lot, which also keeps
-// several from going round in step.
+// A track may pass the homes of robots that it evicts, which could not have left in time. A second
+// search with these homes booked ends endless mutual evictions of neighbours; but two robots that
+// must change places may need the first track. So a robot evicted before searches again with
+// probability 1/2, which also breaks cycles of several robots.
 //
 // Silver, "Cooperative pathfinding", AIIDE 2005; Andreychuk & Yakovlev, "Two techniques that
 // enhance the performance of multi-robot prioritized path planning", AAMAS 2018 (start holds);
@@ -31,10 +30,9 @@
 
 namespace rightofway {
 
-// What it costs to take a robot's track away, in first holds of its home: at first, and how much
-// more each time. Both rise by a quarter each time so many states have been expanded, so that
-// planning comes to an end where the floor is full. The dearer, the sooner a search is content with
-// a way around, and the longer that.
+// The price of evicting a robot, in units of its first start hold: `first`, plus `dearer` for each
+// eviction. Both rise by 25 % per `states_between_raises` expanded states, so planning ends on full
+// floors, too. Greater prices end a search sooner, with longer detours.
 struct TrackPrices {
     Tick first;
     Tick dearer;
@@ -45,18 +43,18 @@ constexpr TrackPrices hasty{12, 6, 300'000};
 
 class Prioritized {
   public:
-    // Borrows both. The robots that are to get tracks have none yet.
+    // Borrows both. The robots to be planned have no tracks yet.
     Prioritized(SharedDistances& distances, FleetPlan& plan, const TrackPrices& prices = patient);
 
-    // Robots are to get tracks in that order.
+    // Queues robots in this order.
     void start(std::span<const RobotId> order);
 
-    // Gives them tracks, until so many searches were made since the start. `stopped` means that
-    // some are without a track; it can go on from there.
+    // Plans the queued robots, with at most `n_searches` robots taken from the queue since the
+    // start. `stopped`: some robots have no track; another call continues.
     SearchEnd run(std::int64_t n_searches, const StopCondition& is_over);
 
-    // The most that the flowtime has looked like since the start, where each robot is expected to
-    // be complete as late as by its last track, or as alone.
+    // The greatest projected flowtime since the start: the sum of each robot's completion time by
+    // its last track, or alone if it had none.
     Tick highest_outlook() const { return highest_outlook_; }
     std::int64_t n_expanded() const { return search_.n_expanded(); }
 
@@ -79,8 +77,8 @@ class Prioritized {
     TripReader reader_;
     std::deque<RobotId> waiting_;
     std::vector<Tick> prices_;
-    std::vector<std::int32_t> n_lost_;  // how often a robot has lost its track
-    std::vector<Tick> expected_;        // completions
+    std::vector<std::int32_t> n_lost_;  // evictions of each robot
+    std::vector<Tick> expected_;        // projected completion times
     Random random_{0};
     std::vector<RobotId> met_;
     std::vector<RobotId> evicted_;
@@ -88,26 +86,25 @@ class Prioritized {
     std::int64_t n_searches_ = 0;
     Tick outlook_ = 0;
     Tick highest_outlook_ = 0;
-    std::int64_t next_raise_;  // at so many states
+    std::int64_t next_raise_;  // [expanded states]
     double level_ = 1;         // of prices
 };
 
-// Planning robots in turn, patiently and in haste, whichever comes out better.
+// Runs prioritized planning twice, patient and hasty, and keeps the better plan.
 //
-// Patience takes tracks away rather than drive a long way around. Where the floor is full that
-// gives the better plan, and takes longer; where there is room, haste does. Whoever is there first
-// is the net of the other, who goes on only while its plan still looks better. First is who has
-// expanded fewer states; so what comes out depends neither on clocks nor on threads unless time
-// runs out.
+// Patient: evicting is cheap, detours are short; better and slower on full floors. Hasty: evicting
+// is costly; better where there is room. The run that finishes first, counted in expanded states,
+// is the fallback; the other run continues only while its projected flowtime is lower. So the
+// outcome depends on neither clocks nor threads, unless time runs out.
 class PrioritizedPortfolio {
   public:
-    // Borrows both. The plan is without tracks.
+    // Borrows both. The plan has no tracks.
     PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
                          std::span<const RobotId> order);
 
-    // Gives all robots a track each, in at most so many searches since the beginning. False if that
-    // does not work out, with the plan in an unknown state; it can go on from there. Once there is
-    // a plan made in haste, `is_late` is asked instead of `is_over`; both by the calling thread.
+    // Gives each robot a track within `n_searches` searches per run since the start. False if no
+    // run is complete: the plan is in an unknown state, and another call continues. Once the hasty
+    // plan is complete, `is_late` replaces `is_over`; only the calling thread evaluates both.
     bool run(std::int64_t n_searches, bool has_second_thread, const StopCondition& is_over,
              const StopCondition& is_late);
 
@@ -118,7 +115,7 @@ class PrioritizedPortfolio {
 
         const FleetPlan& plan;
         Prioritized planner;
-        std::atomic<bool> is_there = false;  // told by the thread that plans, when it is
+        std::atomic<bool> is_there = false;  // the plan is complete; set by its thread
     };
     class Beside;
 

@@ -9,7 +9,7 @@
 namespace rightofway {
 namespace {
 
-// A sum of durations this long over a whole plan stays far below never.
+// With durations of at most 2^40 ticks, their sum over a plan stays far below `never`.
 constexpr Tick longest_duration = Tick{1} << 40;
 
 void require_ids(const char* name, std::span<const std::int32_t> ids, std::int64_t count) {

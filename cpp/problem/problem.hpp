@@ -1,6 +1,6 @@
-// A scenario in ticks: the roads, what each robot has to do, and the booking rules.
+// A scenario in ticks: roadmap, itineraries and paces of the robots, booking rules.
 //
-// Every kernel is given one problem. It is immutable, borrows its arrays, and is checked once.
+// Every kernel reads one `Problem`. It is immutable, borrows its arrays, and is checked once.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace rightofway {
 
-// How bookings are made of visits; see conflict.hpp.
+// The rules that turn visits into bookings; see conflict.hpp.
 struct BookingRules {
     Tick headway = 0;
-    bool books_ahead = false;  // a vertex is booked from when the robot starts to drive there
-    bool rotations = true;     // three or more robots may move round a circle at one instant
+    bool books_ahead = false;  // `occupancy: both`: a booking begins with the drive in
+    bool rotations = true;     // three or more robots may rotate at one instant
 };
 
-// Robot r owns stages first_stage[r] .. first_stage[r + 1] - 1, and drives an edge of class c in
-// paces[pace_of[r] * n_classes + c] ticks.
+// Robot r has stages first_stage[r] .. first_stage[r + 1] - 1 and drives an edge of length class c
+// in paces[pace_of[r] * n_classes + c] ticks.
 struct ProblemArrays {
     std::span<const EdgeId> indptr;
     std::span<const VertexId> heads;
@@ -36,20 +36,20 @@ struct ProblemArrays {
     std::int32_t n_classes;
 };
 
-// What one robot has to do, and how fast it drives. A visit at a stage's vertex serves it by
-// lasting for its work and turning; the last visit of all needs no turning.
+// The stages of one robot and its pace. A visit serves a stage if it is at the stage's vertex and
+// lasts for work plus turn; the last visit of the robot needs no turn.
 struct Itinerary {
     VertexId home = 0;
     std::span<const VertexId> stage_vertex;
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
-    std::span<const std::int32_t> pace;  // ticks for an edge of each length class
+    std::span<const std::int32_t> pace;  // ticks per edge of each length class
 
     std::size_t n_stages() const { return stage_vertex.size(); }
 
-    // The first stage that is left after a visit, if `stage` was the first before it. A visit
-    // serves stages as early as it lasts long enough for them, besides the drive that follows. The
-    // last stage is served in the last visit only.
+    // The first stage not served after a visit, where `stage` is the first not served before it.
+    // `spare` is the duration of the visit without the drive that follows. A visit serves as many
+    // stages as fit into `spare`; only the last visit serves the last stage.
     std::size_t stage_after(std::size_t stage, VertexId vertex, Tick spare) const {
         while (stage + 1 < n_stages() && stage_vertex[stage] == vertex &&
                spare >= stage_work[stage] + stage_turn[stage]) {
@@ -59,7 +59,7 @@ struct Itinerary {
         return stage;
     }
 
-    // From this stage on, all stages are at the last vertex, where no more turning is needed.
+    // The first stage of the final run of stages that are all at the last vertex.
     std::size_t first_stage_at_end() const {
         std::size_t first = n_stages() - 1;
         while (first > 0 && stage_vertex[first - 1] == stage_vertex.back()) {
@@ -71,7 +71,7 @@ struct Itinerary {
 
 class Problem {
   public:
-    // Borrows the arrays. Throws std::invalid_argument where they do not fit together.
+    // Borrows the arrays. Throws std::invalid_argument if the arrays do not fit together.
     Problem(const ProblemArrays& arrays, const BookingRules& rules);
 
     const Graph& graph() const { return roads_.graph; }
@@ -81,43 +81,43 @@ class Problem {
     RobotId n_robots() const { return static_cast<RobotId>(arrays_.home.size()); }
     std::size_t n_stages() const { return arrays_.stage_vertex.size(); }
 
-    // Stages are numbered across all robots.
+    // Stages of all robots share one numbering.
     VertexId home(RobotId robot) const { return arrays_.home[robot]; }
     std::int32_t first_stage(RobotId robot) const { return arrays_.first_stage[robot]; }
     bool is_last(RobotId robot, std::int32_t stage) const {
         return stage + 1 == arrays_.first_stage[robot + 1];
     }
     VertexId stage_vertex(std::int32_t stage) const { return arrays_.stage_vertex[stage]; }
-    // Work and turning; a last stage needs no turning.
+    // Work time plus turn of a stage; the last visit of a robot needs no turn.
     Tick stage_dwell(std::int32_t stage) const {
         return arrays_.stage_work[stage] + arrays_.stage_turn[stage];
     }
     Itinerary itinerary(RobotId robot) const;
 
-    // Robots of one pace need the same ticks for every edge.
+    // Robots of one pace drive each edge in equal ticks.
     std::int32_t pace_of(RobotId robot) const { return arrays_.pace_of[robot]; }
     std::span<const std::int32_t> pace(RobotId robot) const {
         const auto n = static_cast<std::size_t>(arrays_.n_classes);
         return arrays_.paces.subspan(static_cast<std::size_t>(pace_of(robot)) * n, n);
     }
-    // The ticks of a robot's quickest edge; 1 where there are no edges.
+    // The ticks of a robot's quickest edge; 1 if the graph has no length class.
     Tick quickest_edge(RobotId robot) const;
 
-    // The ticks that a robot drives along an edge.
+    // The ticks of a robot's drive along an edge.
     std::int32_t drive(RobotId robot, EdgeId edge) const {
         return arrays_.paces[pace_of(robot) * arrays_.n_classes + roads_.length_class[edge]];
     }
-    // The same from one vertex to another, -1 where there is no edge.
+    // The ticks of the drive from tail to head, -1 if the graph has no edge between them.
     std::int32_t drive(RobotId robot, VertexId tail, VertexId head) const {
         const EdgeId edge = graph().edge(tail, head);
         return edge < 0 ? -1 : drive(robot, edge);
     }
 
-    // From when a vertex is left to when a robot that drives there for so long can be there.
+    // The least ticks from the leave of one robot to the enter of the next robot after its drive.
     Tick gap(Tick drive_ticks) const {
         return rules_.headway + (rules_.books_ahead ? drive_ticks : 0);
     }
-    // Whether a vertex can be entered at the instant at which it is left.
+    // Whether a robot can enter a vertex at the instant when another robot leaves it.
     bool may_follow() const { return rules_.headway == 0 && !rules_.books_ahead; }
     bool may_rotate() const { return rules_.rotations && may_follow(); }
 
@@ -129,16 +129,16 @@ class Problem {
     BookingRules rules_;
 };
 
-// One visit of a track. The next visit's `enter` is when it ends.
+// One visit of a track. The visit ends at the `enter` of the next visit.
 struct Visit {
     Tick enter;
     VertexId vertex;
-    std::int32_t drive;  // ticks of the edge driven in; 0 for the first visit
+    std::int32_t drive;  // ticks of the drive in; 0 for the first visit
 };
 
-// The visits of all robots, one robot behind the other.
+// The visits of all robots, concatenated by robot.
 struct Tracks {
-    std::vector<VisitId> first_visit;  // robot r owns first_visit[r] .. [r + 1] - 1
+    std::vector<VisitId> first_visit;  // robot r has first_visit[r] .. [r + 1] - 1
     std::vector<VertexId> vertex;
     std::vector<Tick> enter;
 };

@@ -17,7 +17,7 @@ std::size_t checked_count(VertexId n_vertices) {
 
 constexpr std::int32_t smallest_class = 2;
 
-// The first of another robot's bookings that overlaps, or nullptr.
+// The first booking of another robot that overlaps `time`, or nullptr.
 const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time, RobotId robot) {
     auto k = BookingTable::started(here, time.end - 1);
     const BookedBy* found = nullptr;

@@ -1,10 +1,9 @@
-// Who has booked which vertex when, for robots whose times are known.
+// The bookings of each vertex, by start, for robots with known times.
 //
-// The bookings of a vertex lie side by side in order of time, all vertices in one array; a row that
-// outgrows its place moves to one twice as long, and places that are given up are used again. So
-// booking and taking back shift a few neighbours and allocate nothing, and a copy is three copies
-// of memory. In a fleet without conflicts the bookings of a vertex do not overlap, and what lies
-// between two of them is a *gap*; while conflicts are still being repaired, they may.
+// One array has the rows of all vertices. A full row moves to a place of twice the size; a freed
+// place is used again. So insert and erase shift a few entries and mostly allocate nothing, and a
+// copy of the table is three copies of memory. A *gap* is the time between two bookings of one
+// vertex. The bookings of a vertex overlap only while the plan has conflicts.
 #pragma once
 
 #include <array>
@@ -18,13 +17,13 @@ namespace rightofway {
 
 struct BookedBy {
     Booking time;
-    Tick reach;  // the latest end of this booking and those before it
+    Tick reach;  // latest end of this booking and of all bookings before it in the row
     RobotId robot;
 };
 
 class BookingTable {
   public:
-    // Throws std::invalid_argument if the number is negative.
+    // Throws std::invalid_argument if `n_vertices` is negative.
     explicit BookingTable(VertexId n_vertices);
 
     VertexId n_vertices() const { return static_cast<VertexId>(rows_.size()); }
@@ -33,21 +32,21 @@ class BookingTable {
         return {pool_.data() + row.first, static_cast<std::size_t>(row.size)};
     }
 
-    // Throws std::invalid_argument for an unknown vertex, an empty booking, or one that overlaps
-    // another robot's.
+    // Adds a booking. Throws std::invalid_argument for an unknown vertex, an empty booking, or an
+    // overlap with a booking of another robot.
     void book(VertexId vertex, const Booking& time, RobotId robot);
 
-    // The same unchecked; bookings may overlap.
+    // Adds a booking without checks; bookings may overlap.
     void insert(VertexId vertex, const Booking& time, RobotId robot);
 
-    // Takes back the booking of a robot that starts at a tick; nothing happens if there is none.
+    // Removes the robot's booking with this start, if the vertex has one.
     void erase(VertexId vertex, Tick start, RobotId robot);
 
-    // How many bookings start by then.
+    // The number of bookings with start <= time.
     static std::int32_t started(std::span<const BookedBy> bookings, Tick time) {
         const BookedBy* first = bookings.data();
         std::size_t length = bookings.size();
-        while (length > 0) {  // written so that no branch has to be guessed
+        while (length > 0) {  // branch-free binary search
             const std::size_t half = length / 2;
             const bool is_right = first[half].time.start <= time;
             first += is_right ? half + 1 : 0;
@@ -60,14 +59,14 @@ class BookingTable {
     struct Row {
         std::uint32_t first = 0;
         std::int32_t size = 0;
-        std::int32_t size_class = -1;  // its place has 1 << size_class entries; -1: none yet
+        std::int32_t size_class = -1;  // its place has 1 << size_class entries; -1: no place
     };
 
     void grow(Row& row);
 
     std::vector<Row> rows_;
     std::vector<BookedBy> pool_;
-    std::array<std::vector<std::uint32_t>, 32> unused_;  // places by size class
+    std::array<std::vector<std::uint32_t>, 32> unused_;  // freed places by size class
 };
 
 }  // namespace rightofway

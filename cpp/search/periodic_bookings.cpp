@@ -58,7 +58,7 @@ Tick PeriodicBookings::fold(Tick tick) const {
     return rest < 0 ? rest + period_ : rest;
 }
 
-// Bookings of a vertex begin and end in the same order, so only the two next to a new one matter.
+// Bookings of a vertex begin and end in one order, so only the two neighbours can overlap.
 bool PeriodicBookings::is_free(VertexId vertex, const Booking& booking) const {
     const auto& row = at_[static_cast<std::size_t>(vertex)];
     if (row.empty()) {
@@ -171,14 +171,14 @@ bool PeriodicBookings::search(const Visits& visits, Tick phase, std::vector<Tick
     return is_found;
 }
 
-// Starts at the earliest tick in a gap of its first vertex that it can repeat a period later.
+// Finds the earliest start in a gap of the first vertex that repeats a period later.
 bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick start,
                                   std::vector<Tick>& enter, const StopCondition& is_over) {
     const std::size_t n = visits.vertex.size();
     const Tick latest =
         home.end == never ? start : home.end - headway_ - visits.dwell[0] - visits.drive[1];
     while (start <= latest && !is_over()) {
-        // The last visit is the first one again, in the same gap a period later.
+        // Visit n repeats visit 0, in the same gap a period later.
         const auto& last = spread(visits, n, {start, home, none}, latest + period_);
         const auto again = std::find_if(last.begin(), last.end(), [&](const Stay& stay) {
             return home.end == never || stay.gap.start == home.start + period_;
@@ -224,8 +224,8 @@ bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick
     return true;
 }
 
-// The earliest enter into each gap of visit `last` from the first stay on; in time for the last
-// visit to begin by `latest`. Visit n is the first visit again.
+// The earliest enter into each gap of visit `last` after the stay `first`, at most `latest`. Visit
+// n repeats visit 0.
 const std::vector<PeriodicBookings::Stay>& PeriodicBookings::spread(const Visits& visits,
                                                                     std::size_t last,
                                                                     const Stay& first,

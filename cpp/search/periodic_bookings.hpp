@@ -1,21 +1,20 @@
-// Bookings of vertices with a period or none, and when one more robot can make given visits.
+// Bookings of vertices with or without a period, and the times of one more robot's given visits.
 //
 // Safe intervals (Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic
 // environments", ICRA 2011) on a fixed sequence of visits. A *gap* is the time between two bookings
-// of a vertex. An earlier enter into a gap is never worse than a later one, so the search goes from
-// visit to visit and keeps the earliest enter into each gap that it can reach.
+// of a vertex. An earlier enter into a gap is never worse than a later one, so the search expands
+// visit by visit and keeps the earliest enter into each reachable gap.
 //
-// With a period P time is a circle: all bookings come again every P ticks, and so do all gaps
-// (Serafini & Ukovich, "A mathematical model for periodic scheduling problems", SIAM Journal on
-// Discrete Mathematics 2, 1989). A robot that repeats its visits closes its track: after the last
-// visit comes the first one, P ticks later. The track closes if the robot enters the gap that it
-// started from, P ticks later, at most P ticks after its start. If it enters that gap later, its
-// start is moved by as much; either a start is found that meets itself, or the gap ends and the
-// next gap is tried. So the search is complete for its visits, except from a vertex that no other
-// robot visits: any phase is possible there, and only the given one is tried.
+// With a period P, each booking and each gap repeats every P ticks (Serafini & Ukovich, "A
+// mathematical model for periodic scheduling problems", SIAM Journal on Discrete Mathematics 2,
+// 1989). The visits of a robot repeat, too: the first visit follows the last visit. The track
+// closes if the robot enters its start gap again at most P ticks after its start. If the robot
+// returns d ticks too late, the search moves the start by d and repeats, until the track closes or
+// the gap ends; then it tries the next gap. The search is complete for its visits, with one
+// exception: if no other robot visits the first vertex, each phase is possible, and only the given
+// phase is tried.
 //
-// Without a period time is a line, for instance around the tick at which a simulated run is closed
-// to a circle.
+// Without a period, time is a line; example: the ticks around the closing of a simulated run.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +33,8 @@ namespace rightofway {
 // Consecutive visits of one robot. Borrowed.
 struct Visits {
     std::span<const VertexId> vertex;
-    std::span<const Tick> dwell;  // least duration of each, without the drive that follows
-    std::span<const Tick> drive;  // into each; above 0
+    std::span<const Tick> dwell;  // least duration of each visit, without the next drive
+    std::span<const Tick> drive;  // ticks of the drive into each visit; above 0
 };
 
 class PeriodicBookings {
@@ -44,65 +43,64 @@ class PeriodicBookings {
     struct Gap {
         Tick start;
         Tick end;
-        RobotId before;  // leaves the vertex at the start; nobody if the gap has no start
-        RobotId after;   // enters it at the end; nobody if the gap has no end
+        RobotId before;  // leaves the vertex at `start`; nobody if the gap has no start
+        RobotId after;   // enters the vertex at `end`; nobody if the gap has no end
         bool operator==(const Gap&) const = default;
     };
 
-    // Throws std::invalid_argument if a number is out of its range.
+    // Throws std::invalid_argument if an argument is out of range.
     PeriodicBookings(VertexId n_vertices, std::optional<Tick> period, Tick headway,
                      bool books_ahead);
 
     VertexId n_vertices() const { return static_cast<VertexId>(at_.size()); }
     bool has_period() const { return period_ != never; }
-    Tick period() const { return period_; }  // `never` without one
+    Tick period() const { return period_; }  // `never`: no period
     Tick headway() const { return headway_; }
     bool books_ahead() const { return books_ahead_; }
-    // The same tick in the first period.
+    // The tick modulo the period, in [0, period).
     Tick fold(Tick tick) const;
 
-    // Books visits that begin at these ticks. With a period, the last one lasts until the first one
-    // comes again, and the robot must not have bookings yet; false, with nothing booked, if a
-    // booking overlaps another robot's. Without, it lasts until `leave`; a robot may book more than
-    // once, and overlaps are allowed: they leave no gap. Throws std::invalid_argument if the robot
-    // has bookings already, or the arrays do not fit (nothing is booked then).
+    // Books visits with these enters. With a period: the last visit lasts until the first visit
+    // repeats, and the robot may have no bookings; returns false and books nothing if a booking
+    // overlaps a booking of another robot. Without a period: the last visit lasts until `leave`, a
+    // robot may book several times, and bookings may overlap (no gap between them). Throws
+    // std::invalid_argument, with nothing booked, if the arguments do not fit.
     bool add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
              std::optional<Tick> leave = std::nullopt);
 
     // Removes all bookings of a robot.
     void remove(RobotId robot);
 
-    // The robots whose bookings of any of these vertices overlap [from, to), each once. With a
-    // period bookings count in the period that they start in.
+    // The robots with a booking of one of these vertices that overlaps [from, to), each once. With
+    // a period, a booking counts in the period of its start.
     std::vector<RobotId> users(std::span<const VertexId> vertices, Tick from, Tick to) const;
 
-    // Finds ticks at which a robot can enter the visits of one period, after the last of which
-    // comes the first. False if there are none (if others book the first vertex, too), or none from
-    // this phase (if no other does), or if `is_over` said so. Gaps of the first vertex that begin
-    // after the phase come first.
+    // Finds the enters of one period of repeated visits. Tries the gaps of the first vertex in
+    // order, from the gap at `phase` on. False if no enters exist (none from `phase`, if no other
+    // robot books the first vertex) or if `is_over` became true.
     bool search(const Visits& visits, Tick phase, std::vector<Tick>& enter,
                 const StopCondition& is_over);
 
-    // Finds the earliest ticks for visits of which the first begins at `from` and the last by
-    // `until`, and the last lasts until `leave`. False if there are none.
+    // Finds the earliest enters where the first visit begins at `from` and the last visit begins by
+    // `until` and lasts until `leave`. False if none exist.
     bool connect(const Visits& visits, Tick from, Tick until, Tick leave, std::vector<Tick>& enter);
 
-    // The last visit that the latest search could enter: the next one is where it got stuck.
+    // The last visit that the latest search could enter; the search failed at the next visit.
     std::size_t reached() const { return reached_; }
 
     // Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in
-    // order, until it returns false. Gaps may be empty where one robot follows another at once.
+    // order, until `use` returns false. A gap is empty if one robot follows another at once.
     template <class Use>
     void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;
 
-    // When a robot that waits in one gap enters another, driving at least until `soonest` and at
-    // most until `last`, and books the way there `approach` ahead; `never` if it cannot.
+    // The enter of a robot that drives from gap `here` into gap `there`, in [soonest, last], with
+    // the booking `approach` ticks ahead; `never` if no enter is possible.
     Tick enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach) const;
 
   private:
     struct Booking {
         Tick start;  // in [0, period)
-        Tick end;    // at most a period later
+        Tick end;    // at most start + period
         RobotId robot;
         bool operator<(const Booking& other) const {
             return start != other.start ? start < other.start : robot < other.robot;
@@ -112,7 +110,7 @@ class PeriodicBookings {
     struct Stay {
         Tick enter;
         Gap gap;
-        std::int32_t from;  // its predecessor among the stays of the visit before
+        std::int32_t from;  // index of the parent among the stays of the visit before
     };
 
     Tick approach(const Visits& visits, std::size_t k) const {
@@ -129,10 +127,10 @@ class PeriodicBookings {
     Tick period_;
     Tick headway_;
     bool books_ahead_;
-    std::vector<std::vector<Booking>> at_;                            // of each vertex, by start
+    std::vector<std::vector<Booking>> at_;  // of each vertex, sorted by start
     std::unordered_map<RobotId, std::vector<VertexId>> vertices_of_;  // each once
-    std::vector<Tick> rest_;                // from each visit's enter to that of the last one
-    std::vector<std::vector<Stay>> stays_;  // of each visit, and of the first one a period later
+    std::vector<Tick> rest_;                // least ticks from each enter to the last enter
+    std::vector<std::vector<Stay>> stays_;  // of each visit, then of visit 0 a period later
     std::size_t reached_ = 0;
 };
 
@@ -141,7 +139,7 @@ void PeriodicBookings::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& u
     const auto& row = at_[static_cast<std::size_t>(vertex)];
     const bool wraps = has_period() && !row.empty();
     Tick shift = wraps ? from - fold(from) : 0;
-    // The first gap is that before the first booking that starts at `from` or after it.
+    // The first gap ends at the first booking with start >= `from`.
     auto next = std::lower_bound(row.begin(), row.end(), from - shift,
                                  [](const Booking& one, Tick tick) { return one.start < tick; });
     for (;; ++next) {

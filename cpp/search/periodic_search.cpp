@@ -19,13 +19,13 @@ PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circl
     }
 }
 
-// What the visit that serves a stage lasts longer by that.
+// The ticks that serving a stage adds to a visit: work plus turn.
 Tick PeriodicSearch::dwell_of(std::int32_t stage) const {
     const auto k = static_cast<std::size_t>(stage);
     return trip_->stage_work[k] + trip_->stage_turn[k];
 }
 
-// The least ticks from a vertex to being home again; -1 if no way leads there.
+// The least ticks from a vertex through the remaining stages to home; -1 if no path exists.
 Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
     const Tick way = trip_->to_stage[static_cast<std::size_t>(stage)].from(vertex);
     return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
@@ -52,13 +52,13 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     return is_found;
 }
 
-// Starts as early in a gap of its home as it can be back there a period later.
+// Finds the earliest start in a gap of the home from which the robot returns a period later.
 bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
                                 PeriodicRoundTrip& found) {
     const Tick leaves =
         home.end == never ? start : home.end - circle_.headway() - dwell_of(last_stage());
     while (start <= leaves && !is_stopped_) {
-        // Home again at the latest when the last possible start comes again.
+        // The latest return is the last possible start plus a period.
         const Tick again = earliest_return(home, start, leaves + circle_.period());
         if (again >= never) {
             return false;
@@ -72,8 +72,8 @@ bool PeriodicSearch::close_from(const PeriodicBookings::Gap& home, Tick start,
     return false;
 }
 
-// When a robot that enters its home at `start` is there again, in the same gap a period later;
-// `never` if it cannot be.
+// The earliest return, in the same gap a period later, of a robot that enters its home at `start`;
+// `never` if no return is possible.
 Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest) {
     for (const VertexId vertex : touched_) {
         at_[static_cast<std::size_t>(vertex)] = none;
@@ -87,7 +87,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();
         const Node& node = nodes_[static_cast<std::size_t>(top.node)];
-        if (top.key != key(node)) {  // entered earlier since
+        if (top.key != key(node)) {  // outdated: the gap has an earlier enter
             continue;
         }
         const bool is_same_gap =
@@ -106,7 +106,7 @@ Tick PeriodicSearch::earliest_return(const PeriodicBookings::Gap& home, Tick sta
     return never;
 }
 
-// Drives on along every edge, with as many stages served here as there may be, or fewer.
+// Drives along every edge, for each number of stages that this visit can serve.
 void PeriodicSearch::expand(std::int32_t from, Tick latest) {
     const VertexId here = nodes_[static_cast<std::size_t>(from)].vertex;
     std::int32_t stage = nodes_[static_cast<std::size_t>(from)].stage;
@@ -122,7 +122,7 @@ void PeriodicSearch::expand(std::int32_t from, Tick latest) {
     }
 }
 
-// Drives into every gap of the next vertex that can be entered.
+// Drives into every reachable gap of the next vertex.
 void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, Tick dwell,
                            Tick latest) {
     const Node here = nodes_[static_cast<std::size_t>(from)];
@@ -153,7 +153,7 @@ void PeriodicSearch::reach(const Node& node) {
     std::int32_t& head = at_[static_cast<std::size_t>(node.vertex)];
     for (std::int32_t k = head; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
         Node& known = nodes_[static_cast<std::size_t>(k)];
-        // The start is no return: a trip that comes home in no time at all has done nothing.
+        // The start node is no return: a round trip takes time.
         if (known.stage == node.stage && known.gap == node.gap && known.from != none) {
             if (node.enter < known.enter) {
                 const std::int32_t next = known.next;
@@ -192,7 +192,7 @@ void PeriodicSearch::trace(PeriodicRoundTrip& found) const {
     std::reverse(found.drive.begin(), found.drive.end());
     std::reverse(found.enter.begin(), found.enter.end());
     std::reverse(stages.begin(), stages.end());
-    // Home again is home, a period later.
+    // The return is the first visit, a period later.
     found.drive.front() = found.drive.back();
     found.enter.front() = found.enter.back() - circle_.period();
     found.vertex.pop_back();

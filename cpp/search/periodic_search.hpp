@@ -1,12 +1,12 @@
-// A round trip on any route among periodic bookings.
+// Search for a round trip of one robot, on any route, among periodic bookings.
 //
 // A* on safe intervals (Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic
 // environments", ICRA 2011). A state is (vertex, gap, stage); an earlier enter into a gap is never
-// worse than a later one. Time is unrolled. Any visit to the vertex of the next stage may serve it.
+// worse than a later one. Time is unrolled. Any visit at the vertex of the next stage may serve it.
 //
-// The trip closes as in periodic_bookings.hpp: it is home again in the gap that it started from, at
-// most a period later; otherwise its start is moved by as much. The earliest return from a later
-// start is never earlier, so the search is complete among all routes.
+// The trip closes as in periodic_bookings.hpp: the robot is home in its start gap at most a period
+// later. If the return is d ticks too late, the start moves by d. A later start never returns
+// earlier, so the search is complete among all routes.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace rightofway {
 
-// The visits of a trip that was found: as `Visits`, and when each is entered.
+// The visits of a round trip, as in `Visits`, with the enter of each visit.
 struct PeriodicRoundTrip {
     std::vector<VertexId> vertex;
     std::vector<Tick> dwell;
@@ -30,13 +30,13 @@ struct PeriodicRoundTrip {
 
 class PeriodicSearch {
   public:
-    // Borrows both. The last stage of a trip is at its home; a vertex without an entry in a stage's
-    // table is not entered on the way to that stage.
+    // Borrows both. The last stage of a trip is at its home. On the way to a stage the robot enters
+    // only vertices with a distance in the stage's table.
     PeriodicSearch(const Roads& roads, const PeriodicBookings& circle);
 
-    // Finds a route and its enters; false as `PeriodicBookings::search`. Among gaps of its home
-    // those that begin after the phase come first; in the first that is possible it is home again
-    // as early as it can be. Throws std::invalid_argument if roads and circle do not fit together.
+    // Finds a route and its enters; false as in `PeriodicBookings::search`. Tries the gaps of the
+    // home in order, from the gap at `phase` on; in the first possible gap the return is earliest.
+    // Throws std::invalid_argument if roads and circle do not fit together.
     bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over);
 
   private:
@@ -44,10 +44,10 @@ class PeriodicSearch {
         Tick enter;
         PeriodicBookings::Gap gap;
         VertexId vertex;
-        std::int32_t stage;  // how many are served before it
+        std::int32_t stage;  // number of stages served before this visit
         std::int32_t from;
         std::int32_t drive;
-        std::int32_t next;  // another node of the same vertex
+        std::int32_t next;  // next node in the list of this vertex
     };
     bool close_from(const PeriodicBookings::Gap& home, Tick start, PeriodicRoundTrip& found);
     Tick earliest_return(const PeriodicBookings::Gap& home, Tick start, Tick latest);
@@ -64,12 +64,12 @@ class PeriodicSearch {
     const PeriodicBookings& circle_;
     const Trip* trip_ = nullptr;
     const StopCondition* is_over_ = nullptr;
-    std::vector<Tick> to_go_;  // from the enter of each stage's vertex to being home again
+    std::vector<Tick> to_go_;  // least ticks from the enter of each stage's vertex to home
     std::vector<Node> nodes_;
-    OpenList open_;  // least time of return first, then the least rest
+    OpenList open_;  // least return first, then least remaining ticks
     Tick start_ = 0;
-    std::vector<std::int32_t> at_;   // the latest node of each vertex
-    std::vector<VertexId> touched_;  // which of these there are
+    std::vector<std::int32_t> at_;   // head of each vertex's list of nodes
+    std::vector<VertexId> touched_;  // vertices with a list
     std::int32_t goal_ = -1;
     bool is_stopped_ = false;
     std::int64_t n_expanded_ = 0;

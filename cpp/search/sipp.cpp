@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
-constexpr std::int64_t states_per_drive = 8;  // as many as there is time for, for aiming
+constexpr std::int64_t states_per_drive = 8;  // limit for aiming
 
 std::uint64_t scatter(std::uint64_t key) {
     key *= 0x9E3779B97F4A7C15U;
@@ -38,8 +38,8 @@ void SafeIntervalSearch::begin(const SearchRequest& errand) {
     is_aiming_ = false;
 }
 
-// Of the stages at the last vertex, all that are left can be served in the last visit, which needs
-// no turning; before, each stage takes its work and turning and then the way to the next one.
+// The last visit can serve all final stages at the last vertex, without turns. Each stage before
+// them takes its work, its turn and the way to the next stage.
 void SafeIntervalSearch::measure_stages(const Trip& trip) {
     const std::size_t n = trip.n_stages();
     const std::size_t first = trip.first_stage_at_end();
@@ -53,8 +53,8 @@ void SafeIntervalSearch::measure_stages(const Trip& trip) {
     }
 }
 
-// What completion and prices come to at least, because of the bookings of the last vertex: either
-// the robot enters after a booking has ended, or pays for it.
+// A lower bound of completion plus prices from the bookings of the last vertex: the robot enters
+// after the end of a booking, or pays for the booking.
 Tick SafeIntervalSearch::least_end() const {
     const auto last = bookings_->at(trip_->stage_vertex.back());
     Tick paid = 0;
@@ -66,7 +66,7 @@ Tick SafeIntervalSearch::least_end() const {
     return std::min(least, paid + trip_->stage_work.back());
 }
 
-// The least completion after all these bookings of the last vertex.
+// The least completion time after all these bookings of the last vertex.
 Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
     if (before.empty()) {
         return trip_->stage_work.back();
@@ -75,7 +75,7 @@ Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
     return before.back().time.end + approach + trip_->stage_work.back();
 }
 
-// The least ticks from here to completion, or -1 where no way leads on.
+// The least ticks from a vertex to completion, -1 if no path exists.
 Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     if (stage == n_stages()) {
         return 0;
@@ -99,8 +99,8 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopConditi
     return search(never, is_over);
 }
 
-// Whether others keep the last vertex longer than the way takes, and waiting for them is the best
-// that can be hoped for.
+// Whether bookings of the last vertex raise the bound above the completion time alone, and the
+// bound is to wait for all of them.
 bool SafeIntervalSearch::is_worth_aiming() const {
     const auto last = bookings_->at(trip_->stage_vertex.back());
     return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
@@ -120,7 +120,7 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
                none, 0, false};
     first.cost = price_of_entry(first, 0);
     if (first.cost >= never) {
-        return SearchEnd::proven_none;  // somebody else holds home at tick 0
+        return SearchEnd::proven_none;  // another robot books the home at tick 0
     }
     first_f_ = rest(first.vertex, 0);
     reach(first, first_f_);
@@ -158,7 +158,7 @@ void SafeIntervalSearch::expand(std::int32_t node) {
     }
 }
 
-// Stays for ever: needs a gap that never ends.
+// Ends the track: the last visit needs a gap without end, or pays for later bookings.
 void SafeIntervalSearch::finish(std::int32_t node) {
     Node after = nodes_[static_cast<std::size_t>(node)];
     if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
@@ -179,7 +179,7 @@ void SafeIntervalSearch::finish(std::int32_t node) {
     reach(after, rest(after.vertex, after.stage));
 }
 
-// Serves the next stage, if this is its vertex and the gap is long enough.
+// Serves the next stage if the vertex is right and the gap is long enough.
 void SafeIntervalSearch::serve(std::int32_t node) {
     Node after = nodes_[static_cast<std::size_t>(node)];
     if (after.stage + 1 >= n_stages() || trip_->stage_vertex[after.stage] != after.vertex) {
@@ -201,7 +201,7 @@ void SafeIntervalSearch::serve(std::int32_t node) {
     reach(after, rest(after.vertex, after.stage));
 }
 
-// Stays when the next booking begins, at its price.
+// Stays past the start of the next booking and pays its price.
 void SafeIntervalSearch::stay_on(std::int32_t node) {
     Node after = nodes_[static_cast<std::size_t>(node)];
     const auto here = bookings_->at(after.vertex);
@@ -220,7 +220,7 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
     reach(after, rest(after.vertex, after.stage));
 }
 
-// Drives an edge into each gap of its end that can be entered before this gap is over.
+// Drives along an edge into each gap of its head that the robot can enter before this gap ends.
 void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     const Node& here = nodes_[static_cast<std::size_t>(node)];
     const auto from = bookings_->at(here.vertex);
@@ -245,7 +245,7 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     }
 }
 
-// Enters each gap between bookings as soon as it can.
+// Enters each gap between bookings as early as possible.
 void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach) {
     const auto to = bookings_->at(candidate.vertex);
     const std::int32_t n = static_cast<std::int32_t>(to.size());
@@ -265,8 +265,8 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
     }
 }
 
-// Enters as soon as it can, and whenever a booking has just ended, at the price of those that have
-// not.
+// Enters as early as possible and at each end of a booking, and pays for the bookings that have not
+// ended.
 void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach) {
     const auto to = bookings_->at(soonest.vertex);
     const auto enter = [&](Tick tick) {
@@ -293,7 +293,7 @@ void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest
     }
 }
 
-// What it costs that bookings have not ended when the robot comes.
+// The price of the bookings that have not ended at the enter.
 Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) const {
     const auto to = bookings_->at(candidate.vertex);
     const Tick start = candidate.ready - approach;
@@ -309,8 +309,8 @@ Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) co
     return sum;
 }
 
-// A robot that leaves the end of the edge at this instant may be one that comes to its beginning
-// then. Where robots keep a headway or book ahead, their bookings would overlap as well.
+// The price of swap conflicts: a robot leaves the head of the edge and enters its tail at this
+// instant. With headway or booking ahead, a swap is a vertex conflict already: 0.
 Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
     if (rules_.headway > 0 || rules_.books_ahead) {
         return 0;
@@ -334,7 +334,7 @@ Tick SafeIntervalSearch::price(RobotId robot) const {
     return prices_.empty() ? never : prices_[static_cast<std::size_t>(robot)];
 }
 
-// Notes that a state can be reached, unless it is known to be reached as early and as cheaply.
+// Adds a node unless a node of its state is as early and as cheap.
 void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
     const Tick f = candidate.ready + way + candidate.cost;
     if (way < 0 || f > limit_) {
@@ -362,8 +362,8 @@ void SafeIntervalSearch::reach(const Node& candidate, Tick way) {
                node);
 }
 
-// Tells whether a node of the same state is no later and no dearer; marks those of which this one
-// is that.
+// Whether a node of the same state dominates the candidate (ready and cost no greater); marks the
+// nodes that the candidate dominates.
 bool SafeIntervalSearch::is_known(const Node& candidate, std::int32_t first) {
     for (std::int32_t k = first; k != none; k = nodes_[static_cast<std::size_t>(k)].next) {
         Node& known = nodes_[static_cast<std::size_t>(k)];
@@ -384,7 +384,7 @@ SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
                        static_cast<std::uint64_t>(node.vertex);
     const auto gap = static_cast<std::uint64_t>(node.gap);
     const std::uint64_t state = (place << 24) ^ gap;
-    // The gaps of a vertex lie side by side.
+    // Neighbouring slots for the gaps of one vertex.
     std::size_t k = (scatter(place) * 4 + gap) & mask_;
     while (slots_[k].generation == generation_ && slots_[k].state != state) {
         k = (k + 1) & mask_;

@@ -1,21 +1,20 @@
-// The best track of one robot among the bookings of the others (safe interval path planning).
+// Safe interval path planning (SIPP): the best track of one robot among bookings of other robots.
 //
-// A state is (vertex, gap, stage): in one gap between the bookings of one vertex, being there
-// earlier is never worse than later, for whoever is early can wait. What the robot has to do
-// (stops, work, turning, the way home) is a list of stages; serving the next one is a move like any
-// other and costs nothing extra.
+// A state is (vertex, gap, stage). In one gap an earlier enter is never worse than a later one,
+// because the robot can wait. The itinerary is a list of stages (stops, work, turns, way home); a
+// move of the search drives, waits or serves the next stage.
 //
-// Bookings may have a price instead of being walls: then the robot may overlap the bookings of
-// another at that price, and finds the track whose completion and prices together are least. With
-// prices far above any time this is the track with the fewest conflicts.
+// With prices, a track may overlap the bookings of another robot and pays the price of that robot.
+// The search minimizes completion time plus prices. Example: with prices far above any time, it
+// finds the track with the fewest conflicts.
 //
-// Others may come to the last vertex late. No track can be complete before the last of them has
-// left or is paid for, and a search by time alone looks at all that can be done until then. So it
-// *aims* first: among tracks that are complete at just that tick any is as good as another, and one
-// is looked for greedily, nearest to the end first, for a limited number of states.
+// If another robot books the last vertex late, no track is complete before that booking ends or is
+// paid for, and A* would expand every state up to that tick. So the search *aims* first: tracks
+// that are complete at exactly that tick are equally good, and a greedy search, nearest to the end
+// first, looks for one of them within a limited number of states.
 //
-// One object serves many searches: nodes, heap and the table of states keep their memory, and a
-// generation stamp takes the place of clearing.
+// One object serves many searches: nodes, heap and state table keep their memory; a generation
+// stamp replaces clearing.
 //
 // Phillips & Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
 // Li et al., "MAPF-LNS2: Fast repairing for multi-agent path finding via large neighborhood
@@ -36,14 +35,14 @@
 
 namespace rightofway {
 
-// What a search is asked.
+// The input of one search.
 struct SearchRequest {
     const Trip& trip;
     const BookingTable& bookings;
-    std::span<const Tick> prices = {};  // for overlapping a booking of each robot; empty: never
-    Tick limit = never;                 // tracks that cost more are of no use
-    // Above 0: a good track in a hurry. The way ahead counts so many eighths more, and of the ways
-    // to reach a state only that of the least time and prices together is kept.
+    std::span<const Tick> prices = {};  // per robot: of one overlap; empty: no overlaps
+    Tick limit = never;                 // greatest cost of a track [ticks]
+    // Above 0: a faster search for a good, not the best, track. The remaining ticks weigh greed / 8
+    // more, and each state keeps only its node of least time plus prices.
     Tick greed = 0;
 };
 
@@ -52,34 +51,34 @@ class SafeIntervalSearch {
     // Borrows the roads.
     SafeIntervalSearch(const Roads& roads, const BookingRules& rules);
 
-    // `is_over` is asked every few hundred states whether to stop.
+    // Calls `is_over` every few hundred states.
     SearchEnd run(const SearchRequest& errand, const StopCondition& is_over);
 
-    // What the last search found; empty if nothing.
+    // The track of the last search; empty if the search found none.
     void track(std::vector<Visit>& visits) const;
     Tick completion() const { return nodes_[static_cast<std::size_t>(goal_)].ready; }
     Tick cost() const { return completion() + nodes_[static_cast<std::size_t>(goal_)].cost; }
 
-    // How many states all searches have expanded: a measure of effort that no clock disturbs.
+    // The number of states expanded by all searches: effort, independent of the clock.
     std::int64_t n_expanded() const { return n_expanded_; }
 
   private:
     struct Node {
-        Tick ready;  // from when the robot may drive on
+        Tick ready;  // earliest start of the next drive
         Tick cost;   // prices paid
         VertexId vertex;
-        std::int32_t gap;  // how many bookings of the vertex are behind it, or paid for
+        std::int32_t gap;  // number of bookings of the vertex that are over or paid for
         std::int32_t stage;
         std::int32_t parent;
-        std::int32_t next;   // another node of the same state
-        std::int32_t drive;  // ticks of the edge driven in; 0: by waiting or serving a stage
+        std::int32_t next;   // next node of this state
+        std::int32_t drive;  // ticks of the drive in; 0: a wait or a served stage
         bool is_beaten;
     };
     struct Slot {
         std::uint64_t state;
-        Tick least;  // time and prices of that node together
+        Tick least;  // least time plus prices of a node of this state
         std::uint32_t generation;
-        std::int32_t node;  // the latest of this state
+        std::int32_t node;  // head of the list of this state
     };
     static constexpr Slot unused{0, 0, 0, -1};
 
@@ -114,16 +113,16 @@ class SafeIntervalSearch {
     const BookingTable* bookings_ = nullptr;
     std::span<const Tick> prices_;
     Tick limit_ = never;
-    std::vector<Tick> to_go_;      // from each stage's vertex to completion
-    std::int32_t first_last_ = 0;  // from this stage on, all are at the last vertex
+    std::vector<Tick> to_go_;      // least ticks from each stage's vertex to completion
+    std::int32_t first_last_ = 0;  // first of the final stages at the last vertex
     std::vector<Node> nodes_;
     OpenList open_;
     std::vector<Slot> slots_;    // open addressing
-    std::size_t mask_ = 0;       // the first so many slots are in use; a search starts with few
-    Tick least_drive_ = 1;       // on any edge
-    Tick least_f_ = 0;           // of any track, because of who comes to the last vertex
-    bool is_aiming_ = false;     // at a track with that f
-    bool has_one_label_ = true;  // a state is known by one node only, not by all that may pay
+    std::size_t mask_ = 0;       // slots 0 .. mask_ are in use; each search starts with few
+    Tick least_drive_ = 1;       // least ticks of any edge
+    Tick least_f_ = 0;           // bound from the bookings of the last vertex
+    bool is_aiming_ = false;     // looks for a track with f = least_f_
+    bool has_one_label_ = true;  // one node per state, no Pareto set of (time, cost)
     Tick first_f_ = 0;
     Tick greed_ = 0;
     std::uint32_t generation_ = 0;
