@@ -27,7 +27,7 @@ __all__ = ["improve", "solve"]
 LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
 
-JUDGING = 0.3e-6
+JUDGING = 0.4e-6
 """The time to judge a plan, for each visit that it has at least [s]."""
 
 

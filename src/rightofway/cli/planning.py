@@ -26,7 +26,7 @@ from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, registered
 if TYPE_CHECKING:
     from rightofway.model import Plan
 
-SECONDS_PER_VISIT = 0.9e-6
+SECONDS_PER_VISIT = 1.7e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
 

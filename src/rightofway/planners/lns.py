@@ -37,7 +37,7 @@ PATIENCE = 1000
 BETWEEN_REPORTS = 0.5
 """Time from one sentence on progress to the next [s]."""
 
-RETIMING = 0.6e-6
+RETIMING = 0.9e-6
 """The time that the last step takes for each visit of the plan, `FleetSearch.retime` [s]."""
 
 UNLIMITED = 2**62
