@@ -1,13 +1,13 @@
-"""Switching rights of way during execution, where that helps and no robots can deadlock.
+"""Reordering during execution: switch rights of way to lower the expected flowtime.
 
-Rights of way between visits that have not begun are flipped, each for a whole segment, as long as
-that lowers the expected flowtime. The precedence graph refuses every flip that closes a cycle.
+Rights of way between visits that have not begun are switched, each for a whole segment, while a
+switch lowers the expected flowtime. The precedence graph refuses switches that close a cycle.
 
 References
 ----------
 Berndt, van Duijkeren, Palmieri & Keviczky, *A feedback scheme to reorder a multi-agent execution
-schedule by persistently optimizing a switchable action dependency graph*, 2020. They solve an
-integer program over a horizon at each look ahead; this is a descent over the whole rest.
+schedule by persistently optimizing a switchable action dependency graph*, 2020. The paper solves
+an integer program over a receding horizon; this module descends over all remaining visits.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ __all__ = ["reordered"]
 
 
 def reordered(forecast: Forecast) -> ActionDependencyGraph | None:
-    """Flip rights of way that have not been used, as long as that lowers the expected flowtime.
+    """Switch unused rights of way while this lowers the expected flowtime.
 
     Parameters
     ----------
     forecast
-        The expectation; its graph gets the new order, or stays if there is none.
+        The forecast; its graph gets the new order, or is unchanged if the result is None.
 
     Returns
     -------
     ActionDependencyGraph or None
-        The plan in the new order, valid from now on. None if no other order helps.
+        The plan in the new order, valid from ``now`` on. None if no new order is better.
     """
     adg, booked = forecast.adg, forecast.booked
     mark = forecast.graph.checkpoint()
@@ -42,7 +42,7 @@ def reordered(forecast: Forecast) -> ActionDependencyGraph | None:
     )
     search.descend()
     before = order_of(adg.vertex, forecast.times())
-    # A visit that has begun must not wait for one that has not.
+    # A visit that has begun must not wait for a visit that has not begun.
     waits_for = before[booked]
     is_allowed = booked[waits_for[waits_for >= 0]].all()
     if np.array_equal(before, adg.before) or not is_allowed:
