@@ -302,7 +302,7 @@ class _SeamClosing:
             self._book_kept(robot)
 
     def connect_all(self) -> bool:
-        """Connect all robots by waits at home, or else by laps; return whether all are connected."""
+        """Connect robots by waits at home, or else by laps; return whether all are connected."""
         queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
         while queue and self._searches < self._params.searches * len(self._kept):
             self._searches += 1  # counts also without choices
