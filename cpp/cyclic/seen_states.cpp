@@ -2,7 +2,7 @@
 
 namespace rightofway {
 
-// FNV-1a on whole numbers instead of bytes, with a final mix.
+// FNV-1a on whole numbers instead of bytes, mixed after each number.
 std::size_t SeenStates::Hash::operator()(const State& state) const {
     std::uint64_t hash = 0xcbf29ce484222325U;
     for (const std::int32_t number : state) {

@@ -21,7 +21,7 @@ class SeenStates {
     // Stores at most `most` numbers, but at least one state.
     explicit SeenStates(std::size_t most = std::size_t{1} << 24) : most_(most) {}
 
-    // The tick of an earlier equal state; adds the state if there is none.
+    // The tick of an earlier equal state; without one, adds the state unless thinned out.
     std::optional<Tick> find_or_add(const State& state, Tick tick);
 
     // Forgets the states seen later than a tick, or all states.

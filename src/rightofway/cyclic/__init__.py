@@ -1,4 +1,4 @@
-"""Laps that repeat: simulated under a rule, or by a timetable chosen in advance."""
+"""Repeated laps: simulated under a lap rule, or scheduled by a timetable chosen in advance."""
 
 from rightofway.cyclic.bottleneck import Bottleneck, Piece, bottleneck_of, in_words
 from rightofway.cyclic.pattern import Pattern

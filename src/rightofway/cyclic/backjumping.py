@@ -1,10 +1,10 @@
-"""Conflict-directed backjumping: keep all robots of a window apart, or prove that waiting cannot.
+"""Conflict-directed backjumping: resolve all conflicts of a window, or prove a deadlock.
 
-Each meeting of two robots is one decision, for a whole segment, in order of time. Where neither
-robot can wait, the decisions whose rights of way close the cycles are the culprits. The latest
-culprit that was not reversed yet is reversed, and all decisions after it are dropped. A reversed
-decision that fails as well passes its culprits on, so within a window the search is complete and
-tries nothing twice.
+One decision resolves one meeting of two robots, for a whole segment, in order of time. If neither
+robot can wait, the decisions with rights of way on the closed cycles are the *culprits*. The latest
+culprit that is not reversed yet is reversed, and all later decisions are dropped. A reversed
+decision that fails, too, passes its culprits on: within a window, the search is complete and tries
+no combination twice.
 
 References
 ----------
@@ -26,13 +26,13 @@ from rightofway.precedence import Meeting
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """The rights of way given at one meeting, and those of the opposite decision."""
+    """The rights of way given at one meeting, and the opposite rights of way."""
 
     rights: tuple[NumberedRight, ...]
     others: tuple[NumberedRight, ...]
 
     def beyond(self, window: Window) -> Decision:
-        """Return the part of a decision that concerns visits after the cut of a window."""
+        """Return the part of a decision with visits after the cut of a window."""
 
         def inside(rights: Iterable[NumberedRight]) -> tuple[NumberedRight, ...]:
             return tuple(right for right in rights if right[0][1] >= window.starts[right[0][0]])
@@ -53,7 +53,7 @@ class _Frame:
 
 
 class RightOfWaySearch:
-    """The decisions that hold in a window, in order; those from before the cut come first."""
+    """The decisions of a window in order; decisions from before the cut come first."""
 
     def __init__(self, window: Window, carried: Sequence[Decision]) -> None:
         self.window = window
@@ -66,18 +66,18 @@ class RightOfWaySearch:
 
     @property
     def decisions(self) -> list[Decision]:
-        """All decisions, to be carried on to the next window."""
+        """All decisions, for the next window."""
         return [frame.decision for frame in self._frames]
 
     def resolve(self, meeting: Meeting, rule: WindowRule) -> None:
-        """Keep two robots apart, if necessary by reversing earlier decisions.
+        """Resolve a meeting, if necessary by reversing earlier decisions.
 
         Raises
         ------
         Deadlock
-            If no decisions do.
+            If no combination of decisions resolves the meeting.
         TooShort
-            If the window ends before the segment does.
+            If the window ends before the segment.
         """
         window, number = self.window, self.window.number
         segment = window.fleet.segment_of(meeting)
@@ -107,7 +107,7 @@ class RightOfWaySearch:
         return Deadlock(meeting.robots, vertex, tick, circle)
 
     def _push(self, decision: Decision, *, is_reversed: bool, culprits: set[int]) -> bool:
-        """Take a decision; false, with nothing changed, if that is impossible."""
+        """Take a decision; return false and change nothing if it is impossible."""
         graph, visit, mark = self.window.graph, self.window.visit, self.window.graph.checkpoint()
         rights = [(visit(*first), visit(*second)) for first, second in decision.rights]
         if not graph.give_all(rights):
@@ -118,7 +118,7 @@ class RightOfWaySearch:
         return True
 
     def _jump_back(self, culprits: set[int]) -> bool:
-        """Reverse the latest culprit that can be reversed; false if none can."""
+        """Reverse the latest reversible culprit; return false if there is none."""
         while culprits:
             latest = max(culprits)
             frame = self._frames[latest]
@@ -135,7 +135,7 @@ class RightOfWaySearch:
         return False
 
     def _culprits(self) -> set[int]:
-        """Return the decisions that made the last right of way impossible."""
+        """Return the decisions on the cycle of the last refused right of way."""
         graph = self.window.graph
         self._circle = graph.deadlocked() or self._circle
         rights = graph.deadlocking_rights()

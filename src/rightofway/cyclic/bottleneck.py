@@ -1,7 +1,7 @@
-"""The bottleneck: the critical circuit of a period, as work, ways and vertices that change hands.
+"""The bottleneck: the critical circuit of a period as work, drives and rights of way.
 
-The circuit follows the visits of a robot up to a vertex that another robot waits for, continues
-with that robot, and returns to its first visit some periods later.
+The circuit follows the visits of one robot to a vertex for which a second robot waits, continues
+with the second robot, and returns to the first visit some periods later.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from rightofway.precedence import TimedEventGraph
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Piece:
-    """One activity of a critical circuit, which must be over before the next can begin.
+    """One activity of a critical circuit; the next activity waits for its end.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class Piece:
     robot
         The robot that works, drives, or waits for the right of way.
     places
-        The vertex; of a way: all from the first to the last one.
+        The vertex; of a way: all vertices in order.
     ticks
         Its duration; of a right of way: headway and approach [ticks].
     """
@@ -45,11 +45,11 @@ class Bottleneck:
     Attributes
     ----------
     cycle_time
-        Its length divided by its periods [ticks].
+        Length of the circuit divided by ``periods`` [ticks].
     periods
-        How many periods one round of it takes.
+        Number of periods of one round of the circuit.
     pieces
-        Its activities in order; after the last one comes the first.
+        Activities in cyclic order.
     """
 
     cycle_time: Fraction
@@ -58,7 +58,7 @@ class Bottleneck:
 
     @property
     def robots(self) -> tuple[int, ...]:
-        """The robots on it, in order."""
+        """The robots on the circuit, in order."""
         return tuple(dict.fromkeys(piece.robot for piece in self.pieces))
 
 
@@ -80,7 +80,7 @@ def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) ->
 
 
 def _from_the_longest_run(graph: TimedEventGraph, circuit: list[int]) -> list[int]:
-    """Rotate the circuit to begin after a right of way, with the robot whose visits take most."""
+    """Rotate the circuit to begin with the longest run of visits of one robot."""
     starts = [k for k, arc in enumerate(circuit) if graph.arcs.first[arc] >= 0]
     if not starts:
         home = next(k for k, arc in enumerate(circuit) if graph.index[graph.arcs.tail[arc]] == 0)
@@ -131,9 +131,9 @@ def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> s
     bottleneck
         The bottleneck to describe.
     scenario
-        The names of robots and places.
+        The scenario, for names of robots and places.
     most
-        How many pieces to name; the others are counted.
+        Number of pieces to name; further pieces are counted.
     """
     if len(bottleneck.robots) == 1:
         name = scenario.robots[bottleneck.robots[0]].name

@@ -1,18 +1,19 @@
-"""Close a stretch of a simulation to a timetable: some laps of each robot, repeated for ever.
+"""Closing: turn a stretch of a simulation into a timetable, some laps per robot that repeat.
 
-Two ways, for simulations in which no state recurs in a reasonable time:
+Two methods, for simulations in which no state recurs in reasonable time. The *seam* is the instant
+at which the end of the stretch meets its beginning.
 
-- By orders (`closed_windows`), for groups in which many windows can be tried. The laps that begin
-  from some tick on and end within a period keep the orders of their visits at each vertex, across
-  the seam as well; the cycle time of these orders is exact. Where robots would wait for each other
-  for ever at the seam, the visits keep their times, and robots that overlap leave out a lap or two.
-- By a seam (`close_stretch`), for hundreds of robots. Far from the seam all visits keep their
-  times. At the seam each robot waits at home, from its last lap before to its first lap after, or
-  makes as many more laps as there is room for; laps at the seam may be given up for that. Where
-  others pass a home in that time, its robot searches for a way first.
+- By orders (`closed_windows`), for groups small enough to try many windows. Laps that begin from a
+  tick on and end within a period keep their order at each vertex, also across the seam; the cycle
+  time of this order is exact. If the order causes a deadlock at the seam, visits keep their times
+  instead, and robots with overlapping bookings leave out laps.
+- By a seam (`close_stretch`), for hundreds of robots. Far from the seam, visits keep their times.
+  At the seam, each robot waits at home from its last lap before to its first lap after the seam, or
+  makes additional laps; it may give up laps next to the seam. A robot with other robots passing its
+  home during this wait searches for a route first.
 
-A seam costs about half a lap of each robot, however long the stretch is: the more laps it has, the
-closer its value is to that of the simulation.
+A seam costs about half a lap per robot for any length of stretch: the value of a timetable
+approaches the value of the simulation as the stretch gets longer.
 """
 
 from __future__ import annotations
@@ -35,24 +36,24 @@ from rightofway.search import PeriodicBookings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClosingParams:
-    """Which stretches are considered, and how much may change at a seam."""
+    """Selection of stretches, and limits of changes at a seam."""
 
-    # Windows are compared within each of these ranges of lengths [longest laps].
+    # Windows compete within each range between consecutive lengths [longest laps].
     window_lengths: tuple[int, ...] = (1, 2, 4, 8, 16, 32, 64, 128, 256)
-    window_begins: int = 32  # Windows of each length begin at this many ticks.
-    most_by_value: int = 12  # This many of each length are closed for the value of their laps.
-    most_by_calm: int = 4  # This many are closed because robots wait least at their ends.
-    most_window_visits: int = 200_000  # Longer windows are not considered.
-    most_left_out: int = 3  # A robot loses up to this many laps where visits overlap at the seam.
-    stretch_begins: int = 8  # Long stretches begin at this many ticks.
-    stretch_ends: int = 200  # For each beginning this many ends are considered.
-    latest_begin: float = 0.1  # They begin in this part of the simulation.
-    shortest: float = 0.9  # They are this part of the longest one, or longer.
-    most_stretch_visits: int = 16_000_000  # They have about this many visits at most, for memory.
-    around: float = 1.75  # Visits this close to the seam may change [longest laps].
-    fewer_laps: int = 4  # A robot makes fewer than this many laps less than it has time for.
-    given_up: int = 3  # A robot gives up fewer than this many laps on each side of the seam.
-    searches: int = 8  # Each robot searches for a way at most this often, on average.
+    window_begins: int = 32  # Number of begins per length.
+    most_by_value: int = 12  # Windows closed per length, by value of laps.
+    most_by_calm: int = 4  # Windows closed per length, by least waiting at the end.
+    most_window_visits: int = 200_000  # Maximum visits of a window.
+    most_left_out: int = 3  # Maximum laps left out per robot with overlaps at the seam.
+    stretch_begins: int = 8  # Number of begins of long stretches.
+    stretch_ends: int = 200  # Number of ends per begin.
+    latest_begin: float = 0.1  # Latest begin, as a part of the simulation.
+    shortest: float = 0.9  # Least length, as a part of the longest stretch.
+    most_stretch_visits: int = 16_000_000  # Approximate maximum of visits, for memory.
+    around: float = 1.75  # Visits may change within this distance of the seam [longest laps].
+    fewer_laps: int = 4  # A robot makes fewer than this many laps below its maximum.
+    given_up: int = 3  # A robot gives up fewer laps than this on each side of the seam.
+    searches: int = 8  # Maximum searches per robot, on average.
 
 
 DEFAULT = ClosingParams()
@@ -67,14 +68,14 @@ class Stretch:
 
 
 def _first_lap(home: Enters, begins: int) -> int:
-    """Return the first lap that begins from a tick on; never lap 0."""
+    """Return the first lap, except lap 0, that begins at or after a tick."""
     return max(int(np.searchsorted(home, begins)), 1)
 
 
 def closed_windows(
     problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
 ) -> Iterator[Candidate]:
-    """Yield timetables cut out of a simulation, until all windows are tried or time is over."""
+    """Yield timetables of windows of a simulation, until all are tried or time is over."""
     closing = _WindowClosing(problem, run, params)
     for window in closing.promising():
         if problem.is_out_of_time:
@@ -85,7 +86,7 @@ def closed_windows(
 
 
 class _WindowClosing:
-    """A simulation whose windows are closed by the orders of visits."""
+    """Closing of windows of a simulation by the order of visits at each vertex."""
 
     def __init__(self, problem: CyclicProblem, run: GroupResult, params: ClosingParams) -> None:
         self.problem, self.run, self.params = problem, run, params
@@ -93,7 +94,7 @@ class _WindowClosing:
         self.known = min(int(home[-1]) for home in self.homes)
 
     def promising(self) -> list[Stretch]:
-        """Return windows of all lengths: the best of each length, then the second best ones, ..."""
+        """Return windows of all lengths: the best of each length, then the second best, ..."""
         params, longest = self.params, max(self.problem.alone)
         ranked: list[list[Stretch]] = []
         for least, most in pairwise(length * longest for length in params.window_lengths):
@@ -109,10 +110,10 @@ class _WindowClosing:
         return list(dict.fromkeys(in_turn))
 
     def best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
-        """Return the best windows from a tick on that end when a robot is home, with their scores.
+        """Return the best windows from a tick to an arrival at home, with their scores.
 
-        One for the value of laps per tick, and one for the least time that robots wait at home for
-        the end of the window. Empty if no end is known, long and short enough.
+        The first window has the largest value of laps per tick, the second the least waiting at
+        home before the end of the window. Empty without an end at the required length.
         """
         laps = [home[_first_lap(home, begins) :] for home in self.homes]
         ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
@@ -148,7 +149,7 @@ class _WindowClosing:
             if in_order is not None:
                 return in_order
         bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
-        # Robots whose homes others pass cannot wait there as long as they like: they come first.
+        # Robots with busy homes have least freedom to wait: placed first.
         users = Counter(vertex for lap in laps for vertex in set(lap.vertices))
         for robot in sorted(range(len(laps)), key=lambda one: -users[laps[one].vertices[0]]):
             cycle = self.without_overlap(bookings, robot, *parts[robot])
@@ -161,7 +162,7 @@ class _WindowClosing:
     def without_overlap(
         self, bookings: PeriodicBookings, robot: int, lap: Lap, enter: Enters
     ) -> RobotCycle | None:
-        """Leave out laps at the seam until a robot overlaps no other one, and book it."""
+        """Leave out laps at the seam until a robot has no conflict, and book its visits."""
         n, period = len(lap), int(bookings.period)
         for less in range(min(self.params.most_left_out + 1, len(enter) // n)):
             for head, early in product(range(less + 1), (True, False)):
@@ -173,7 +174,7 @@ class _WindowClosing:
 
 
 def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
-    """Return visits from home to home in a period, home as early as last or as late as first."""
+    """Return a cycle; its stay at home begins with the last arrival, or else the first."""
     visits = enter[:-1].copy()
     if early:
         visits[0] = enter[-1] - period
@@ -183,7 +184,7 @@ def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
 def stretches(
     problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
 ) -> list[tuple[float, Stretch]]:
-    """Return long stretches of a simulation with an upper bound on their values, the best first."""
+    """Return long stretches of a simulation with upper bounds on their values, best first."""
     known, longest = max(past[-1] for past in run.history), run.context.longest
     visits_per_tick = sum(map(len, run.history)) / max(known, 1)
     homes = homes_of(run.context.routes, run.history)
@@ -208,7 +209,7 @@ def _values(
     begins: int,
     periods: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """Return the value of laps per tick if each robot makes as many as it has time for."""
+    """Return the value of laps per tick if each robot makes the most laps that fit."""
     worth = np.zeros(len(periods))
     for weight, lap, home in zip(problem.weights, run.context.laps, homes, strict=True):
         first = _first_lap(home, begins)
@@ -224,9 +225,9 @@ def _values(
 def close_stretch(
     problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams = DEFAULT
 ) -> Candidate | None:
-    """Return the timetable of a long stretch; None if a robot finds no way through the seam.
+    """Return the timetable of a long stretch; None if a robot finds no route through the seam.
 
-    The simulation must be by a native rule, so that its history consists of `VisitTimes`.
+    Precondition: a simulation by a native rule, with a history of `VisitTimes`.
     """
     if 2 * int(params.around * run.context.longest) >= stretch.period:
         return None
@@ -242,44 +243,44 @@ def close_stretch(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Kept:
-    """The laps that one robot keeps of the simulation, and its way through the seam."""
+    """The laps that one robot keeps of the simulation, and its visits at the seam."""
 
     lap: Lap
     past: VisitTimes
     home: Enters  # the enters of the visits home
     period: int
-    first: int  # the first lap that is kept
-    last: int  # the lap before which the robot stops
-    through: Enters | None = None  # the visits at the seam, from home to home; None if not known
+    first: int  # the first kept lap
+    last: int  # the lap after the last kept lap
+    through: Enters | None = None  # visits at the seam, from home to home; None if unknown
 
     @property
     def begins(self) -> int:
-        """When the robot comes home before the seam."""
+        """The tick of the arrival at home before the seam."""
         return int(self.home[self.last])
 
     @property
     def until(self) -> int:
-        """By when it must be home after the seam."""
+        """The latest tick of the arrival at home after the seam."""
         return int(self.home[self.first]) + self.period
 
     @property
     def leave(self) -> int:
-        """When it leaves home after the seam."""
+        """The tick of the departure from home after the seam."""
         return self.past[self.first * len(self.lap) + 1] + self.period
 
     @property
     def n_through(self) -> int:
-        """How many laps it makes at the seam."""
+        """The number of laps at the seam."""
         return 0 if self.through is None else len(self.through) // len(self.lap)
 
     @property
     def n_kept(self) -> int:
-        """How many laps it keeps."""
+        """The number of kept laps."""
         return self.last - self.first
 
 
 class _SeamClosing:
-    """All robots around the seam of one stretch, on a line of time."""
+    """All robots around the seam of one stretch, with bookings that do not repeat."""
 
     def __init__(
         self, problem: CyclicProblem, run: GroupResult, stretch: Stretch, params: ClosingParams
@@ -299,10 +300,10 @@ class _SeamClosing:
             self._book_kept(robot)
 
     def connect_all(self) -> bool:
-        """Let robots wait at home, or make laps where they cannot; tell whether all do."""
+        """Connect robots by waits at home, or else by laps; return whether all are connected."""
         queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
         while queue and self._searches < self._params.searches * len(self._kept):
-            self._searches += 1  # counts even if there is nothing left to choose
+            self._searches += 1  # counts also without choices
             robot = queue.popleft()
             blocking = self._connect(robot, self._choices(robot))
             if blocking is None:
@@ -315,7 +316,7 @@ class _SeamClosing:
         return not queue
 
     def add_laps(self) -> None:
-        """Let all robots make as many laps as there is room for, those with short laps first."""
+        """Add laps of all robots while they fit, robots with short laps first."""
         for robot in sorted(range(len(self._kept)), key=lambda one: self._kept[one].lap.duration):
             if self._problem.is_out_of_time:
                 break
@@ -324,14 +325,14 @@ class _SeamClosing:
             self._connect(robot, (one for one in choices if one[0].n_kept + one[1] > n_laps))
 
     def cycle(self, robot: int) -> RobotCycle:
-        """Return what a robot does in a period."""
+        """Return the cycle of a robot."""
         kept, n = self._kept[robot], len(self._kept[robot].lap)
         assert kept.through is not None, "all robots are connected"
         visits = kept.past.enters(range(kept.first * n, kept.last * n))
         return _cycle(kept.lap, np.concatenate((visits, kept.through)), self._period, early=True)
 
     def _waits_at_home(self, robot: int) -> bool:
-        """Let a robot wait at home, and tell whether no other robot passes there."""
+        """Connect a robot by a wait at home; return whether its home stays free."""
         kept = self._kept[robot]
         through = self._seam.connect(kept.lap, 0, kept.begins, kept.until, kept.leave)
         self._kept[robot] = replace(kept, through=through)
@@ -339,7 +340,7 @@ class _SeamClosing:
         return through is not None
 
     def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
-        """Yield what a robot may keep, and how many laps it makes at the seam: most first."""
+        """Yield kept laps of a robot and the number of laps at the seam, most laps first."""
         kept, params = replace(self._kept[robot], through=None), self._params
         most = kept.n_kept + (kept.until - kept.begins) // int(kept.lap.duration)
         given_up = sorted(product(range(params.given_up), repeat=2), key=sum)
@@ -352,12 +353,13 @@ class _SeamClosing:
                     yield less, n_through
 
     def _connect(self, robot: int, choices: Iterator[tuple[_Kept, int]]) -> set[int] | None:
-        """Find a way through the seam; if there is none, return the robots that may make room.
+        """Find a route through the seam; without one, return robots that may give way.
 
-        These wait at home where the search got stuck, or pass that vertex at the seam.
+        These robots wait at home at the vertex where the search got stuck, or pass this vertex at
+        the seam.
         """
         before, blocking = self._kept[robot], set[int]()
-        self._seam.remove(robot)  # what it keeps is never in its own way
+        self._seam.remove(robot)  # its own bookings do not block it
         for kept, n_through in choices:
             times = kept.begins, kept.until, kept.leave
             through = self._seam.connect(kept.lap, n_through, *times)
@@ -382,7 +384,7 @@ class _SeamClosing:
         self._book_through(robot)
 
     def _book_kept(self, robot: int) -> None:
-        """Book the laps that a robot keeps, as far as they are around the seam."""
+        """Book the kept laps of a robot around the seam."""
         kept, n = self._kept[robot], len(self._kept[robot].lap)
         first = max(int(np.searchsorted(kept.home, self._from)) - 1, kept.first)
         last = min(int(np.searchsorted(kept.home, self._to - self._period)), kept.last)
@@ -394,7 +396,7 @@ class _SeamClosing:
                 self._seam.add_visits(robot, kept.lap, visits, enter[:-1], int(enter[-1]))
 
     def _book_through(self, robot: int) -> None:
-        """Book the way through the seam; if it is not known yet, both times at home."""
+        """Book the visits at the seam; if unknown, both stays at home."""
         kept, leave = self._kept[robot], self._kept[robot].begins + self._kept[robot].lap.least(0)
         stays = [(kept.begins, leave), (kept.until, kept.leave)]
         if kept.through is not None:

@@ -1,8 +1,8 @@
-"""A timetable from one joint plan in which each robot makes one lap, repeated for ever.
+"""A timetable from a plan of one lap per robot, repeated for ever.
 
-The period of the plan is its makespan, but the cycle time of its orders is shorter: robots set out
-again while others are on their way. There is such a timetable wherever there is a plan, on other
-routes if the usual ones end in a deadlock.
+The period of the plan is its makespan, but the cycle time of its orders is shorter: robots begin
+their next lap before others finish. Every plan gives a timetable, also on new routes if the usual
+routes end in a deadlock.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rightofway.planners.lacam import lacam
 
 
 def repeated_plan(problem: CyclicProblem) -> Candidate | None:
-    """Return the timetable of a joint plan; None if none was found in time.
+    """Return the timetable of a plan of one lap each; None if no plan was found in time.
 
     Raises
     ------
@@ -26,8 +26,7 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
 
     Notes
     -----
-    Where neither the plan nor a proof is found, the search ends with the deadline of the problem
-    only.
+    Without a plan or a proof, the search ends at the deadline of the problem only.
     """
     scenario, context = problem.context.scenario, problem.context
     robots = tuple(replace(scenario.robots[robot], laps=1) for robot in context.robots)

@@ -1,10 +1,9 @@
-"""The timetable of a large group: a long stretch of the best simulation found, closed.
+"""The timetable of a large group: the closing of a long stretch of the best simulation.
 
-With hundreds of robots there is no time to place each of them several times. But a simulation under
-a native rule makes dozens of laps per second, and closing a stretch of it costs about half a lap of
-each robot (`closing`). So the simulation is what is chosen: on routes that are clear of others only
-in proportion to what that saves over many laps, and under the rule ``least-loss``. Each is tried
-for a short time; the best continues as long as there is time.
+Hundreds of robots leave no time to place each robot several times. A simulation under a native rule
+makes dozens of laps per second, and closing a stretch costs about half a lap per robot (`closing`).
+Therefore simulations are compared: on clear or direct routes, under ``least-loss`` or
+``first-come``. Each simulation is tried for a short time; the best continues until time is over.
 """
 
 from __future__ import annotations
@@ -24,28 +23,28 @@ from rightofway.planners import Deadline
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunChoiceParams:
-    """How the time is divided between simulations; shares are of the time left."""
+    """Division of time between simulations; shares of the time left."""
 
-    least_share: float = 0.03  # A simulation is tried for this share, at least.
-    most_share: float = 0.15  # A simulation is tried for this share, at most.
-    laps_tried: float = 3  # Between these shares, it is tried for this long [longest laps].
-    laps_dispersing: float = 1  # Before, robots disperse first come first served [longest laps].
-    looks: int = 10  # How often the length of a simulation is looked at in that time.
-    good: Fraction = Fraction(1005, 1000)  # A run better than the baseline by this is good enough.
-    continuing_share: float = 0.9  # The best simulation continues in this share, then is closed.
-    slices: int = 4  # The best is chosen again after each of this many parts of that.
-    seam: float = 0.55  # Each robot loses this much of a lap where a stretch is closed.
-    stretches_each: int = 2  # This many stretches of each simulation are tried to be closed.
-    most_stretches: int = 4  # This many are tried to be closed in all.
+    least_share: float = 0.03  # Least share of a trial.
+    most_share: float = 0.15  # Largest share of a trial.
+    laps_tried: float = 3  # Duration of a trial between these shares [longest laps].
+    laps_dispersing: float = 1  # Preceding first-come simulation [longest laps].
+    looks: int = 10  # Number of checks of the duration of a trial.
+    good: Fraction = Fraction(1005, 1000)  # A run of baseline value times this ends the trials.
+    continuing_share: float = 0.9  # Share for continuing the best run before closing.
+    slices: int = 4  # Number of parts of this share, each with a new choice.
+    seam: float = 0.55  # Estimated loss of a closing [laps per robot].
+    stretches_each: int = 2  # Attempted closings per simulation.
+    most_stretches: int = 4  # Attempted closings in total.
 
 
 DEFAULT = RunChoiceParams()
 
 
 class SimulatedRun:
-    """A simulation of a group on some routes, tried for a short time; and its result so far.
+    """A simulation of a group on given routes, after a short trial, with its result so far.
 
-    It is simulated up to the tick ``known``, last at a pace of so many ticks per second.
+    ``known``: simulated time [ticks]; ``pace``: speed of the last advance [ticks/s].
     """
 
     def __init__(
@@ -71,7 +70,7 @@ class SimulatedRun:
         self.pace = (self.known - before) / tried if tried else 0.0
 
     def _advance_laps(self, laps: float, look: float, most: float, *, since: int = 0) -> float:
-        """Continue to so many of the longest laps since a tick; return the time taken [s]."""
+        """Continue until ``laps`` longest laps after a tick; return the time taken [s]."""
         until, seconds = since + laps * self.result.context.longest, 0.0
         while self.result.ends == "open" and self.known < until and seconds < most:
             self.advance(look)
@@ -79,7 +78,7 @@ class SimulatedRun:
         return seconds
 
     def advance(self, seconds: float) -> None:
-        """Continue for some time if the end is open."""
+        """Continue for some seconds if the end is open."""
         self._value: Fraction | None = None
         if self.result.ends == "open" and seconds > 0:
             before = self.known
@@ -89,7 +88,7 @@ class SimulatedRun:
 
     @property
     def value(self) -> Fraction:
-        """The value of laps per tick; 0 if a robot makes none, or an unfair number."""
+        """The value of laps per tick; 0 if a robot makes no lap, or an unfair number."""
         if self._value is None:
             self._value, problem, result = Fraction(0), self._problem, self.result
             means = result.mean_laps() if result.ends != "deadlock" else (None,)
@@ -103,9 +102,9 @@ class SimulatedRun:
 def choose_runs(
     problem: CyclicProblem, baseline: SimulatedRun, params: RunChoiceParams = DEFAULT
 ) -> list[GroupResult]:
-    """Return simulations to cut a timetable out of; the most promising one continued.
+    """Return simulations to extract a timetable from, with the most promising one continued.
 
-    The last of each robot's ways is its direct one.
+    Precondition: the last lap in each robot's ``ways`` is its direct lap.
     """
     context, deadline = problem.context, problem.deadline
     ways = zip(context.routes, problem.ways, strict=True)
@@ -118,7 +117,7 @@ def choose_runs(
     reserve = (1 - params.continuing_share) * (deadline.seconds_left() or 0)
 
     def best() -> SimulatedRun:
-        """Return the run of the largest value once it has continued at its pace and is closed."""
+        """Return the run with the largest estimated value after continuing and closing."""
         seconds = max((deadline.seconds_left() or 0) - reserve, 0)
         return max(
             tried,
@@ -137,9 +136,9 @@ def choose_runs(
 def extract_cycle(
     problem: CyclicProblem, runs: Sequence[GroupResult], params: RunChoiceParams = DEFAULT
 ) -> Candidate | None:
-    """Return the timetable of a long stretch of a run; None if none can be closed and is fair.
+    """Return the timetable of a long stretch of a run; None without a fair closing.
 
-    At least one closing is completed, in a bounded number of steps, even if time runs out.
+    At least one closing is completed, in a bounded number of steps, also after the deadline.
     """
     found: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):

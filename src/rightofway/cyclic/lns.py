@@ -1,14 +1,14 @@
 """Search for a timetable: insertion of robots and laps, then large neighbourhood search (LNS).
 
-*Insertion* places one robot after another in a period, then adds laps as long as there is room. A
-robot in the way of one that finds no place is removed and placed again later. Where that comes to
-no end, the period is too short.
+*Insertion* places robots one by one in a period, then adds laps while they fit. If a robot does not
+fit, a robot in its way is removed and placed again later. If the number of placements exceeds its
+limit, the period is too short.
 
 *LNS* removes robots of the bottleneck and inserts them again. The objective is the value of laps
-divided by the cycle time. A step changes the number of laps of a robot, or none, and takes the
-longest period that keeps the objective, or a shorter one. Robots of critical circuits are removed
-until the others alone can keep that period. The others get their earliest times in their old
-orders, and the removed robots are inserted among them, on any of their laps.
+divided by the cycle time. A step may change the number of laps of one robot, and takes a period not
+longer than the objective allows. Robots of critical circuits are removed until the other robots can
+keep the period. The other robots get their earliest times in their old orders, and the removed
+robots are inserted, each on any of its laps.
 
 References
 ----------
@@ -17,8 +17,8 @@ CP 1998 (large neighbourhood search).
 
 Notes
 -----
-LNS is never worse than the timetable it starts from. Anytime; deterministic for a seed if the steps
-end before the time does. Not optimal.
+The result of LNS is never worse than the first timetable. Anytime; deterministic for a seed if the
+steps end before the deadline. Not optimal.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ from rightofway.search import PeriodicBookings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionParams:
-    """When a period is given up as too short, and by how much the next one is longer."""
+    """Limits of placements per period, and growth of the period."""
 
-    placements_per_robot: int = 6  # After more, on average, the period counts as too short.
-    growth: Fraction = Fraction(5, 4)  # The next period is longer by this factor.
-    longest: int = 2  # No longer period is tried [sums of all laps].
+    placements_per_robot: int = 6  # More placements, on average: the period is too short.
+    growth: Fraction = Fraction(5, 4)  # Factor from a period to the next.
+    longest: int = 2  # Longest period [sum of all laps].
 
 
 def insert_all(
@@ -52,10 +52,10 @@ def insert_all(
     filling: CyclicProblem,
     params: InsertionParams = InsertionParams(),
 ) -> Candidate:
-    """Return a timetable with at least this period in which each robot makes at least one lap.
+    """Return a timetable of at least this period with at least one lap per robot.
 
-    ``filling`` is the same problem with the deadline for more laps. Raises `GaveUp` if no timetable
-    was found, or time ran out.
+    ``filling`` is the same problem with the deadline for additional laps. Raises `GaveUp` if no
+    timetable was found in time.
     """
     period = max(period, *problem.alone)
     while period <= params.longest * sum(problem.alone):
@@ -69,7 +69,7 @@ def insert_all(
 def _placed(
     problem: CyclicProblem, period: int, params: InsertionParams
 ) -> tuple[PeriodicBookings, list[RobotCycle]] | None:
-    """Give every robot one lap in the period; None if the period is too short."""
+    """Place one lap of every robot in the period; None if the period is too short."""
     bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
     queue = deque(sorted(range(len(problem)), key=lambda robot: -problem.alone[robot]))
     for _ in range(params.placements_per_robot * len(problem)):
@@ -96,7 +96,7 @@ def _placed(
 
 
 def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotCycle]) -> Candidate:
-    """Add laps as long as there is room, first for the robot that drives least."""
+    """Add laps while they fit, each time of the robot that drives least."""
     turns = [
         (cycle.count * alone, robot)
         for robot, (cycle, alone) in enumerate(zip(cycles, problem.alone, strict=True))
@@ -118,7 +118,7 @@ def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotC
 def _more_laps(
     problem: CyclicProblem, bookings: PeriodicBookings, robot: int, cycle: RobotCycle
 ) -> RobotCycle | None:
-    """Find room for half as many laps again, or for one more; on the same lap, or on any."""
+    """Place 1.5 times as many laps, or one more lap; on the same lap, or on any lap."""
     most = int(bookings.period) // problem.alone[robot]
     many = min(cycle.count + max(cycle.count // 2, 1), most)
     for count in dict.fromkeys((many, cycle.count + 1)):
@@ -132,17 +132,17 @@ def _more_laps(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LnsParams:
-    """The neighbourhoods of a search; of listed values one is drawn."""
+    """The neighbourhoods of a search; one of several values is drawn at random."""
 
-    most_removed: int = 6  # A step that would remove more robots is given up.
-    extra_removed: tuple[int, ...] = (0, 0, 1, 2)  # Removed beyond the robots that have to be.
-    count_changes: tuple[int, ...] = (0, 0, 1, 1, -1)  # By how many laps a robot's count changes.
-    insert_every: int = 10  # Every this many steps, laps are inserted without new times.
-    patience: int = 60  # After this many steps in vain, two periods become one.
-    most_visits: int = 8_000  # No period gets longer than this by that; it has laps inserted only.
-    insertions_per_robot: int = 6  # Inserting laps takes this many steps for each robot.
-    moves_every: int = 3  # One of these steps in this many adds no lap, and only moves robots.
-    neighbours_moved: tuple[int, ...] = (0, 1, 1, 2)  # This many others make room for a lap.
+    most_removed: int = 6  # Maximum robots removed per step.
+    extra_removed: tuple[int, ...] = (0, 0, 1, 2)  # Robots removed beyond the necessary ones.
+    count_changes: tuple[int, ...] = (0, 0, 1, 1, -1)  # Change of a robot's number of laps.
+    insert_every: int = 10  # Steps from one insertion of laps to the next.
+    patience: int = 60  # Steps without improvement before the period is doubled.
+    most_visits: int = 8_000  # No doubling beyond; above, only laps are inserted.
+    insertions_per_robot: int = 6  # Moves per robot in one insertion of laps.
+    moves_every: int = 3  # One move in this many adds no lap.
+    neighbours_moved: tuple[int, ...] = (0, 1, 1, 2)  # Other robots moved to make room.
 
 
 DEFAULT = LnsParams()
@@ -155,7 +155,7 @@ def improve(
     steps: int | None = None,
     params: LnsParams = DEFAULT,
 ) -> Candidate:
-    """Return the best timetable found in so many steps, or until the deadline of the problem."""
+    """Return the best timetable after ``steps`` steps, or at the deadline of the problem."""
     best, in_vain, step = candidate, 0, 0
     while (steps is None or step < steps) and problem.value(best) < problem.bound:
         if problem.is_out_of_time:
@@ -178,8 +178,8 @@ def improve(
 def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate:
     """Return a timetable with at least as many laps, in a period that is not longer.
 
-    In each of many small steps, a robot is to make one lap more, or as many as before; it and some
-    robots whose vertices it shares are removed and placed again. If one finds no place, all return.
+    Each move removes and places again a robot, with one more or as many laps, and some robots that
+    share its vertices. If one of these robots does not fit, the move is undone.
     """
     draw, (bookings, cycles) = problem.draw, problem.booked(candidate)
     for _ in range(params.insertions_per_robot * len(cycles)):
@@ -201,7 +201,7 @@ def _move(
     cycles: list[RobotCycle],
     counts: Mapping[int, int],
 ) -> None:
-    """Place some robots again with new numbers of laps; if one finds no place, all return."""
+    """Place robots again with new numbers of laps; undo the move if a robot does not fit."""
     for robot in counts:
         bookings.remove(robot)
     placed: dict[int, RobotCycle] = {}
@@ -222,7 +222,7 @@ def _move(
 
 
 def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Candidate | None:
-    """Return a timetable that is at least as good, or None if this step finds none."""
+    """Return a timetable that is at least as good, or None if the step fails."""
     draw, counts = problem.draw, list(candidate.timetable.counts)
     robot, change = draw.randrange(len(counts)), draw.choice(params.count_changes)
     removed = []
@@ -230,7 +230,7 @@ def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Ca
         counts[robot] += change
         removed = [robot]
     longest = problem.worth(counts) / problem.value(candidate)
-    most = longest.numerator // longest.denominator  # the objective stays with this period
+    most = longest.numerator // longest.denominator  # longest period that keeps the objective
     rest = _removed(problem, candidate, removed, most, params)
     if rest is None:
         return None
@@ -250,9 +250,9 @@ def _removed(
     most: int,
     params: LnsParams,
 ) -> tuple[list[int], int] | None:
-    """Remove robots of critical circuits until the others can keep the period, and a few more.
+    """Choose robots of critical circuits until the others can keep the period, and a few more.
 
-    Returns the robots, and the least period of the others; None if these are too many.
+    Returns the removed robots and the least period of the others; None above ``most_removed``.
     """
     extra = problem.draw.choice(params.extra_removed)
     while len(removed) <= params.most_removed:
@@ -288,7 +288,7 @@ def _reinserted(
     removed: Sequence[int],
     period: int,
 ) -> Candidate | None:
-    """Give the other robots their earliest times in a period, and insert those removed."""
+    """Give the other robots their earliest times in a period; insert the removed robots."""
     bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
     left = [robot for robot in range(len(problem)) if robot not in removed]
     if left:

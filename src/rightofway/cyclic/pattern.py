@@ -1,4 +1,4 @@
-"""When visits begin: in a simulation, and for ever after once its pattern repeats."""
+"""Enters of visits: in a simulation, and in the pattern that repeats after a recurrence."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule
 
 History = Sequence[Sequence[int]]
-"""For each robot the enters of its visits, from visit 0 on [ticks]."""
+"""For each robot, the enters of its visits from visit 0 on [ticks]."""
 
 Enters = NDArray[np.int64]
 """The enters of consecutive visits of one robot [ticks]."""
 
 
 class VisitTimes(Sequence[int]):
-    """The enters of a robot's first visits, stored as its delays; like a tuple of them.
+    """The enters of a robot's first visits, stored as waits; a sequence of ticks.
 
-    The robot waited before each visit in ``late``, until then for ``waited`` ticks in all.
+    ``late``: the visits with a wait; ``waited``: total waiting up to each of them [ticks].
     """
 
     __slots__ = ("_begun", "_late", "_route", "_waited")
@@ -78,17 +78,17 @@ class Pattern:
     Attributes
     ----------
     transient
-        The first tick from which on every robot is where it will be a period later.
+        The first tick from which on positions repeat after one period.
     period
-        The least number of ticks after which everything repeats.
+        The least period of all robots [ticks].
     counts
-        How many laps each robot makes in a period; 0 if it stands still for ever.
+        Laps of each robot per period; 0 if it stands still for ever.
     history
         The enters of visits, for at least a period after the transient [ticks].
     lengths
-        How many visits a lap of each robot has.
+        Visits per lap of each robot.
     regular
-        For each robot the number of the visit from which on all repeat a period later.
+        For each robot, the first visit from which on enters repeat after one period.
     """
 
     transient: Tick
@@ -100,13 +100,13 @@ class Pattern:
 
     @property
     def begins(self) -> int:
-        """The tick from which on periods are counted: the first robot that moves is home then."""
+        """The tick at which periods begin: the first moving robot is home."""
         first = next(robot for robot, laps in enumerate(self.counts) if laps)
         return self.enter(first, self._home(first, self.transient))
 
     @property
     def n_visits(self) -> int:
-        """How many visits all robots make in a period."""
+        """The number of visits of all robots in a period."""
         return sum(laps * each for laps, each in zip(self.counts, self.lengths, strict=True))
 
     def enter(self, robot: int, visit: int) -> int:
@@ -155,9 +155,10 @@ class Pattern:
 
 
 def pattern_of(history: History, lengths: Sequence[int], recurrence: tuple[int, int]) -> Pattern:
-    """Return the pattern with the least period in a history, which ends at a recurrence.
+    """Return the pattern with the least period in a history that ends at a recurrence.
 
-    All that follows the first of its two ticks repeats after the second one.
+    ``recurrence``: the ticks of two equal states; visits after the first tick repeat after the
+    second tick.
     """
     pasts = [np.asarray(past, np.int64) for past in history]
     begins, again = recurrence
@@ -188,7 +189,7 @@ def pattern_of(history: History, lengths: Sequence[int], recurrence: tuple[int, 
 
 
 def _regular(enter: Enters, shift: int, period: int) -> int:
-    """Return the first visit from which on all repeat a period later."""
+    """Return the first visit from which on enters repeat after one period."""
     if not shift:
         return len(enter) - 1
     [others] = np.nonzero(enter[shift:] != enter[:-shift] + period)
@@ -196,7 +197,7 @@ def _regular(enter: Enters, shift: int, period: int) -> int:
 
 
 def _irregular_until(enter: Enters, shift: int, regular: int, period: int) -> int:
-    """Return the tick from which on the robot is where it will be a period later."""
+    """Return the tick from which on the robot's position repeats after one period."""
     if not shift:
         return int(enter[-1])
     if not regular:

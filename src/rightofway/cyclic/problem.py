@@ -1,4 +1,4 @@
-"""The problem of choosing a group's timetable: the laps to choose from, their values, fairness."""
+"""The problem of choosing a group's timetable: candidate laps, values, fairness."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from rightofway.search import PeriodicBookings, RoundTrip
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotCycle:
-    """What one robot does in a period."""
+    """The visits of one robot in a period."""
 
     lap: Lap
-    count: int  # how many laps it makes
+    count: int  # number of laps
     enter: NDArray[np.int64]  # the enters of its visits, shape (count * len(lap),) [ticks]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidate:
-    """A timetable of a group and its exact cycle time, or a longer period [ticks]."""
+    """A timetable of a group, with its exact cycle time or a longer period [ticks]."""
 
     timetable: CyclicSchedule
     cycle_time: Fraction
@@ -42,22 +42,22 @@ class Candidate:
 
     @property
     def period(self) -> int:
-        """The least whole number of ticks that the period can be."""
+        """The least whole period [ticks]."""
         return -(-self.cycle_time.numerator // self.cycle_time.denominator)
 
     @property
     def n_visits(self) -> int:
-        """How many visits all robots make in a period."""
+        """The number of visits of all robots in a period."""
         return sum(map(len, self.timetable.enter))
 
 
 @dataclass(frozen=True, kw_only=True)
 class CyclicProblem:
-    """A group of robots whose timetable is to be chosen."""
+    """The problem of one group, with values, fairness, deadline and random numbers."""
 
     context: GroupContext  # the robots on their usual routes
-    ways: tuple[tuple[Lap, ...], ...]  # for each robot the laps to choose from, the usual one first
-    round_trips: tuple[RoundTrip, ...]  # what each robot does in a lap; empty to search for no lap
+    ways: tuple[tuple[Lap, ...], ...]  # candidate laps of each robot, the usual lap first
+    round_trips: tuple[RoundTrip, ...]  # stages of each lap; empty: no search for new laps
     forbidden: frozenset[int]  # vertices of other groups
     weights: tuple[Fraction, ...]  # the value of a lap of each robot, above 0
     least_fairness: Fraction  # the least ratio of laps made to laps possible alone
@@ -74,7 +74,7 @@ class CyclicProblem:
 
     @cached_property
     def bound(self) -> Fraction:
-        """An upper bound on `value`: as if no robot ever waited."""
+        """An upper bound on `value`: no robot waits."""
         alone = zip(self.weights, self.alone, strict=True)
         return sum((weight / ticks for weight, ticks in alone), Fraction(0))
 
@@ -88,7 +88,7 @@ class CyclicProblem:
         return self.deadline.seconds_left() == 0
 
     def with_ways(self, laps: Sequence[Lap]) -> Self:
-        """Return the same problem with one more lap to choose from for each robot."""
+        """Return the same problem with one more candidate lap for each robot."""
         ways = zip(self.ways, laps, strict=True)
         return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
 
@@ -115,7 +115,7 @@ class CyclicProblem:
         return self.is_fair(candidate.timetable.counts, candidate.cycle_time)
 
     def empty_bookings(self, period: int | None) -> PeriodicBookings:
-        """Return bookings without any robot, on a line of time if the period is None."""
+        """Return empty bookings; without repetition if the period is None."""
         return PeriodicBookings(
             self.context.scenario.roadmap.n_vertices,
             None if period is None else Tick(period),
@@ -139,13 +139,13 @@ class CyclicProblem:
         )
 
     def candidate(self, timetable: CyclicSchedule) -> Candidate:
-        """Return a timetable that keeps the rules, with the cycle time of its orders."""
+        """Return a candidate of a conflict-free timetable, with the cycle time of its orders."""
         return Candidate(timetable, self.graph(timetable).critical_circuit().cycle_time)
 
     def candidate_of_orders(self, timetable: CyclicSchedule) -> Candidate | None:
-        """Return a candidate of which only the orders at the vertices are meant, not the times.
+        """Return a candidate of the orders at the vertices of a timetable, ignoring its times.
 
-        None if robots would wait for each other for ever in these orders, or swap.
+        None if these orders cause a deadlock or a swap.
         """
         graph = self.graph(timetable)
         circuit = None if graph.has_swaps() else graph.critical_circuit_if_live()
@@ -171,10 +171,9 @@ class CyclicProblem:
         lap: Lap | None = None,
         tries: int = 3,
     ) -> RobotCycle | None:
-        """Return a cycle of a robot among the bookings, from random phases; None if none is found.
+        """Return a cycle of a robot among the bookings, from random phases; None if none fits.
 
-        On the given lap; or on one of the robot's laps, and if there is no room for these, on any
-        lap.
+        On ``lap`` if given; else on one of the robot's laps, or, if these do not fit, on a new lap.
         """
         ways = [lap] if lap else self.draw.sample(self.ways[robot], len(self.ways[robot]))
         for way in ways:

@@ -1,4 +1,4 @@
-"""What a fleet that repeats its laps does in the long run, group by group."""
+"""Results of repeated laps by group: pattern or deadlock, laps, waits, bottleneck."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from rightofway.precedence import CyclicSchedule, TimedEventGraph
 BaselineEnds = Literal["repeats", "starves", "deadlock", "open"]
 
 Enters = Callable[[int, range], NDArray[np.int64]]
-"""Returns the enters of consecutive visits of a robot [ticks]."""
+"""Function from a robot and consecutive visits to their enters [ticks]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,13 +32,13 @@ class LapWait:
     Attributes
     ----------
     vertex
-        The vertex that it waits to enter.
+        The vertex that the robot waits to enter.
     waits, for_robot
-        The robot that waits, and the robot that it waits for; numbers in the scenario.
+        The waiting robot, and the robot that it waits for; numbers in the scenario.
     tick
-        When the waiting robot could have entered; in a pattern, as an offset in the period.
+        The enter without this wait [ticks]; in a pattern, as an offset in the period.
     ticks
-        How much later it enters [ticks].
+        The duration of the wait [ticks].
     """
 
     vertex: VertexId
@@ -49,26 +49,26 @@ class LapWait:
 
     @property
     def pair(self) -> tuple[int, int]:
-        """The two robots, the one listed first in front."""
+        """The two robots, in the order of the scenario."""
         return min(self.waits, self.for_robot), max(self.waits, self.for_robot)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """How a chosen timetable compares with its baseline: first come first served.
+    """Comparison of a chosen timetable with its baseline, first come first served.
 
     Attributes
     ----------
     throughput
-        The value of its laps per tick; without weights, the number of laps.
+        The value of the timetable's laps per tick; without weights, laps per tick.
     fairness
         The least ratio of laps made to laps possible alone, over all robots; 0 to 1.
     baseline_ends
-        How first come first served ends on the usual routes: as in `GroupResult`, or ``starves`` if
-        its pattern repeats while a robot stands still for ever.
+        End of the baseline on the usual routes: as in `GroupResult`, or ``starves`` if its pattern
+        repeats while a robot stands still for ever.
     baseline
-        The value of the baseline's laps per tick: of its pattern, or of the laps that were
-        simulated; 0 in a deadlock.
+        The value of the baseline's laps per tick, in its pattern or else in the simulated time; 0
+        in a deadlock.
     """
 
     throughput: Fraction
@@ -79,23 +79,23 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GroupResult:
-    """What a group of robots does that share vertices.
+    """The result of a group of robots that share vertices.
 
     Attributes
     ----------
     context
         The robots and their cyclic routes.
     ends
-        ``repeats``: for ever as in the pattern. ``deadlock``: robots wait for each other for ever.
-        ``open``: time ran out before either was known.
+        ``repeats``: the pattern repeats for ever. ``deadlock``: robots wait for each other for
+        ever. ``open``: time ran out before either was known.
     history
-        For each robot the enters of its visits, from visit 0 on [ticks].
+        For each robot, the enters of its visits from visit 0 on [ticks].
     pattern
-        What repeats; None unless it ends so.
+        The pattern; None unless ``ends`` is ``repeats``.
     why
-        For a deadlock, the robots that wait for each other; for an open end, what was too little.
+        For a deadlock, the robots that wait for each other; for an open end, the exceeded limit.
     comparison
-        How a chosen timetable compares with first come first served; None for a simulated rule.
+        Comparison with first come first served; None for a simulated rule.
     """
 
     context: GroupContext
@@ -116,14 +116,14 @@ class GroupResult:
         return self.pattern.timetable(self.context) if self.pattern else None
 
     def laps_made(self) -> tuple[int, ...]:
-        """Return how many laps each robot completed in the history."""
+        """Return the number of laps that each robot completed in the history."""
         rows = zip(self.context.routes, self.history, strict=True)
         return tuple((len(past) - 1) // len(route) for route, past in rows)
 
     def mean_laps(self) -> tuple[Fraction | None, ...]:
         """Return the mean lap time of each robot [ticks]; None if it makes no lap.
 
-        Exact, for the long run, if a pattern repeats; otherwise as `measured`.
+        Exact if a pattern repeats; otherwise as `measured`.
         """
         if self.pattern:
             period = self.pattern.period
@@ -133,8 +133,8 @@ class GroupResult:
     def rate(self, weights: Sequence[Fraction] | None = None) -> Fraction:
         """Return the number of laps per tick of all robots, each multiplied by its weight.
 
-        Exact if a pattern repeats. A measured rate has twelve digits, since the exact sum of a
-        thousand fractions has thousands.
+        Exact if a pattern repeats. A measured rate has twelve digits: exact sums of a thousand
+        fractions have thousands of digits.
         """
         means = zip(weights or [Fraction(1)] * len(self.context), self.mean_laps(), strict=True)
         rates = [weight / mean for weight, mean in means if mean]
@@ -176,16 +176,16 @@ class GroupResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicResult:
-    """What a fleet that repeats its laps does.
+    """The result of a fleet that repeats its laps.
 
     Attributes
     ----------
     scenario
         The problem.
     rule, routes
-        How rights of way were given, and how the round trips were chosen.
+        The lap rule, and the choice of round trips.
     groups
-        Groups of robots that never meet each other, ordered by their first robots.
+        Groups of robots without shared vertices, ordered by their first robots.
     """
 
     scenario: Scenario
@@ -194,7 +194,7 @@ class CyclicResult:
     groups: tuple[GroupResult, ...]
 
     def throughput(self) -> Fraction:
-        """Return how many laps all robots complete in a time unit of the scenario."""
+        """Return the laps of all robots per time unit of the scenario."""
         ticks = 1 / self.scenario.problem.clock.tick
         return sum((group.rate() * ticks for group in self.groups), Fraction(0))
 
@@ -218,11 +218,10 @@ def waits_in_first_laps(context: GroupContext, history: History) -> tuple[LapWai
 def waits_in_period(context: GroupContext, pattern: Pattern) -> tuple[LapWait, ...]:
     """Return the waits of each period, by offset from `Pattern.begins`.
 
-    Where a rule reverses a decision for which a robot has waited, that wait is for no robot, and it
-    is left out.
+    A wait for a decision that the rule reversed later is a wait for no robot, and is left out.
     """
     firsts = (pattern.visits(robot) for robot in range(len(context)))
-    # In the second period, no robot leaves home for the first time, without a turn.
+    # The second period: without first departures from home, which have no turn.
     visits = [range(first.stop, first.stop + len(first)) for first in firsts]
     when = {"begins": pattern.begins, "period": pattern.period}
     return _waits(context, pattern.enters, visits, visits, **when)
@@ -237,7 +236,7 @@ def _waits(
     begins: int = 0,
     period: int = NEVER,
 ) -> tuple[LapWait, ...]:
-    """Return the waits before visits asked for, for robots whose visits are seen."""
+    """Return the waits before visits in ``asked``, for robots with visits in ``seen``."""
     late: list[tuple[int, VertexId, int, int, int]] = []
     for robot, visits in enumerate(asked):
         if not visits:
@@ -268,6 +267,6 @@ def _waits(
             ticks=Tick(at - could),
         )
         for robot, vertex, could, at, booked in late
-        if (vertex, booked) in freed_by  # else it waits for its time in a timetable, or for no one
+        if (vertex, booked) in freed_by  # else a wait for a planned time, or for no robot
     ]
     return tuple(sorted(found, key=lambda one: (one.tick, one.waits)))

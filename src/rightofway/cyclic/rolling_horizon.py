@@ -1,12 +1,12 @@
-"""A rule that counts conflicts of whole laps: one window after the other, until a state recurs.
+"""Rolling horizon for a rule that counts conflicts of whole laps, until a state recurs.
 
-Each window ends where one robot of the group, the *pacemaker*, is home again. All meetings less
-than a *lag* after that are resolved too before the visits up to there are frozen, so that a robot
-that has to wait before a segment has not entered it yet. Where the lag was too short, so that
-waiting keeps two robots no longer apart, some windows are taken back and repeated with a longer
-lag, until the place of the deadlock is behind.
+Each window ends when one robot of the group, the *pacemaker*, returns home. Meetings less than a
+*lag* after the window are resolved, too, before the visits of the window are frozen, so that a
+robot that has to wait before a segment has not entered the segment yet. If the lag is too short,
+so that waiting cannot avoid a conflict, some windows are undone and repeated with a longer lag,
+until the tick of the deadlock has passed.
 
-The rules that consider two robots only do the same in the native simulator.
+The native simulator does the same for rules that consider two robots only.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from rightofway.precedence import Meeting, Segment
 
 
 def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
-    """Follow the paper: fewest conflicts left in the window, then least time for the two robots.
+    """Decide as in the paper: fewest conflicts left in the window, then least time of two robots.
 
-    Where the paper's method decides nothing, the robot that would enter the segment later waits.
+    On a tie, the robot that would enter the segment later waits.
     """
     settlement = by_two_levels(window.fleet, meeting)
     if settlement is not None and settlement.decisions:
@@ -41,13 +41,13 @@ def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 
 
 
 _Checkpoint = tuple[int, tuple[int, ...], tuple[Decision, ...]]
-"""The tick of a cut, how many visits of each robot began by then, and the open decisions."""
+"""The tick of a cut, the visits of each robot begun by the cut, and the open decisions."""
 
 
 class RollingHorizon:
-    """A simulation of a group whose rule needs a window.
+    """A simulation of a group by a rule on windows.
 
-    Without a pacemaker given, one with the longest lap is the first.
+    The default pacemaker is a robot with the longest lap.
     """
 
     def __init__(
@@ -77,16 +77,16 @@ class RollingHorizon:
 
     @property
     def history(self) -> list[list[int]]:
-        """For each robot the enters of its visits so far [ticks]."""
+        """For each robot, the enters of its visits so far [ticks]."""
         return self._prefix.history
 
     def advance(self, deadline: Deadline) -> tuple[int, int]:
-        """Continue until the state at a cut equals that at an earlier cut; return both ticks.
+        """Continue until the states at two cuts are equal; return both ticks.
 
         Raises
         ------
         Deadlock
-            If the rule runs into one.
+            If a deadlock remains at the longest lag.
         GaveUp
             If time runs out; another call continues.
         """
@@ -112,14 +112,14 @@ class RollingHorizon:
                     raise
 
     def reset_states(self) -> None:
-        """Forget the states seen, so that `advance` continues where one recurred."""
+        """Forget the states seen, so that `advance` continues after a recurrence."""
         self._seen.clear()
 
     def _first_ahead(self) -> list[int]:
         return [self._params.window_lags * self._lag] * len(self.context)
 
     def _window(self, ahead: Sequence[int], decisions: Iterable[Decision]) -> Window:
-        """Return a window that holds the next cut and all visits of some decisions."""
+        """Return a window with the next cut and all visits of the decisions."""
         stop = [0] * len(ahead)
         stop[self._pacemaker] = self._next_home(self._pacemaker) + 1
         for decision in decisions:
@@ -128,7 +128,7 @@ class RollingHorizon:
         return Window(self.context, self._deadline, self._prefix, ahead, stop)
 
     def _take_back(self) -> bool:
-        """Return to an earlier cut with twice the lag; false if the lag is the longest already."""
+        """Return to an earlier cut with twice the lag; return false at the longest lag."""
         if self._lag >= self._params.most_lag * self._longest:
             return False
         self._trouble = max(self._trouble, self._prefix.tick + 1)
@@ -143,7 +143,7 @@ class RollingHorizon:
         return True
 
     def _advance_to_next_cut(self, window: Window) -> None:
-        """Resolve all meetings up to a lag after the next cut, in a window as long as it takes."""
+        """Resolve all meetings up to a lag after the next cut, extending the window as needed."""
         ahead, decisions = self._first_ahead(), list(self._decisions)
         while True:
             search = RightOfWaySearch(window, decisions)
@@ -176,7 +176,7 @@ class RollingHorizon:
             search.resolve(meeting, self._rule)
 
     def _replace_pacemaker(self, window: Window) -> None:
-        """Choose the robot that is home first: the present pacemaker seems to wait for ever."""
+        """Replace a pacemaker that seems to wait for ever by the robot that is home first."""
         enter = {
             robot: window.graph.enter(window.visit(robot, self._next_home(robot)))
             for robot in range(len(self.context))
@@ -194,7 +194,7 @@ class RollingHorizon:
         return -(-len(self.history[robot]) // length) * length
 
     def _state(self, window: Window) -> Hashable:
-        """Return all that the future depends on, with visits counted from the window's start."""
+        """Return the state that determines later decisions, relative to the window's start."""
         starts = window.starts
         decisions = tuple(
             tuple(

@@ -1,4 +1,4 @@
-"""Cyclic routes: one lap for each robot, repeated for ever; groups of robots that may meet."""
+"""Cyclic routes: one lap per robot, repeated for ever; groups of robots that share vertices."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from rightofway.planners.routing import (
 from rightofway.search import Distances
 
 ROUTES = ("clear", "direct", "shortest")
-"""How round trips may be chosen; see `cyclic_routes`."""
+"""The choices of round trips; see `cyclic_routes`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +35,7 @@ class CyclicRoute:
     robot
         The number of the robot in the scenario.
     lap
-        The lap that is repeated.
+        The repeated lap.
     first_least
         The least duration of visit 0, which has no turn at home [ticks].
     """
@@ -80,7 +80,7 @@ class CyclicRoute:
         return enter
 
     def visits_lasting(self, visit: int, ticks: int) -> int:
-        """Return how many visits, from a visit after 0 on, last that long without waiting."""
+        """Return the number of visits, from one after 0 on, that last ``ticks`` if unimpeded."""
         place = visit % len(self.lap)
         laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
         return laps * len(self.lap) + bisect_left(self._within, rest) - place
@@ -98,7 +98,7 @@ class GroupContext:
     Attributes
     ----------
     scenario
-        The problem that the robots belong to.
+        The problem of the robots.
     routes
         The cyclic route of each robot of the group.
     """
@@ -131,7 +131,7 @@ class GroupContext:
 
     @property
     def headway(self) -> Tick:
-        """How long a vertex stays booked after it was left [ticks]."""
+        """The least time between a leave and the next booking of a vertex [ticks]."""
         return planning_headway(self.scenario)
 
     @property
@@ -141,22 +141,22 @@ class GroupContext:
 
     @property
     def reach(self) -> int:
-        """How long before a cut a vertex may have been left for a visit to still matter [ticks]."""
+        """The time before a cut that a window includes, for bookings of left vertices [ticks]."""
         drives = (max(lap.drive) for lap in self.laps)
         return 1 + self.headway + (max(drives) if self.books_ahead else 0)
 
 
 def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
-    """Choose one round trip for each robot, for all its laps.
+    """Choose the round trip of each robot, for all its laps.
 
     Parameters
     ----------
     scenario
         The problem; its number of laps is not used.
     routes
-        ``clear`` or ``shortest``: chosen as by the planners. ``direct``: clear of other robots in
-        proportion to how often these pass in repeated laps. Clear and direct routes avoid the homes
-        of other robots where two robots would block each other for ever.
+        ``clear`` or ``shortest``: as in the planners. ``direct``: clear of other robots in
+        proportion to the frequency of their passes in repeated laps. Clear and direct routes avoid
+        the homes of other robots if two robots would otherwise block each other for ever.
 
     Returns
     -------
@@ -219,10 +219,10 @@ def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
 
 
 def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
-    """Replace routes of robots that pass each other's homes: neither could set out first.
+    """Replace routes of robots that pass each other's homes: neither could leave first.
 
-    The replacement is a shortest route that avoids all homes of other robots. A route without a
-    replacement stays.
+    The new route is a shortest route that avoids all homes of other robots. Without a new route,
+    the old route is kept.
     """
     found = list(routes)
     passed = [set(route.vertices) for route in found]
@@ -244,7 +244,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
 
 
 def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
-    """Return the roadmap without the edges that lead to some vertices."""
+    """Return the roadmap without edges into the given vertices."""
     stays = ~np.isin(roadmap.heads, list(vertices))
     before = np.concatenate(([0], np.cumsum(stays)))
     return replace(
@@ -256,7 +256,7 @@ def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
 
 
 def independent_groups(fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
-    """Partition a fleet into groups whose laps share no vertex (union-find).
+    """Partition a fleet into groups with laps that share no vertex (union-find).
 
     Returns
     -------

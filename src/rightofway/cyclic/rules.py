@@ -1,4 +1,4 @@
-"""The rules of right of way for repeated laps: the one list that all others read."""
+"""The lap rules: the single list for library, command line and documentation."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ RULES = {
     "least-loss": "the robot that would lose the larger part of its lap by waiting",
     "two-level": "the robot that the paper's two-level method lets go first",
 }
-"""For each rule of `run_laps`, which of two robots that meet goes first."""
+"""For each rule of `run_laps`, the robot of two that goes first at a meeting."""
 
 NATIVE_RULES = ("first-come", "fixed-order", "least-loss")
-"""Rules that consider two robots only, in the order of the native simulator."""
+"""Rules that consider two robots only, in the order of the native simulator's enum."""
 
 TIMETABLE = "timetable"
-"""The rule of a result of `best_timetable`: every right of way is chosen in advance."""
+"""The rule in results of `best_timetable`: all rights of way are chosen in advance."""

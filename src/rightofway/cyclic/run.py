@@ -1,4 +1,4 @@
-"""A fleet that repeats its laps under one rule, until a state recurs or time is over."""
+"""Simulate a fleet that repeats its laps under one rule, until a state recurs or time is over."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline
 
 Simulation = CyclicSimulator | RollingHorizon
-"""A group that repeats its laps under a rule."""
+"""The simulation of a group under a lap rule."""
 
 
 @kernel_limits()
@@ -27,42 +27,42 @@ def run_laps(
     time_limit: float | None = 10,
     report: Callable[[str], None] | None = None,
 ) -> CyclicResult:
-    """Let every robot repeat its round trip until the pattern of the fleet repeats.
+    """Simulate repeated laps of all robots until the pattern of the fleet repeats.
 
     Parameters
     ----------
     scenario
         The problem; its number of laps is not used.
     rule
-        Which of two robots that meet goes first: ``first-come``, ``fixed-order`` (the first in the
-        scenario), ``least-loss`` (the one that would lose the larger part of its lap) or
+        The robot of two that goes first at a meeting: ``first-come``, ``fixed-order`` (the first in
+        the scenario), ``least-loss`` (the robot that would lose the larger part of its lap) or
         ``two-level`` (as in the paper).
     routes
-        How the round trips are chosen, for all laps: ``clear``, ``direct`` or ``shortest``; see
+        The choice of round trips, for all laps: ``clear``, ``direct`` or ``shortest``; see
         `cyclic_routes`.
     time_limit
-        When to stop [s]; None for no limit. Groups get shares of it by their size; those that are
-        open then continue in what is left.
+        Time limit [s]; None for no limit. Groups get shares by their size; open groups continue in
+        the time left.
     report
-        Takes sentences on the progress.
+        Receives sentences on progress.
 
     Returns
     -------
     CyclicResult
-        What each independent group of robots does.
+        One result for each independent group of robots.
 
     Raises
     ------
     InputError
-        For an unknown rule, a time limit that is negative or no number, or a robot that has no lap
-        to repeat.
+        For an unknown rule, a time limit that is negative or no number, or a robot without a lap to
+        repeat.
     NoPlanExists
         If a robot cannot reach a place.
 
     Notes
     -----
-    Exact: a pattern is reported when a state recurred, so that it repeats for ever. A group whose
-    state has not recurred within the limit is open. Deterministic if the limit is not reached.
+    Exact: a pattern is reported after a state has recurred, hence the pattern repeats for ever. A
+    group without a recurrence within the limit is open. Deterministic below the limit.
     """
     for key, given, known in (("rule", rule, tuple(RULES)), ("routes", routes, ROUTES)):
         if given not in known:
@@ -78,7 +78,7 @@ def run_laps(
 
 
 def simulation_of(context: GroupContext, rule: str) -> Simulation:
-    """Return the simulation of a group at its beginning."""
+    """Return a new simulation of a group."""
     return CyclicSimulator(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
 
 
@@ -89,9 +89,9 @@ def share_time(
     *,
     least_share: float = 0.05,
 ) -> list[GroupResult]:
-    """Advance all groups, small ones first; then open ones again as long as there is time.
+    """Advance all groups, small groups first; then open groups again until time is over.
 
-    Each gets a share of the time left by its size, and at least the least share.
+    Each group gets a share of the time left by its size, at least the least share.
     """
     found: dict[int, GroupResult] = {}
     sizes = [len(one.context) for one in simulations]
@@ -111,7 +111,7 @@ def share_time(
 
 
 def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
-    """Continue until the pattern repeats, a deadlock, or the deadline; then it can be continued."""
+    """Continue until the pattern repeats, a deadlock, or the deadline; another call continues."""
     context = simulation.context
     try:
         recurrence = simulation.advance(deadline)

@@ -1,8 +1,8 @@
-"""Sensitivity of the period: which speed, work time, turning time or headway it depends on.
+"""Sensitivity of the cycle time to speeds, work times, turning times and the headway.
 
 A parameter scales all its time at once: a robot twice as fast needs half the time on every edge.
-Each effect is exact: how much the period falls for each part of the time saved, and up to which
-part, before another circuit becomes critical.
+Each effect is exact: the decrease of the cycle time per part of the time saved, and the part at
+which another circuit becomes critical.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from rightofway.precedence import (
 )
 
 TEN_PER_CENT = {"speed": Fraction(1, 11)}
-"""The part of its time that ten per cent of a parameter save; one tenth where it is not listed."""
+"""The part of the time saved by ten per cent of a parameter; one tenth by default."""
 
 Kind = Literal["speed", "work", "turn", "headway"]
 
@@ -44,9 +44,9 @@ class ParameterEffect:
     robot
         The number of the robot; None for the headway.
     stop
-        The number of the stop; None if it is not work at a stop.
+        The number of the stop; None except for work at a stop.
     effect
-        How the cycle time depends on it.
+        The dependence of the cycle time on the parameter.
     ten_per_cent
         The cycle time with a robot ten per cent faster, or a time ten per cent shorter [ticks].
     """
@@ -61,7 +61,7 @@ class ParameterEffect:
 def parameter_effects(
     scenario: Scenario, graph: TimedEventGraph, *, most: int = 5, time_limit: float | None = None
 ) -> tuple[ParameterEffect, ...]:
-    """Return the parameters on which the cycle time depends, the most effective first.
+    """Return the parameters on which the cycle time depends, most effective first.
 
     Parameters
     ----------
@@ -70,14 +70,14 @@ def parameter_effects(
     graph
         The laps and orders of a group.
     most
-        How many parameters to examine: those that take most of a critical circuit.
+        Number of parameters to examine, by their time on a critical circuit.
     time_limit
-        For each search [s].
+        Time limit of each search [s].
 
     Returns
     -------
     tuple of ParameterEffect
-        A parameter that is on no critical circuit has no effect, and is not in it.
+        The effects; a parameter on no critical circuit has no effect and is left out.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def parameter_effects(
 def _shares(
     scenario: Scenario, graph: TimedEventGraph, circuit: NDArray[np.int32]
 ) -> Iterator[tuple[_Key, NDArray[np.int64]]]:
-    """Yield the ticks of each arc that each parameter of the robots on the circuit takes."""
+    """Yield the ticks of each arc due to each parameter of the robots on the circuit."""
     arcs = graph.arcs
     is_right = arcs.first >= 0
     drive = graph.drive[arcs.head]
@@ -129,7 +129,7 @@ def _shares(
 
 
 def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
-    """Return for each visit of a lap the stages that it serves, with their numbers.
+    """Return for each visit of a lap the stages served, with their numbers.
 
     Parameters
     ----------
@@ -140,11 +140,11 @@ def stages_at(lap: Lap, itinerary: Itinerary) -> list[list[tuple[int, Stage]]]:
 
     Notes
     -----
-    Where a lap visits a vertex twice, stages without work and turning belong to the first visit
-    that fits.
+    If a lap visits a vertex twice, stages without work and turning belong to the first visit that
+    fits.
     """
     stages = itinerary.stages
-    n = len(stages)  # the stages of one lap come first, and may be repeated
+    n = len(stages)  # the stages of one lap; further laps repeat them
     n = next(k for k in range(1, n + 1) if n % k == 0 and stages[:k] * (n // k) == stages)
     order = [*range(1, len(lap)), 0]
     vertices = np.array(lap.vertices, np.int32)[order]

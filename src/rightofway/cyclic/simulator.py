@@ -1,7 +1,7 @@
-"""Repeated laps under a rule that considers two robots only: the face of the native simulator.
+"""Wrapper of the native simulator of repeated laps, for rules that consider two robots only.
 
-One precedence graph rolls along: the past is dropped from it and laps to come are added, so that
-all times are kept up to date and never computed again.
+One precedence graph rolls along: past visits are dropped, and visits of later laps are added, so
+that times are updated incrementally.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from rightofway.model import Lap, Tick, VertexId
 from rightofway.planners import Deadline
 
 OPEN, REPEATS = 0, 1
-"""Answers of the kernel; any other one is a deadlock."""
+"""Ends reported by the kernel; any other end is a deadlock."""
 
 LAP_LOSS = 1 << 40
-"""The cost of a lost lap; with this many parts of it, the cost of a tick is accurate enough."""
+"""The cost of a lost lap, in units fine enough for the cost of a tick."""
 
 
 class Deadlock(Exception):
     """No right of way keeps two robots (positions in the group) apart.
 
-    In ``circle`` each robot would wait for the next. It is empty if there is no such cycle: then
-    one of the two stays, or is already, where the other has to go.
+    ``circle`` lists robots, each waiting for the next. It is empty without a cycle: then one of the
+    two robots stays, or is already, at a vertex of the other.
     """
 
     def __init__(
@@ -45,20 +45,20 @@ class Deadlock(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HorizonParams:
-    """How far a simulation of repeated laps looks ahead and back."""
+    """Parameters of the rolling horizon of a simulation of repeated laps."""
 
-    patience: int = 8  # A pacemaker that stays away longer is replaced [longest laps].
-    pacemaker_part: int = 4  # The pacemaker's lap takes a longest lap divided by this, or more.
-    most_lag: int = 4  # The lag grows up to this [longest laps].
-    memory: int = 32  # This many windows can be taken back.
-    window_lags: int = 3  # A window has this length at first [lags].
+    patience: int = 8  # Longest absence of a pacemaker from home [longest laps].
+    pacemaker_part: int = 4  # Least pacemaker lap: longest lap divided by this.
+    most_lag: int = 4  # Longest lag [longest laps].
+    memory: int = 32  # Number of windows that can be undone.
+    window_lags: int = 3  # Initial length of a window [lags].
 
 
 DEFAULT = HorizonParams()
 
 
 def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
-    """Return the robot with the shortest lap of at least so many ticks."""
+    """Return the robot with the shortest lap of at least the given ticks."""
     durations = [lap.duration for lap in laps]
     return durations.index(min(duration for duration in durations if duration >= least))
 
@@ -66,7 +66,7 @@ def choose_pacemaker(laps: Sequence[Lap], least: int) -> int:
 class CyclicSimulator:
     """A group of robots that repeat their laps under one of `NATIVE_RULES`.
 
-    Cuts are made where the *pacemaker* is home. All meetings less than a *lag* after a cut are
+    A cut is made whenever the *pacemaker* is home. Meetings less than a *lag* after a cut are
     resolved before the visits up to the cut are frozen.
     """
 
@@ -94,7 +94,7 @@ class CyclicSimulator:
 
     @property
     def history(self) -> list[VisitTimes]:
-        """For each robot the enters of its visits so far [ticks]."""
+        """For each robot, the enters of its visits so far [ticks]."""
         begun = self._kernel.started().tolist()
         return [
             VisitTimes(route, begun[robot], *self._kernel.waits(robot))
@@ -102,14 +102,14 @@ class CyclicSimulator:
         ]
 
     def advance(self, deadline: Deadline) -> tuple[int, int]:
-        """Continue until the state at a cut equals that at an earlier cut; return both ticks.
+        """Continue until the states at two cuts are equal; return both ticks.
 
-        Exact and deterministic; Ctrl-C is obeyed.
+        Exact and deterministic; Ctrl-C interrupts.
 
         Raises
         ------
         Deadlock
-            If the rule runs into one.
+            If a deadlock remains at the longest lag.
         GaveUp
             If time runs out; another call continues.
         """
@@ -122,9 +122,9 @@ class CyclicSimulator:
         raise Deadlock((i, j), VertexId(vertex), Tick(tick), circle.tolist())
 
     def set_rule(self, rule: str) -> None:
-        """Decide by another rule from now on; the states seen are forgotten."""
+        """Change the rule from the current cut on, and forget the states seen."""
         self._kernel.set_rule(NATIVE_RULES.index(rule))
 
     def reset_states(self) -> None:
-        """Forget the states seen, so that `advance` continues where one recurred."""
+        """Forget the states seen, so that `advance` continues after a recurrence."""
         self._kernel.reset_states()

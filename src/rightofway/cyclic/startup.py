@@ -1,7 +1,7 @@
-"""Start-up of a timetable: each robot waits at home until its first lap of the period is due.
+"""Start-up of a timetable: each robot waits at home until the start of its first lap.
 
-Where other robots pass the home of a robot that still waits there, another tick is a better
-beginning; the one with the fewest of these visits is taken.
+The start-up begins at the tick of the period with the fewest visits of other robots to homes with
+a waiting robot.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ def start(
     most_begins: int = 200,
     most_visits: int = 1_000_000,
 ) -> GroupResult:
-    """Return what a group does that follows a timetable from its first lap on.
+    """Return the result of a group that follows a timetable from its first lap on.
 
-    Up to ``most_begins`` ticks are considered for the beginning. The history holds so many periods,
-    or one if a period has more than ``most_visits``.
+    Compares up to ``most_begins`` ticks for the beginning. The history holds ``periods`` periods,
+    or one period if it has more than ``most_visits`` visits.
     """
     period, robots = int(timetable.period), range(len(timetable.laps))
     homes = [
@@ -42,7 +42,7 @@ def start(
     passes = _passes(timetable)
 
     def visits_while_waiting(begins: int) -> int:
-        """Return how many visits others make to homes whose robots still wait there."""
+        """Return the number of visits to homes of robots that wait there."""
         found = 0
         for robot, enter in passes.items():
             waits = _first_home(timetable, robot, begins)[1]
@@ -76,7 +76,7 @@ def start(
 
 
 def _first_home(timetable: CyclicSchedule, robot: int, begins: int) -> tuple[int, int]:
-    """Return a robot's first visit home from a tick on, and how much later that is [ticks]."""
+    """Return a robot's first visit home at or after a tick, and the time until then [ticks]."""
     length = len(timetable.laps[robot])
     later = (timetable.enter[robot][::length] - begins) % int(timetable.period)
     lap = int(np.argmin(later))
@@ -84,7 +84,7 @@ def _first_home(timetable: CyclicSchedule, robot: int, begins: int) -> tuple[int
 
 
 def _passes(timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
-    """Return for each robot the enters of other robots' visits to its home, if there are any."""
+    """Return for each robot the enters of other robots' visits to its home, if any."""
     owner = {lap.vertices[0]: robot for robot, lap in enumerate(timetable.laps)}
     passes = defaultdict(list)
     for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True)):
@@ -95,7 +95,7 @@ def _passes(timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
 
 
 def _history(timetable: CyclicSchedule, robot: int, begins: int, periods: int) -> array[int]:
-    """Return the enters of a robot's visits, counted from the beginning; it is home until then."""
+    """Return the enters of a robot's visits, counted from the beginning of the start-up."""
     period, enter = int(timetable.period), timetable.enter[robot]
     visit, later = _first_home(timetable, robot, begins)
     turn = np.arange(periods + 1)[:, None] * period

@@ -1,4 +1,4 @@
-"""Choose the timetable of each group: as much value of laps per tick as possible, and fair."""
+"""Choose a fair timetable of each group with the most value of laps per tick."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from rightofway.search import Distances, RoundTrip
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChoiceParams:
-    """How the time of a group is divided; each share is of the time that is left then."""
+    """Division of the time of a group; shares of the time left."""
 
     large: int = 100  # Larger groups have a stretch of a simulation closed.
     most_with_round_trips: int = 200  # Larger fleets search for no laps beyond the given ones.
@@ -79,34 +79,34 @@ def best_timetable(
     least_fairness
         The least ratio of laps made to laps possible alone for each robot, 0 to 1.
     time_limit
-        When to stop [s]; None for no limit. Groups get shares of it by their size.
+        Time limit [s]; None for no limit. Groups get shares by their size.
     rounds
-        How many first timetables to build for each group, and in how many steps to improve each
-        that is kept; None for as many as there is time for.
+        Number of first timetables per group, and of improvement steps per kept timetable; None:
+        until time is over.
     seed
-        For random choices.
+        Seed of random choices.
     report
-        Takes sentences on the progress.
+        Receives sentences on progress.
 
     Returns
     -------
     CyclicResult
-        One result with a `Comparison` for each independent group; or one for all robots, where a
-        group needs the vertices of others to get out of a deadlock.
+        One result with a `Comparison` for each independent group; or one for all robots if a group
+        needs the vertices of other groups to avoid a deadlock.
 
     Raises
     ------
     InputError
-        For weights or limits that do not fit, or a robot that has no lap to repeat.
+        For invalid weights or limits, or a robot without a lap to repeat.
     NoPlanExists
         If a robot cannot reach a place, or a group is proven to have no plan for one lap each.
     GaveUp
-        If no timetable was found in which all robots have a place and the least fairness.
+        If no timetable with all robots and the least fairness was found.
 
     Notes
     -----
-    Never below the pattern of first come first served, if that is found in its share of the time
-    and is fair. Deterministic for a seed if the rounds end before the time does. Not optimal.
+    Never below the pattern of first come first served, if this pattern is fair and found in its
+    share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
     n_robots = len(scenario.robots)
     if weights is not None and len(weights) != n_robots:
@@ -155,7 +155,7 @@ def _by_groups(
     seed: int,
     report: Callable[[str], None] | None,
 ) -> list[GroupResult]:
-    """Choose a timetable for each group, small ones first, none through vertices of another."""
+    """Choose a timetable for each group, small groups first, without vertices of other groups."""
     taken = {vertex for lap in fleet.context.laps for vertex in lap.vertices}
     found: dict[int, GroupResult] = {}
     left = len(fleet)
@@ -179,7 +179,7 @@ def _part(
     draw: random.Random,
     params: ChoiceParams,
 ) -> CyclicProblem:
-    """Return the problem of one group, where others take some vertices."""
+    """Return the problem of one group, without vertices of other groups."""
     scenario, robots = fleet.context.scenario, [route.robot for route in group]
     trips: tuple[RoundTrip, ...] = ()
     if len(fleet) <= params.most_with_round_trips:
@@ -238,7 +238,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
 
 
 def _closed_run(problem: CyclicProblem) -> GroupResult | None:
-    """Return a long stretch of a simulation, or the baseline's pattern if that is better."""
+    """Return the closing of a simulation, or the baseline's pattern if the pattern is better."""
     if problem.deadline.at is None:
         return None
     baseline = SimulatedRun(problem, problem.context, "first-come")
@@ -250,7 +250,7 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
 
 
 def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
-    """Return the pattern of a simulation; None without one, or if it is not fair."""
+    """Return the pattern of a simulation; None without a pattern, or if it is unfair."""
     pattern = None if run.timetable is None else Candidate.as_it_is(run.timetable)
     return None if pattern is None or not problem.accepts(pattern) else pattern
 
@@ -261,7 +261,7 @@ def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
 
 
 def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:
-    """Return how first come first served ends, and the value of its laps per tick."""
+    """Return the end of first come first served, and the value of its laps per tick."""
     if run.ends == "deadlock":
         return "deadlock", Fraction(0)
     starves = run.ends == "repeats" and run.timetable is None
@@ -269,7 +269,7 @@ def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, F
 
 
 def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Candidate]:
-    """Yield the patterns of other rules that are found soon; none without a time limit."""
+    """Yield the patterns of other rules found in their share; none without a time limit."""
     if problem.deadline.at is None or len(problem) > params.many:
         return
     for rule in ("two-level", "fixed-order"):
@@ -279,7 +279,7 @@ def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Ca
 
 
 def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> list[Candidate]:
-    """Return the best timetables cut out of a simulation, with more laps where there is room."""
+    """Return the best timetables closed from a simulation, filled with further laps."""
     if not all(run.mean_laps()):
         return []
     cutting = problem.sooner(params.cutting_share)
@@ -292,7 +292,7 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
 
 
 def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
-    """Return the best of many timetables, built by insertion for various periods."""
+    """Return the best of several timetables, built by insertion for random periods."""
     is_small = len(problem) <= params.many
     building = problem.sooner(params.building_share if is_small else params.filling_share)
     first = problem.sooner(params.placing_share)
@@ -315,7 +315,7 @@ def _improved(
     rounds: int | None,
     params: ChoiceParams,
 ) -> Candidate:
-    """Improve all short timetables a little, then the best of these, then the best of all."""
+    """Improve all short timetables, then the best of these, then the best of all."""
     net = max(starts, key=problem.value)
     short = [one for one in starts if one.n_visits <= params.short] or [net]
     trying, tried = problem.sooner(params.trying_share), []
@@ -327,7 +327,7 @@ def _improved(
 
 
 def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> Candidate:
-    """Return the timetable in whole ticks, over several periods if its cycle time is a fraction."""
+    """Return the timetable in whole ticks; several periods if its cycle time is a fraction."""
     timetable, cycle_time = candidate.timetable, candidate.cycle_time
     if cycle_time.denominator * candidate.n_visits <= params.most_visits:
         timetable = unrolled(timetable, cycle_time.denominator)

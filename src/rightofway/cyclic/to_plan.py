@@ -1,4 +1,4 @@
-"""A cyclic result as a plan: of whole laps that the judge passes, or of some periods for a page."""
+"""Plans from a cyclic result: whole laps for the judge, or some periods for a page."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
     result
         The result of `run_laps` or `best_timetable`.
     laps
-        How many laps each robot makes. If None, as many as it completes until the transient and
-        one more period of each group are over, or until the history of an open group ends.
+        Laps of each robot. If None, laps completed by the end of one period after the transient of
+        each group, or by the end of the history of an open group.
 
     Returns
     -------
@@ -35,8 +35,8 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
     Raises
     ------
     GaveUp
-        If there is no such plan: the history ends before a robot has made its laps, or a robot that
-        has finished its last lap stands in the way of others.
+        If the history ends before a robot has made its laps, or a robot at home after its last lap
+        blocks other robots.
     """
     plan = whole_laps(result, laps)
     report = check(plan)
@@ -49,12 +49,12 @@ def plan_of(result: CyclicResult, laps: int | None = None) -> Plan:
 
 
 def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
-    """Return the plan that `plan_of` has judged; robots at home may be in the way of others.
+    """Return the plan that `plan_of` judges; robots at home may block other robots.
 
     Raises
     ------
     GaveUp
-        If the history of a robot ends before it has made its laps.
+        If a robot's history ends before its laps.
     """
     patterns = [group.pattern for group in result.groups if group.pattern]
     ends = [max(past[-1] for past in group.history) for group in result.groups if not group.pattern]
@@ -77,24 +77,24 @@ def whole_laps(result: CyclicResult, laps: int | None = None) -> Plan:
 def excerpt(
     result: CyclicResult, periods: int = 4, *, most_visits: int = 200_000
 ) -> tuple[Plan, tuple[SteadyState, ...]]:
-    """Return some periods of a cyclic result, as a page shows them.
+    """Return some periods of a cyclic result for display on a page.
 
     Parameters
     ----------
     result
         The result of `run_laps` or `best_timetable`.
     periods
-        How many periods (or longest mean laps, if open) of the group that needs most time for them.
+        Number of periods (longest mean laps, if open) of the group with the longest time for them.
     most_visits
-        The time is cut so that all robots together make about as many visits at most.
+        Approximate maximum number of visits of all robots, which limits the time.
 
     Returns
     -------
     plan, steady
-        The plan holds whole laps of each robot beyond that time, so that no robot stays at home
-        before; a robot that stands still for ever makes no more visits. Later robots may be in
-        each other's way: the plan is for display only. The steady states tell for each group that
-        repeats from when on it does, and its bottleneck.
+        The plan holds whole laps of each robot beyond this time, so that no robot stays at home
+        before; a robot that stands still for ever makes no more visits. After this time, bookings
+        may conflict: the plan is for display only. The steady state of each group that repeats has
+        its first tick and its bottleneck.
 
     Raises
     ------
@@ -126,12 +126,12 @@ def excerpt(
 
 
 def _moves(group: GroupResult, index: int) -> bool:
-    """Whether a robot makes laps for ever."""
+    """Return whether a robot makes laps for ever."""
     return group.pattern is not None and group.pattern.counts[index] > 0
 
 
 def _laps_until(group: GroupResult, index: int, until: int, most: int | None) -> int:
-    """Return how many laps a robot completes by a tick, and at most."""
+    """Return the number of laps that a robot completes by a tick, and the maximum."""
     pattern, past = group.pattern, group.history[index]
     length, laps = len(group.context.routes[index]), 0
     while most is None or laps < most:
@@ -169,7 +169,7 @@ def _plan(
 
 
 def _steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadyState:
-    """Return from when on a group repeats, and its critical visits if the plan holds them all."""
+    """Return the steady state of a group, with critical visits if the plan has all of them."""
     critical = _critical_visits(group, pattern)
     rows = zip(group.robots, pattern.counts, strict=True)
     held = all(index < len(plan.tracks[robot]) for robot, index in critical)
@@ -182,7 +182,7 @@ def _steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadySta
 
 
 def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, int], ...]:
-    """Return the visits of the critical circuit; none if the rule wastes more time than that."""
+    """Return the visits of the critical circuit; none if the period exceeds the cycle time."""
     graph = group.graph()
     if graph is None:
         return ()

@@ -1,9 +1,9 @@
 """MSER: mean lap times of a simulation in which no state recurred, without its warm-up.
 
-All robots set out at once, and it takes some laps until that has no effect any more. Time is
-divided into slots as long as the longest lap, and the laps of all robots that end in each slot are
-counted. The warm-up ends where the marginal standard error of the remaining counts is least, and at
-half of the time at the latest.
+All robots start at once, and the effect of the start lasts for some laps. Time is divided into
+slots of the longest lap, and the ends of laps of all robots are counted per slot. The warm-up ends
+at the slot with the least marginal standard error of the remaining counts, and at half of the time
+at the latest.
 
 References
 ----------
@@ -27,15 +27,15 @@ from rightofway.model import Tick
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredLaps:
-    """Mean lap times that were measured, not proven to hold in the long run."""
+    """Measured mean lap times, not proven for the long run."""
 
-    warm_up: Tick  # laps that began before this tick are left out
-    laps: tuple[int, ...]  # the number of laps of each robot that its mean is of
+    warm_up: Tick  # earlier laps are left out
+    laps: tuple[int, ...]  # number of measured laps of each robot
     means: tuple[Fraction | None, ...]  # the mean lap time of each robot [ticks]; None without laps
 
 
 def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np.int64]]:
-    """Return for each robot the enters of its visits home; the first is visit 0 [ticks]."""
+    """Return for each robot the enters of its visits home, from visit 0 on [ticks]."""
     rows = zip(routes, history, strict=True)
     return [np.asarray(past[:: len(route)], np.int64) for route, past in rows]
 
@@ -43,9 +43,9 @@ def homes_of(routes: Sequence[CyclicRoute], history: History) -> list[NDArray[np
 def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
     """Measure the mean lap time of each robot.
 
-    A robot that made no whole lap since the warm-up is represented by its last lap. The unfinished
-    lap counts as well as soon as it takes longer than the mean of the others: a robot may stand
-    still for ever, which no finished lap would show.
+    A robot without a whole lap since the warm-up is represented by its last lap. The unfinished lap
+    counts, too, once it is longer than the mean of the finished laps: a robot may stand still for
+    ever, which finished laps do not show.
     """
     homes = homes_of(routes, history)
     slot, until = max(route.lap.duration for route in routes), max(past[-1] for past in history)
@@ -61,7 +61,7 @@ def measure(routes: Sequence[CyclicRoute], history: History) -> MeasuredLaps:
 
 
 def warm_up_of(homes: Sequence[NDArray[np.int64]], slot: int, until: int) -> int:
-    """Return the tick at which the warm-up is over, where all laps that end by a tick are known."""
+    """Return the tick at the end of the warm-up; laps that end by a given tick are known."""
     n_slots = until // slot
     if not n_slots:
         return 0

@@ -1,9 +1,9 @@
 """A window on cyclic routes: some consecutive visits of each robot, in one precedence graph.
 
-A window begins at a *cut*. No right of way may change what happened up to the cut: the *frozen
-prefix*. Visits that are not over by then stand in the graph with their actual times, later visits
-with their least durations. Each robot leaves the window into a vertex of its own, where it is in
-nobody's way; times are valid until the first robot leaves.
+A window begins at a *cut*. Rights of way never change visits begun by the cut: the *frozen prefix*.
+Visits not over by the cut are in the graph with their actual times, later visits with their least
+durations. Each robot leaves the window to a vertex of its own, without conflicts; times are valid
+until the first robot leaves.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
 
 NumberedRight = tuple[tuple[int, int], tuple[int, int]]
-"""A right of way as (robot, number of its visit) twice; the first goes first."""
+"""A right of way of one visit over another; a visit is (robot, number)."""
 
 
 class TooShort(Exception):
-    """The window must hold more visits of these robots (positions in the group)."""
+    """The window has to hold more visits of these robots (positions in the group)."""
 
     def __init__(self, robots: Iterable[int]) -> None:
         self.robots = tuple(robots)
@@ -36,7 +36,7 @@ class TooShort(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FrozenPrefix:
-    """The past of a group: the enters of each robot's visits up to a tick, all at most that."""
+    """The past of a group: the enters of each robot's visits, up to and including a tick."""
 
     tick: int
     history: list[list[int]]
@@ -45,8 +45,8 @@ class FrozenPrefix:
 class Window:
     """A group of robots that continue from a cut.
 
-    For each robot, the visits after the cut last at least for the ticks in ``ahead``, and the
-    window ends with the visit numbered ``stop`` or a later one.
+    The visits of each robot after the cut last at least ``ahead`` ticks, and the window ends with
+    visit ``stop`` of the robot or a later visit.
     """
 
     def __init__(
@@ -87,16 +87,16 @@ class Window:
         return robot, self.starts[robot] + index
 
     def is_past(self, robot: int, number: int) -> bool:
-        """Tell whether a visit began by the cut."""
+        """Return whether a visit began by the cut."""
         return number < len(self.prefix.history[robot])
 
     def ends(self) -> NDArray[np.int64]:
-        """Return when each robot leaves the window [ticks]."""
+        """Return the tick at which each robot leaves the window [ticks]."""
         enter = self.graph.enter
         return np.array([enter(visit) for visit in self._ends], np.int64) + self.begins
 
     def state(self) -> tuple[Hashable, ...]:
-        """Return all that the future depends on, except for rights of way beyond the cut."""
+        """Return the state that determines later visits, except rights of way beyond the cut."""
         frozen = (
             (start % len(route), *stretch.dwell[: len(past) - start])
             for route, start, stretch, past in zip(
@@ -106,15 +106,15 @@ class Window:
         return (self.prefix.tick - self.begins, *frozen)
 
     def is_endless(self, meeting: Meeting, segment: Segment) -> bool:
-        """Tell whether two robots are head-on for ever, so that neither can let the other pass.
+        """Return whether two robots are head-on for ever, so that neither can give way.
 
-        Two cyclic routes that agree on as many visits as both laps have agree for ever (Fine and
+        Two cyclic routes that agree for the length of both laps together agree for ever (Fine and
         Wilf 1965).
 
         Raises
         ------
         TooShort
-            If the window ends before that is known.
+            If the window is too short to decide.
         """
         i, j = meeting.robots
         reaches_the_end = (
@@ -151,11 +151,11 @@ class Window:
         past = self.prefix.history[robot]
         if visit + 1 < len(past):
             leave = past[visit + 1]
-        else:  # the robot is still there after the cut
+        else:  # the robot leaves after the cut
             least = self.context.routes[robot].least(visit)
             leave = max(past[visit] + least, self.prefix.tick + 1)
         return max(leave - max(past[visit], self.begins), 1)
 
 
 WindowRule = Callable[[Window, Meeting, Segment], Literal[0, 1]]
-"""Says which robot (0: i, 1: j) of a meeting waits if it can; otherwise the other one waits."""
+"""Returns the robot (0: i, 1: j) of a meeting that waits if possible; else the other waits."""

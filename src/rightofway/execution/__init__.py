@@ -1,4 +1,4 @@
-"""Executing a plan when robots are late: by the clock they collide, by right of way never."""
+"""Execution of a plan with delays: collisions by the clock, none by right of way."""
 
 from rightofway.execution.delays import CAUSES, DEFAULT, Cause, Delay, delay_model_of, read_delays
 from rightofway.execution.simulation import simulate

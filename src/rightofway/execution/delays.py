@@ -1,4 +1,4 @@
-"""What makes robots late: how it is written (`CAUSES`), and what it is in ticks."""
+"""Causes of delay: their notation (`CAUSES`), and the delay model in ticks."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from rightofway.model.values import exact
 from rightofway.precedence import DelayModel, Stoppage
 
 DEFAULT = "exponential:0.2"
-"""The delays if none are given."""
+"""The default delays."""
 
 
 class Delay(NamedTuple):
-    """One cause of delay, and how it was written (``text``).
+    """One cause of delay, with its notation (``text``).
 
-    The robot is a name, or empty for all robots. Times are in time units. The second number is None
-    if there is none.
+    ``robot`` is a name, or empty for all robots. Times are in time units. ``second`` is None for a
+    notation with one number.
     """
 
     kind: str
@@ -32,10 +32,10 @@ class Delay(NamedTuple):
 
 
 class Cause(NamedTuple):
-    """How one kind of delay is written.
+    """The notation of one kind of delay.
 
-    The form is the text after the colon as a regular expression: robot, first and second number.
-    There is one example for each way to write it, with its meaning.
+    ``form`` is a regular expression of the text after the colon: robot, first and second number.
+    ``examples`` has one example of each notation, with its meaning.
     """
 
     form: str
@@ -88,7 +88,7 @@ CAUSES = {
         examples=(("early:R1x0.8", "everything takes R1 0.8 of its time"),),
     ),
 }
-"""All kinds of delay by name, as help and documentation show them."""
+"""All kinds of delay by name, for parser, help and documentation."""
 
 _BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(CAUSES)})\s*:)")
 
@@ -99,14 +99,14 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
     Parameters
     ----------
     given
-        One cause, or several with commas between, or a sequence of these.
+        One cause, several causes separated by commas, or a sequence of these.
     scenario
-        The problem; it names the robots.
+        The problem, with the names of the robots.
 
     Raises
     ------
     InputError
-        Naming the cause and what to write instead.
+        If a cause cannot be read; names the cause and the remedy.
     """
     several = [given] if isinstance(given, str) else given
     texts = chain.from_iterable(map(_BETWEEN.split, several))
@@ -161,7 +161,7 @@ def _complaints(delay: Delay) -> list[tuple[str, bool]]:
 
 
 def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
-    """Return delays in the ticks of a scenario."""
+    """Return the delay model of causes, in the ticks of a scenario."""
     ticks = scenario.problem.clock.ticks
     pace = {robot.name: 1.0 for robot in scenario.robots}
     stoppages: dict[str, list[Stoppage]] = {name: [] for name in pace}

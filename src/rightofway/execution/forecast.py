@@ -1,8 +1,8 @@
-"""What is expected of an execution at an instant: the past is fixed, the rest is estimated.
+"""Forecast of an execution at an instant: past times are fixed, later times are estimated.
 
-A stay or drive that is overdue is expected to be so for as long again. A robot that only waits for
-its right of way can go at once. Everything else takes its planned time. How long a delay will last
-is not known, neither here nor on a real site.
+A stay or drive that is overdue by n ticks is expected to last n more ticks. A robot that waits for
+its right of way only is expected to move as soon as it gets it. Other durations are as planned. The
+forecast does not use the remaining duration of a delay, which is unknown on a real site, too.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Forecast:
     Attributes
     ----------
     booked, entered
-        Which visits have booked their vertex, and which have begun; bool[N].
+        Visits that have booked their vertex, and visits that have begun; bool[N].
     graph
         The precedence graph with the expected durations.
     is_possible
@@ -57,7 +57,7 @@ class Forecast:
         self.is_possible = self.graph.give_all(self._rights())
 
     def times(self) -> Times:
-        """Return when visits are expected to begin."""
+        """Return the expected enter of each visit [ticks]; int64[N]."""
         return np.concatenate([track.enter for track in self.graph.tracks()])
 
     def visit_of(self, robot: int) -> int:
@@ -66,7 +66,7 @@ class Forecast:
         return int(first + np.count_nonzero(self.entered[first:end]) - 1)
 
     def is_ready(self, robot: int) -> bool:
-        """Tell whether a robot only waits for its right of way."""
+        """Tell whether a robot waits for its right of way only."""
         visit = self.visit_of(robot)
         ready = int(self.execution.enter[visit] + self.delay_sample.dwell[visit])
         if not self.books_ahead:
@@ -79,18 +79,18 @@ class Forecast:
         return ready <= self.now and not stands
 
     def has_set_off(self, robot: int) -> bool:
-        """Tell whether a robot has left for a vertex that it has not booked, or waits before it."""
+        """Tell whether a robot drives to, or waits before, a vertex that it has not booked."""
         visit = self.visit_of(robot)
         if self.books_ahead or visit + 1 == self.adg.first_visit[robot + 1]:
             return False
         return int(self.execution.enter[visit] + self.delay_sample.dwell[visit]) <= self.now
 
     def is_driving(self, robot: int) -> bool:
-        """Tell whether a robot is on its way to a vertex that it has not booked."""
+        """Tell whether a robot drives to a vertex that it has not booked."""
         return self.has_set_off(robot) and not self.is_ready(robot)
 
     def _rights(self) -> Iterator[tuple[int, int]]:
-        """Yield the rights of way that are still to be used, in the order of the plan."""
+        """Yield the unused rights of way, in the order of planned times."""
         before = self.adg.before
         lengths = np.diff(self.adg.first_visit)
         robot = np.repeat(np.arange(len(lengths)), lengths)
@@ -99,7 +99,7 @@ class Forecast:
         yield from zip(before[unused].tolist(), unused.tolist(), strict=True)
 
     def _route(self, robot: int) -> Route:
-        """Return a route with the real durations so far and the expected one of this visit."""
+        """Return a route with actual durations so far and the expected one of the current visit."""
         route, first = self.adg.routes[robot], int(self.adg.first_visit[robot])
         here = self.visit_of(robot) - first
         lasted = np.diff(self.execution.enter[first : first + here + 1])
@@ -109,7 +109,7 @@ class Forecast:
         return replace(route, dwell=(*dwell, *route.dwell[len(dwell) :]))
 
     def _lasts(self, robot: int, index: int) -> int:
-        """Return the expected time from the begin of this visit to that of the next one."""
+        """Return the expected ticks from the enter of the current visit to the next enter."""
         route, visit = self.adg.routes[robot], int(self.adg.first_visit[robot]) + index
         since = self.now - int(self.execution.enter[visit])
         drive = int(route.drive[index + 1])
@@ -126,6 +126,6 @@ class Forecast:
 
 
 def _with_overdue(least: int, since: int) -> int:
-    """Return the expected duration of what takes ``least`` ticks and began ``since`` ticks ago."""
+    """Return the expected ticks of an action that began ``since`` ticks ago; least: ``least``."""
     overdue = since - least
     return least if overdue < 0 else least + 2 * overdue + 1

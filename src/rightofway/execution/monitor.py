@@ -1,4 +1,4 @@
-"""Monitoring an execution, and changing what has not begun where that is expected to help.
+"""Monitoring of an execution, with reordering and replanning if they lower the expected flowtime.
 
 Whenever a robot is later than last expected, the monitor makes a forecast: rights of way are
 switched, and where the whole fleet has fallen behind, the rest is replanned. It is replanned as
@@ -27,27 +27,27 @@ from rightofway.planners.task import Task
 from rightofway.precedence import ActionDependencyGraph, RunBatch, order_of
 
 HORIZON = 2
-"""Robots that stand still are waited for until this multiple of the makespan, planned or real."""
+"""Delays later than this multiple of the makespan, planned or actual, are ignored."""
 
 LOOKS = 400
-"""A robot is late by this part of the makespan, and by the duration of a median visit at least."""
+"""A visit is late from more than makespan / LOOKS, and the median visit, after its forecast."""
 
 SHARE = 20
-"""Replan when expected flowtime has grown by this part of the planned one since the last try."""
+"""Replan when expected flowtime has grown by planned flowtime / SHARE since the last attempt."""
 
 MOST_PLANS = 10
-"""How often that is tried with one plan."""
+"""Maximum number of these attempts per run."""
 
 
 class ExecutionPolicy(NamedTuple):
-    """What may be changed during execution: the order of visits, and the plan of the rest."""
+    """Permitted changes during execution: switch rights of way, replan the remaining plan."""
 
     switch: bool = False
     replan: bool = False
 
 
 class ExecutionMonitor:
-    """One run of a plan, changed during execution.
+    """One run of a plan, with changes during execution.
 
     Delays are those of a run of a seed, as for `ActionDependencyGraph.delay_sample`; the n-th visit
     of a robot meets the same delay in every plan. The seed is the planner's, too.
@@ -55,7 +55,7 @@ class ExecutionMonitor:
     Attributes
     ----------
     adg, delay_sample, execution
-        The plan as it is in the end, its delays, and the times that follow.
+        The final plan, its delays, and its actual times.
     switches, replans
         How often rights of way were switched, and how often the rest was replanned.
     broken, lost, cut_off
@@ -86,7 +86,7 @@ class ExecutionMonitor:
 
     @property
     def completion(self) -> NDArray[np.int64]:
-        """When each robot completed, `NEVER` if it was not all done [ticks]; int64[R]."""
+        """Completion time of each robot, `NEVER` if a stage is not done [ticks]; int64[R]."""
         completion = self.execution.completion.copy()
         completion[sorted(self.lost | self.cut_off)] = NEVER
         return completion
@@ -110,7 +110,7 @@ class ExecutionMonitor:
         )
 
     def trace(self) -> ExecutionTrace:
-        """Return where robots were, and how long each visit and drive took."""
+        """Return the actual tracks, and the duration of each visit and drive."""
         adg, sample = self.adg, self.delay_sample
         tracks = adg.tracks_at(self.execution.enter)
         firsts = adg.first_visit[:-1].tolist()
@@ -127,11 +127,11 @@ class ExecutionMonitor:
         )
 
     def forecast(self, now: int) -> Forecast:
-        """Return what is expected at a tick."""
+        """Return the forecast at a tick."""
         return Forecast(self.adg, self.delay_sample, self.execution, now, self.broken)
 
     def _execute(self) -> None:
-        """Execute the plan, make a forecast whenever there is news, and act on it."""
+        """Execute the plan; at each delay or breakdown, make a forecast, then reorder or replan."""
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
         ticks = (self.delay_sample.breakdown(robot) for robot in range(len(self.stages)))
         breakdown = np.array([tick if self.policy.replan else NEVER for tick in ticks])
@@ -170,7 +170,7 @@ class ExecutionMonitor:
                 self._replan(forecast, flowtime)
 
     def _replan(self, forecast: Forecast, limit: int) -> None:
-        """Replan the rest; take the new plan if its expected flowtime is below a limit."""
+        """Replan; accept a plan with an expected flowtime below ``limit`` [ticks]."""
         found = replan(forecast, self.stages, self.seed, self.deadline)
         if found is None:
             return

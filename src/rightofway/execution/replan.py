@@ -1,15 +1,15 @@
-"""Replanning the rest of a plan during execution, after delays and after breakdowns.
+"""Replanning during execution, after delays and breakdowns.
 
-Commitments are kept: a robot that stays finishes there, a robot that drives arrives, bookings stay.
-From there on every robot gets a new route, and every vertex a new order. The rest is a scenario of
-its own: each robot starts where its commitment ends and is first busy until then. Broken robots are
-closures: what they have booked stays booked for ever. Going on by right of way is one plan of the
-rest. Where closures block it, LaCAM finds another one; a robot that cannot reach all its places any
-more is *cut off*: it does what it can and ends wherever it is in no robot's way. Large
-neighbourhood search improves that first plan.
+Commitments are kept: a stay is finished, a drive arrives, bookings remain. After its commitment,
+every robot gets a new route, and every vertex a new order. The *rest* is a scenario: each robot
+starts at the end of its commitment and is busy until the commitment is done. Bookings of broken
+robots become closures: vertices closed for ever. The first plan of the rest continues by right of
+way. If closures block it, LaCAM finds the first plan; a robot that cannot reach all its places is
+*cut off*: it serves reachable stages and ends at a vertex where it blocks no robot. Large
+neighbourhood search (LNS) improves the first plan.
 
 Deterministic for a seed: budgets are numbers of neighbourhoods and steps. The new order has no
-cycle: commitments wait for nothing that has not begun, and the rest follows the order of a plan.
+cycle: commitments wait only for visits that have begun, and the rest has the order of a plan.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ from rightofway.search import Distances, untimed_lacam
 from rightofway.solve import improve
 
 NEIGHBOURHOODS = 20
-"""Neighbourhoods tried per robot; five times as many gain hardly more."""
+"""Neighbourhoods per robot; five times as many hardly lower the flowtime further."""
 
 MOST_STEPS = 20_000
-"""Steps of LaCAM for one choice of robots that are cut off; then the next choice is tried."""
+"""Maximum steps of LaCAM for one choice of cut-off robots."""
 
 MOST_CHOICES = 200
-"""Choices of robots that are cut off, the fewest robots first."""
+"""Maximum number of choices of cut-off robots, smallest choices first."""
 
 Stages = tuple[Stage, ...]
 
@@ -69,7 +69,7 @@ class Commitment:
 
     @property
     def free_from(self) -> VertexId:
-        """The vertex from which the robot is free to go anywhere."""
+        """The vertex from which the robot can take a new route."""
         return self.vertex if self.drives_to is None else self.drives_to
 
 
@@ -86,7 +86,7 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
         return Commitment(visit=index, vertex=vertex, busy=Tick(0), begun=tuple(stages))
     is_driving = forecast.is_driving(robot)
     if is_driving and forecast.broken:
-        # To a vertex that is free it drives on, as if it had booked it; else it may turn back.
+        # Towards a free vertex, the robot continues as if it had a booking; else it may turn back.
         other = int(adg.before[first + index + 1])
         is_driving = False
         index += other < 0 or bool(forecast.entered[other + 1])
@@ -103,7 +103,7 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
 
 
 def closures_of(forecast: Forecast) -> frozenset[VertexId]:
-    """Return the vertices that broken robots hold for ever: bookings of nobody."""
+    """Return the vertices that broken robots book for ever."""
     adg, closed = forecast.adg, set()
     for robot in forecast.broken:
         here, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
@@ -124,7 +124,7 @@ class Replanned:
 def replan(
     forecast: Forecast, stages: Sequence[Stages], seed: int, deadline: Deadline
 ) -> Replanned | None:
-    """Replan the rest, so that as many robots as possible complete, with a low flowtime.
+    """Replan the rest: first cut off few robots, then lower the flowtime.
 
     ``stages`` are all that the route of each robot serves. The result is None if no plan was found,
     or time ran out before.
@@ -146,7 +146,7 @@ def replan(
     better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
     for plan in (better, first):
         adg = _spliced(forecast, commitments, plan)
-        # The planner may send a busy robot away and back. It stays, so robots may wait in a cycle.
+        # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         if not adg.deadlocked():
             served = tuple((*one.begun, *one.left) for one in commitments)
             return Replanned(adg=adg, stages=served, cut_off=cut_off)
@@ -159,7 +159,7 @@ def _going_on(
     closed: frozenset[VertexId],
     rest: Scenario,
 ) -> list[Track] | None:
-    """Return the plan that keeps routes and rights of way; None if a closure blocks it."""
+    """Return the plan with the old routes and rights of way; None if a closure blocks it."""
     adg, times = forecast.adg, forecast.times()
     visited, arrivals = [], []
     for robot, one in enumerate(commitments):
@@ -180,7 +180,7 @@ def _another_way(
     seed: int,
     deadline: Deadline,
 ) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
-    """Return what robots do, as few as possible that are cut off, and tracks by LaCAM."""
+    """Return commitments and stages, the smallest set of cut-off robots, and LaCAM's tracks."""
     for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
         if deadline.seconds_left() == 0:
             return None
@@ -205,9 +205,9 @@ def _another_way(
 def _choices(
     rest: Scenario, broken: frozenset[int], commitments: Sequence[Commitment]
 ) -> Iterator[tuple[frozenset[int], list[Commitment]]]:
-    """Yield who may be cut off, and what all robots do then: fewest first, with most stages first.
+    """Yield sets of cut-off robots, and stages of all robots: small sets, then most stages first.
 
-    The last stage of a robot that is cut off is where it would like to end.
+    The last stage of a cut-off robot is its preferred end.
     """
     distances = Distances(rest.roadmap)
     reachable = [
@@ -230,7 +230,7 @@ def _choices(
 
 
 def _within_reach(distances: Distances, itinerary: Itinerary, one: Commitment) -> Stages:
-    """Return the stages that a robot can still get to, one after the other."""
+    """Return the stages that a robot can still reach, in order."""
     at, kept = one.free_from, []
     for stage in one.left:
         if distances.to(stage.vertex, itinerary.edge_ticks)[at] >= 0:
@@ -244,7 +244,7 @@ def _with_end(one: Commitment, left: Stages, vertex: int) -> Commitment:
 
 
 def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment]) -> Scenario:
-    """Return the problem of the rest; turning counts as work, since it may have begun."""
+    """Return the scenario of the rest; turning becomes work, since a turn may have begun."""
     time = scenario.problem.clock.time
 
     def one_way(robot: Robot, one: Commitment) -> Robot:
@@ -267,20 +267,20 @@ def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment
 def _spliced(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
-    """Return what has begun, followed by a plan of the rest."""
+    """Return the commitments followed by a plan of the rest."""
     adg, now = forecast.adg, forecast.now
     routes, tracks, sinces = [], [], []
     for robot, (one, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
         new = route_of(plan.scenario.roadmap, itinerary, track)
         is_driving = one.drives_to is not None
-        # The visit of the new route that ends the commitment is the last one kept of the old route.
+        # The new route's visit at the end of the commitment is the last visit of the old route.
         begins, kept = new.serves[is_driving], one.visit + 1 + is_driving
         before = 0 if is_driving else old.dwell[one.visit] - one.busy
         shift = kept - 1 - begins
         to_come = new.serves[len(new.serves) - len(one.left) :]
         serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
-        serves[-1] = len(new) - 1 + shift  # a robot that is done may move aside and come back
+        serves[-1] = len(new) - 1 + shift  # a completed robot may give way and return
         route = Route(
             vertices=(*old.vertices[:kept], *new.vertices[begins + 1 :]),
             dwell=(

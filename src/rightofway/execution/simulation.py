@@ -1,4 +1,4 @@
-"""Executing a plan with delays, many times."""
+"""Simulation of many executions of a plan with delays."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 CHUNK = 1 << 20
-"""Visits executed at a time; after each, time limit and Ctrl-C are looked at."""
+"""Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""
 
 
 @kernel_limits()
@@ -32,30 +32,29 @@ def simulate(
     time_limit: float | None = None,
     report: Callable[[str], None] = lambda _: None,
 ) -> Outcome:
-    """Execute a plan many times with delays: by right of way, and by the clock to compare.
+    """Execute a plan many times with delays: by right of way, and by the clock for comparison.
 
     Parameters
     ----------
     plan
         A plan that keeps the rules, by any planner or by hand.
     delays
-        What makes robots late: causes like ``exponential:0.2`` or ``stop:R3@12+30``, several with
-        commas or in a list; see `rightofway.execution.CAUSES`. A file of them is read by
-        `rightofway.io.load_delays`.
+        Causes of delay, for example ``exponential:0.2`` or ``stop:R3@12+30``; several causes in
+        a list or separated by commas; see `rightofway.execution.CAUSES`.
+        `rightofway.io.load_delays` reads a file of causes.
     runs
         Number of runs.
     seed
-        Run k of a seed meets the same delays, however many runs there are.
+        Run k of a seed has the same delays for any number of runs.
     switch
-        Whether rights of way are switched during execution, where that is expected to help.
+        Whether rights of way are switched during execution if this lowers the expected flowtime.
     replan
-        Whether the rest is replanned during execution: where the fleet has fallen behind and that
-        is expected to help, and where a robot breaks down.
+        Whether visits that have not begun are replanned during execution: if the fleet has fallen
+        behind and this lowers the expected flowtime, and after a breakdown.
     time_limit
-        After this no more runs are begun, and no more is replanned [s]; one run is made in any
-        case.
+        After this time, no run and no replanning begins [s]; at least one run is made.
     report
-        Takes sentences on the progress.
+        Receives sentences on progress.
 
     Returns
     -------
@@ -65,13 +64,13 @@ def simulate(
     Raises
     ------
     InputError
-        If the plan has faults, the delays cannot be read, or the time limit is no duration.
+        If the plan has faults, the delays cannot be read, or a number is out of range.
 
     Notes
     -----
-    By right of way a robot enters a vertex after all visits that come before by the plan, whatever
-    the clock says. Bookings never overlap then, and no robots wait in a cycle because none did in
-    the plan: that holds for delays of any length. Both are counted nevertheless.
+    By right of way, a robot enters a vertex after all visits that precede in the plan, at any time.
+    For delays of any length, bookings never overlap, and robots never deadlock, because the plan
+    has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
     time_limit = checked_time_limit(time_limit)
     judged = check(plan)

@@ -21,7 +21,7 @@ class Quantiles:
     Attributes
     ----------
     mean, median, p90, p95, max
-        None if there is no value at all.
+        None without values.
     """
 
     mean: float | None
@@ -47,12 +47,12 @@ class Collisions:
     Attributes
     ----------
     runs
-        Number of runs with any.
+        Number of runs with collisions.
     vertex, headway, swap
-        Pairs of visits to one vertex that overlap, pairs that follow each other too soon, and pairs
-        of robots that exchange vertices.
+        Pairs of visits to one vertex that overlap, pairs with less than the headway between them,
+        and pairs of robots that exchange vertices.
     first
-        When the first of a run happened, over the runs with any [ticks].
+        Time of the first collision, over the runs with collisions [ticks].
     """
 
     runs: int
@@ -63,12 +63,12 @@ class Collisions:
 
     @property
     def total(self) -> int:
-        """Number of all."""
+        """Number of all collisions."""
         return self.vertex + self.headway + self.swap
 
     @classmethod
     def of(cls, counts: NDArray[np.int64]) -> Collisions:
-        """Return the sums of the counts of each run; int64[K, 4] as in `Execution`."""
+        """Return the sums over runs of ``counts``; int64[K, 4] as in `Execution`."""
         some = counts[:, :3].sum(axis=1) > 0
         vertex, headway, swap = counts[:, :3].sum(axis=0).tolist()
         first = Quantiles.of(counts[some, 3])
@@ -84,9 +84,9 @@ class Source:
     robot
         The robot that took longer than planned.
     vertex
-        Where it was, or where it drove away from.
+        The vertex where it stayed, or from which it drove.
     own, of_others
-        Lateness of the robot itself, and of others that waited for it; mean per run [ticks].
+        Lateness of this robot, and of robots that waited for it; mean per run [ticks].
     """
 
     robot: int
@@ -102,11 +102,11 @@ class RobotLateness:
     Attributes
     ----------
     quantiles
-        Completion time minus planned one, over the runs in which the robot completes [ticks].
+        Completion minus planned completion, over runs in which the robot completes [ticks].
     own
-        Part of it that began with the robot itself; mean per run [ticks].
+        Lateness that began with this robot; mean per run [ticks].
     waiting
-        Part of it that began with each other robot that it waited for; mean per run [ticks].
+        Lateness that began with each other robot that it waited for; mean per run [ticks].
     """
 
     quantiles: Quantiles
@@ -116,18 +116,18 @@ class RobotLateness:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lateness:
-    """Completion times minus planned ones, of robots that complete.
+    """Completion times minus planned completion times, of robots that complete.
 
     Attributes
     ----------
     all
-        Over all robots and runs [ticks].
+        Lateness over all robots and runs [ticks].
     robots
-        Of each robot.
+        Lateness of each robot.
     flowtime, makespan
-        Of the fleet, over the runs in which all robots complete [ticks].
+        Lateness of the fleet, over runs in which all robots complete [ticks].
     sources
-        Where lateness began, the largest first.
+        Sources of lateness, largest first.
     """
 
     all: Quantiles
@@ -187,16 +187,16 @@ def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[Source, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PolicyGain:
-    """How much earlier a fleet is than with the rights of way of the plan, in the same runs.
+    """The gain of switching and replanning against the unchanged plan, in the same runs.
 
     Attributes
     ----------
     runs
-        Runs in which all robots complete both ways; only these are compared.
+        Runs compared: all robots complete with and without changes.
     earlier, later
-        Runs in which the fleet is earlier, and later.
+        Runs with a lower, and with a higher flowtime.
     flowtime
-        By how much earlier, negative where later [ticks].
+        Decrease of flowtime, negative for an increase [ticks].
     """
 
     runs: int
@@ -231,25 +231,25 @@ class Outcome:
     runs, seed
         Number of runs, and the seed of their delays.
     delays
-        The causes of delay, as they were written.
+        The causes of delay, in their notation.
     by_right_of_way, by_clock
-        Collisions.
+        Collisions of all runs.
     deadlocks
-        Runs in which robots wait for each other for ever.
+        Runs with a deadlock.
     broken
-        Robots that broke down before they completed, over all runs.
+        Robots that broke down before completion, over all runs.
     stranded
-        Robots that wait for ever for a broken one, over all runs.
+        Robots that wait for a broken robot for ever, over all runs.
     cut_off
         Robots that replanning did not bring to all their places, over all runs.
     switches, replans
-        How often rights of way were switched, and how often the rest was replanned.
+        Number of reorderings, and of replannings.
     gain
-        What switching and replanning gained; None where neither was asked for.
+        Gain of switching and replanning; None without both.
     lateness
-        By right of way.
+        Lateness by right of way.
     completion
-        When each robot completed in each run, -1 for never [ticks]; int64[K, R].
+        Completion time per run and robot, -1 for never [ticks]; int64[K, R].
     """
 
     plan: Plan
@@ -275,22 +275,22 @@ class Outcome:
         return self.by_right_of_way.total
 
     def trace(self, run: int = 0) -> ExecutionTrace:
-        """Return where robots were in one run by right of way, and how long everything took.
+        """Return tracks and durations of one run by right of way.
 
         Parameters
         ----------
         run
-            Its number, from 0.
+            The run's number, from 0.
 
         Raises
         ------
         IndexError
-            If there is no such run.
+            If ``run`` is out of range.
 
         Notes
         -----
-        The judge computes with planned durations: robots that are early are too fast for it, and
-        where robots book ahead it assumes other bookings. Else it finds no fault in the tracks.
+        The judge uses planned durations: it reports early robots as too fast, and with booking
+        ahead it assumes different bookings. Otherwise the tracks have no faults.
         """
         if not 0 <= run < self.runs:
             raise IndexError(f"run {run} is not among the {self.runs} runs (0 is the first)")
@@ -303,7 +303,7 @@ class Outcome:
         return int(np.lexsort((flowtime, never))[(self.runs - 1) // 2])
 
     def as_dict(self) -> dict[str, Any]:
-        """Return everything but the single runs, as plain data for JSON; times in ticks."""
+        """Return all results except single runs, as plain data for JSON; times in ticks."""
         late, names = self.lateness, [robot.name for robot in self.plan.scenario.robots]
         place = self.plan.scenario.roadmap.name
         return {
