@@ -76,7 +76,15 @@ NOT_RESULTS = "this is no file of results as they are now (give another file)"
 
 
 def need(library: str, purpose: str) -> None:
-    """Refuse with `InputError`, before any work, if an optional library is not installed."""
+    """Refuse with `InputError`, before any work, if an optional library is not installed.
+
+    Parameters
+    ----------
+    library
+        The name of the library.
+    purpose
+        What needs it, for the message.
+    """
     if find_spec(library) is None:
         remedy = f"pip install 'rightofway[{EXTRAS[library]}]'"
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")

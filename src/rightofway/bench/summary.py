@@ -94,7 +94,15 @@ def planner_names(rows: Iterable[Row]) -> dict[str, str]:
 
 
 def by_planner(rows: Sequence[Row], names: Mapping[str, str] | None = None) -> dict[str, list[Row]]:
-    """Return the rows of each planner; names are those among all rows, if these are only some."""
+    """Return the rows of each planner; names are those among all rows, if these are only some.
+
+    Parameters
+    ----------
+    rows
+        Results of cases.
+    names
+        Name of each planner with its options; None to make names from the rows.
+    """
     names = names or planner_names(rows)
     groups: dict[str, list[Row]] = {}
     for row in rows:

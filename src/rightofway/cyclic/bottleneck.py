@@ -65,6 +65,13 @@ class Bottleneck:
 def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
     """Return a critical circuit of a timed event graph, in pieces.
 
+    Parameters
+    ----------
+    graph
+        Laps and orders.
+    time_limit
+        When to stop [s].
+
     Raises
     ------
     GaveUp

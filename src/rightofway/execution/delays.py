@@ -161,7 +161,15 @@ def _complaints(delay: Delay) -> list[tuple[str, bool]]:
 
 
 def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
-    """Return the delay model of causes, in the ticks of a scenario."""
+    """Return the delay model of causes, in the ticks of a scenario.
+
+    Parameters
+    ----------
+    delays
+        Causes of delays, as `read_delays` returns them.
+    scenario
+        The problem; it gives robots by name and the tick.
+    """
     ticks = scenario.problem.clock.ticks
     pace = {robot.name: 1.0 for robot in scenario.robots}
     stoppages: dict[str, list[Stoppage]] = {name: [] for name in pace}

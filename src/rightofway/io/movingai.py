@@ -39,6 +39,11 @@ class ScenRow:
 def load_map(path: Path | str) -> tuple[str, ...]:
     """Return the rows of a `.map` file.
 
+    Parameters
+    ----------
+    path
+        The file.
+
     Raises
     ------
     InputError
@@ -88,6 +93,11 @@ def _checked_rows(lines: list[str], header: dict[str, str], above: int) -> tuple
 def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
     """Return the rows of a `.scen` file.
 
+    Parameters
+    ----------
+    path
+        The file.
+
     Raises
     ------
     InputError
@@ -126,6 +136,13 @@ def _scen_row(line: int, text: str) -> ScenRow:
 
 def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """Write a grid as a `.map` file.
+
+    Parameters
+    ----------
+    roadmap
+        A grid.
+    path
+        The file.
 
     Raises
     ------

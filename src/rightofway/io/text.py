@@ -75,6 +75,11 @@ def read_document(path: Path) -> Any:
 def load_delays(path: Path | str) -> tuple[str, ...]:
     """Return the lines of a YAML or JSON file with a list of delays, or one under ``delays``.
 
+    Parameters
+    ----------
+    path
+        A name that ends in .yaml, .yml or .json.
+
     Raises
     ------
     InputError

@@ -41,7 +41,13 @@ def bookings_of(scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Sta
 
 
 def free_running(plan: Plan) -> tuple[Track, ...]:
-    """Return tracks of the same routes and work, without any wait."""
+    """Return tracks of the same routes and work, without any wait.
+
+    Parameters
+    ----------
+    plan
+        The plan whose waits are left out.
+    """
     return tuple(
         Track(
             vertices=track.vertices,
@@ -73,6 +79,13 @@ class Collision:
 
 def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
     """Return where bookings of any tracks overlap, by start, then by robots.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
 
     Notes
     -----

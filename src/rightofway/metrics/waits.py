@@ -14,7 +14,13 @@ NOBODY = -1
 
 
 def waits(plan: Plan) -> tuple[Wait, ...]:
-    """Return all waits of a plan that keeps the rules, by tick, then by robot."""
+    """Return all waits of a plan that keeps the rules, by tick, then by robot.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules.
+    """
     scenario, tracks = plan.scenario, plan.tracks
     return plan.once("waits", lambda: waits_in(scenario, tracks, stays_of(scenario, tracks)))
 

@@ -91,6 +91,11 @@ def _floor_faults(floor: Floor) -> Iterator[InputFault]:
 def node_length(speeds: Iterable[Fraction]) -> Fraction:
     """Return the cell size of node clustering: the least ``1 / v`` of the fleet.
 
+    Parameters
+    ----------
+    speeds
+        The speeds of the fleet [length units per time unit], above 0.
+
     Examples
     --------
     >>> node_length([Fraction(1), Fraction(2)])
@@ -101,6 +106,13 @@ def node_length(speeds: Iterable[Fraction]) -> Fraction:
 
 def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
+
+    Parameters
+    ----------
+    speed
+        The speed of a robot [length units per time unit].
+    length
+        The cell size [length units].
 
     Examples
     --------

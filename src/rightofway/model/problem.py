@@ -92,6 +92,13 @@ def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
     """Return how long a visit lasts at least that serves these stages, without the edge after it.
 
     The last visit of a robot (``leaves`` is false) needs no turning.
+
+    Parameters
+    ----------
+    stages
+        The stages that the visit serves, in order.
+    leaves
+        Whether the robot drives on afterwards.
     """
     return Tick(sum(stage.work + (stage.turn if leaves else 0) for stage in stages))
 

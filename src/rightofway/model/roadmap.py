@@ -335,6 +335,11 @@ def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) 
 def straight_length(tail: tuple[Fraction, Fraction], head: tuple[Fraction, Fraction]) -> Fraction:
     """Return the straight distance between two positions, if it is a fraction.
 
+    Parameters
+    ----------
+    tail, head
+        Positions (x, y) [length units].
+
     Raises
     ------
     InputError

@@ -181,6 +181,15 @@ def _route(
 def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]) -> list[int]:
     """Return how long a robot drives along each edge of a path [ticks].
 
+    Parameters
+    ----------
+    roadmap
+        The graph of the path.
+    itinerary
+        The robot; its speed is in `Itinerary.edge_ticks`.
+    vertices
+        The path.
+
     Raises
     ------
     KeyError
@@ -334,6 +343,13 @@ class Stays:
 def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     """Return what the visits of a fleet are for.
 
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot; they may break the rules.
+
     Notes
     -----
     Of tracks that break the rules, a move without an edge takes no time, and what comes after a
@@ -366,12 +382,28 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
 
 
 def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
-    """Return when each robot has done its work and entered its last vertex [ticks]."""
+    """Return when each robot has done its work and entered its last vertex [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
     return tuple(stay.completion for stay in stays_of(scenario, tracks))
 
 
 def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return the sum of the robots' completion times [ticks]."""
+    """Return the sum of the robots' completion times [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
     return Tick(sum(completions_of(scenario, tracks)))
 
 

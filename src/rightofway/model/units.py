@@ -83,6 +83,11 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
 def checked_time_limit(seconds: float | None) -> float | None:
     """Return a time limit that a caller gave [s]; None for no limit, also for infinity.
 
+    Parameters
+    ----------
+    seconds
+        A time limit [s]; None for no limit.
+
     Raises
     ------
     InputError

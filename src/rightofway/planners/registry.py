@@ -147,6 +147,11 @@ def registered() -> dict[str, PlannerSpec]:
 def find(name: str) -> PlannerSpec:
     """Return the planner of that name.
 
+    Parameters
+    ----------
+    name
+        The name of a planner.
+
     Raises
     ------
     InputError

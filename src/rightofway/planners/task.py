@@ -125,10 +125,21 @@ def planning_headway(scenario: Scenario) -> Tick:
 
     Where rotations are forbidden it is at least one tick: a vertex that is never entered at the
     instant at which it is left cannot be part of a rotation.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
     """
     return Tick(max(scenario.problem.headway, 0 if scenario.rules.rotations else 1))
 
 
 def planning_problem(scenario: Scenario) -> Problem:
-    """Return the problem with the headway to plan with."""
+    """Return the problem with the headway to plan with.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    """
     return scenario.problem.with_headway(planning_headway(scenario))

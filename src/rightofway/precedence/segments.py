@@ -56,7 +56,15 @@ class Segment:
 
 
 def crossing(one: Route, i: int, j: int) -> Segment:
-    """Return the segment of two visits to one vertex, and of nothing around it."""
+    """Return the segment of two visits to one vertex, and of nothing around it.
+
+    Parameters
+    ----------
+    one, i
+        Route of robot i and the index of its visit.
+    j
+        Index of the visit of robot j to the same vertex.
+    """
     here = (one.vertices[i],)
     return Segment(kind="vertex", i_first=i, i_last=i, j_first=j, j_last=j, vertices=here)
 

@@ -87,6 +87,13 @@ def sensitivity(
 def tight_arcs(graph: TimedEventGraph, *, time_limit: float | None = None) -> NDArray[np.bool_]:
     """Return a mask of arcs with no slack at the cycle time: all critical circuits are of these.
 
+    Parameters
+    ----------
+    graph
+        Laps and orders.
+    time_limit
+        When to stop [s].
+
     Raises
     ------
     GaveUp
@@ -112,6 +119,17 @@ def critical_circuit_without(
     time_limit: float | None = None,
 ) -> Circuit:
     """Return a critical circuit, with the cycle time, if a part (0 to 1) of that share is saved.
+
+    Parameters
+    ----------
+    graph
+        Laps and orders.
+    share
+        The part of each arc that can be saved [ticks]; int64, shape (M,).
+    part
+        The part of the share that is saved, 0 to 1.
+    time_limit
+        When to stop [s].
 
     Raises
     ------

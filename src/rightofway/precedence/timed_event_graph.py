@@ -55,7 +55,15 @@ class CyclicSchedule:
 
 
 def unrolled(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
-    """Return the same timetable, with so many of its periods as one."""
+    """Return the same timetable, with so many of its periods as one.
+
+    Parameters
+    ----------
+    timetable
+        The timetable.
+    times
+        The number of periods that become one.
+    """
     period = int(timetable.period)
     shifts = np.arange(times, dtype=np.int64)[:, None] * period
     return replace(

@@ -19,6 +19,11 @@ def bound(problem: Problem) -> _core.Problem:
 
     Robots of one pace need the same ticks for every edge.
 
+    Parameters
+    ----------
+    problem
+        The scenario in ticks.
+
     Raises
     ------
     OverflowError

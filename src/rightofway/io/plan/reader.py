@@ -61,6 +61,11 @@ def load_plan(path: Path | str) -> Plan:
 def load_either(path: Path | str) -> Plan | Loaded:
     """Return the plan of a file, or the scenario if its ``format`` says that it is one.
 
+    Parameters
+    ----------
+    path
+        A plan or scenario as JSON, or a scenario as YAML or `.scen`.
+
     Raises
     ------
     InputError

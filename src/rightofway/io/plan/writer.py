@@ -75,7 +75,15 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
 
 
 def plan_text(plan: Plan, *, seconds: bool = False) -> str:
-    """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`."""
+    """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    seconds
+        Whether to write how long planning took.
+    """
     return json_text(dump_plan(plan, seconds=seconds))
 
 

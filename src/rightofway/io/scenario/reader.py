@@ -69,7 +69,13 @@ def load(path: Path | str) -> Scenario:
 
 
 def load_with_notes(path: Path | str) -> Loaded:
-    """Return the scenario of a file with the notes of its reader; otherwise as `load`."""
+    """Return the scenario of a file with the notes of its reader; otherwise as `load`.
+
+    Parameters
+    ----------
+    path
+        A scenario as YAML or JSON, or a `.scen` file.
+    """
     path = Path(path)
     with blaming(str(path)):
         if path.suffix.lower() == ".scen":

@@ -16,6 +16,11 @@ from rightofway.model.values import written
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     """Return a scenario as a document, its map inlined, its numbers exact.
 
+    Parameters
+    ----------
+    scenario
+        The scenario.
+
     Notes
     -----
     Reading the document gives an equal scenario, where robots and vertices have printable names,
@@ -34,6 +39,13 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
 
 def write_scenario(scenario: Scenario, path: Path | str) -> None:
     """Write a scenario as YAML or JSON, by the suffix of the path.
+
+    Parameters
+    ----------
+    scenario
+        The scenario.
+    path
+        A name that ends in .yaml, .yml or .json.
 
     Raises
     ------
