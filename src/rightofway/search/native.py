@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from itertools import accumulate, chain, pairwise
 from weakref import WeakKeyDictionary
 
@@ -12,6 +13,7 @@ from rightofway import _core
 from rightofway.model import Problem, Tick, Track
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
+atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
 
 
 def bound(problem: Problem) -> _core.Problem:
