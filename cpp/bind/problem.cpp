@@ -7,7 +7,7 @@ namespace {
 
 constexpr auto class_doc = R"(A scenario in ticks: roads, robots and booking rules.
 
-Immutable; every kernel is given one. The arrays are not copied: they must not change.
+Immutable; searches are given one. The arrays are not copied: they must not change.
 
 Parameters
 ----------

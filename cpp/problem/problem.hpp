@@ -1,6 +1,6 @@
 // A scenario in ticks: roadmap, itineraries and paces of the robots, booking rules.
 //
-// Every kernel reads one `Problem`. It is immutable, borrows its arrays, and is checked once.
+// Searches read one `Problem`. It is immutable, borrows its arrays, and is checked once.
 #pragma once
 
 #include <cstddef>

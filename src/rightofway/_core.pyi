@@ -317,7 +317,7 @@ class Problem:
     """
     A scenario in ticks: roads, robots and booking rules.
 
-    Immutable; every kernel is given one. The arrays are not copied: they must not change.
+    Immutable; searches are given one. The arrays are not copied: they must not change.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def test_the_report_sets_the_first_lap_against_the_later_ones(cli: Cli, slower: 
     assert "R1               1        30        20    33.3%" in ended.out
     assert "  N7: R1 waits for R2, first lap at 12; each period at 19" in ended.out
     assert "  N1: R2 waits for R1, first lap at 3\n" in ended.out
-    assert "bottleneck: R2's own lap: it waits for nobody" in ended.out
+    assert "bottleneck: R2's own lap: it waits for no robot" in ended.out
 
 
 def test_the_report_for_programs_has_exact_times(cli: Cli, slower: Path) -> None:

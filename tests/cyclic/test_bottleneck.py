@@ -77,7 +77,7 @@ def test_a_robot_that_waits_for_nobody_is_its_own_bottleneck() -> None:
     )
     # R2 is in and out again while R1 works; R1's lap is 4 edges and its work.
     found = bottleneck_of(TimedEventGraph(timetable, headway=Tick(0), books_ahead=False))
-    assert in_words(found, scenario) == "R1's own lap: it waits for nobody"
+    assert in_words(found, scenario) == "R1's own lap: it waits for no robot"
     assert found.cycle_time == 44
 
 

@@ -98,7 +98,7 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
 def _crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
     """Return the bookings of vertices where any overlap, by vertex and start.
 
-    Two neighbours in that order overlap then. A booking that does not last at all meets nobody.
+    Two neighbours in that order overlap then. A booking of no duration overlaps none.
     """
     order = order_by(vertex, start)
     order = order[start[order] < end[order]]

@@ -144,7 +144,7 @@ def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> s
     """
     if len(bottleneck.robots) == 1:
         name = scenario.robots[bottleneck.robots[0]].name
-        return f"{name}'s own lap: it waits for nobody"
+        return f"{name}'s own lap: it waits for no robot"
     names = [_name(piece, scenario) for piece in bottleneck.pieces]
     if len(names) > most:
         names = [*names[:most], f"{len(names) - most} more"]

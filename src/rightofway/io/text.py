@@ -58,7 +58,7 @@ _WORDS = {
 
 
 def read_document(path: Path) -> Any:
-    """Return the data of a YAML or JSON file, told apart by its name, else by its start."""
+    """Return the data of a YAML or JSON file, recognized by its name, else by its start."""
     text = read_text(path)
     suffix = path.suffix.lower()
     if suffix == ".map":

@@ -1,4 +1,4 @@
-"""When robots book vertices, and where the paper's planned rows collide: nobody waits in those."""
+"""Bookings of vertices, and collisions of the paper's planned rows, in which no robot waits."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class Metrics:
     lower_bound
         Sum of the shortest completion times alone: no plan has a smaller flowtime [ticks].
     waiting
-        How long robots stand still without work, all told [ticks].
+        The sum of all times that robots stand still without work [ticks].
     moves
         How many edges are driven.
     completions

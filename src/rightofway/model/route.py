@@ -248,7 +248,7 @@ def _least_dwells(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lap:
-    """The visits of one lap; after the last one the first comes again.
+    """The visits of one lap; after the last visit the first one follows.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ MANY = 5000
 """The untimed search takes far longer than the timed one for more robots: it gets no time."""
 
 LEAST_EFFORT, EFFORT_PER_PLACE = 2_000_000, 8
-"""The timed search stops after so many choices per robot and vertex, but not before the least."""
+"""Choices of the timed search: the minimum, and the limit per robot and vertex above it."""
 
 
 def lacam(task: Task) -> Draft:

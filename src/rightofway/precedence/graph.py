@@ -125,15 +125,15 @@ class PrecedenceGraph:
     def take_back(self, first: Visit, second: Visit) -> bool:
         """Take back one right of way, whenever it was given; false if there is none.
 
-        Nobody is later for it. A rollback to a mark from before gives it again.
+        No robot becomes later. A rollback to an earlier mark gives it again.
         """
         return self._kernel.take_back(first, second)
 
     def deadlocked(self) -> list[int]:
         """Return the robots that the last right of way found impossible would have deadlocked.
 
-        Each would have waited for the next, the last one for the first. Nobody if there was another
-        reason.
+        Each robot would have waited for the next, the last robot for the first. Empty if another
+        reason made the right of way impossible.
         """
         robots = [self._robot[visit] for visit in self._refused_cycle()]
         return [robot for robot, _ in groupby(reversed(robots))]
@@ -177,7 +177,7 @@ class PrecedenceGraph:
         self._kernel.rollback(mark)
 
     def withdraw(self, robot: int) -> None:
-        """Set a robot aside, for good: it meets nobody any more, and nobody waits for it."""
+        """Remove a robot for good: it has no conflicts any more, and no robot waits for it."""
         self._last_dwells -= self.routes[robot].dwell[-1]
         self._kernel.withdraw(robot)
 
@@ -202,7 +202,7 @@ class PrecedenceGraph:
             return None
         tick, kind, one, other = found
         robots = (self._robot[one], self._robot[other])
-        if kind:  # a swap is told by the two visits entered; the other has just left one's vertex
+        if kind:  # a swap names the visits entered; the robot of `other` has left the vertex of one
             return Meeting(tick=Tick(tick), kind="swap", robots=robots, visits=(one, other - 1))
         return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(one, other))
 

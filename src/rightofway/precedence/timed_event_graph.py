@@ -2,10 +2,10 @@
 
 A node is a visit of one period, its time the enter. An arc leads from a visit to the next one of
 its robot, and at each vertex from the visit after the one that goes first to the one that goes
-second. Its *height* says how many periods later the second is to be counted: where a robot starts
-its laps anew, or where the order at a vertex goes round. Robots that wait for nothing but that
-come again every *cycle time*, the largest mean of any circuit (length by height), and a circuit
-that has it is the bottleneck: whatever else becomes faster, the period stays.
+second. Its *height* is the number of periods between the two visits: 1 where a robot starts its
+next lap, or where the order at a vertex starts again. If robots wait only for these arcs, each
+visit repeats after the *cycle time*, the largest mean of a circuit (length divided by height). A
+circuit of that mean is the bottleneck: changes elsewhere do not shorten the period.
 
 References
 ----------
@@ -55,7 +55,7 @@ class CyclicSchedule:
 
 
 def unrolled(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
-    """Return the same timetable, with so many of its periods as one.
+    """Return the same timetable with several of its periods as one.
 
     Parameters
     ----------
@@ -319,7 +319,7 @@ class TimedEventGraph:
 
 
 def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:
-    """Return a circuit of the largest mean among arcs between so many visits; None for deadlock.
+    """Return a circuit of the largest mean among arcs between visits; None for deadlock.
 
     Raises
     ------

@@ -35,10 +35,10 @@ FINE_SHARES = 1 << 12
 """The same, if robots cost by how often they come."""
 
 OFTEN_AT_STATION = 150
-"""A robot that is at a place all the time costs who passes it so many ticks."""
+"""Ticks that passing a robot costs if that robot is at its place all the time."""
 
 OFTEN_ONCOMING = 34
-"""A robot that comes the other way every tick costs so many times the edge."""
+"""Times the edge that driving against a robot costs if one comes every tick."""
 
 
 class Congestion:
@@ -97,8 +97,8 @@ class Congestion:
     def path(self, robot: int, start: VertexId, target: VertexId) -> Path:
         """Return a cheapest path; the target can be reached.
 
-        Of several, it takes the one that leaves each vertex by the first edge; where nobody is in
-        the way that is the path of `Distances`.
+        Of several cheapest paths, it takes the one that leaves each vertex by the first edge; if no
+        robot is in the way, this is the path of `Distances`.
         """
         self.distances.checkpoint()
         to_go = self.distances.to(target, self.problem.itineraries[robot].edge_ticks)

@@ -91,17 +91,17 @@ class FleetSearch:
         order
             Every robot once.
         searches
-            After so many searches it gives up.
+            The most searches before it gives up.
         time_limit
             When to stop [s].
         with_net
-            When to stop [s] once there is a plan made in haste, if that is later.
+            When to stop [s] once the greedy attempt has a plan, if that is later.
         """
         with_net = time_limit if with_net is None else with_net
         return self._core.prioritize(np.array(order, np.int32), searches, time_limit, with_net)
 
     def go_on(self, *, searches: int, time_limit: float | None) -> bool:
-        """Go on with `prioritize` where it ended; the searches count from its beginning."""
+        """Continue `prioritize` where it ended; the searches count from its beginning."""
         return self._core.go_on(searches, time_limit)
 
     def start(self, tracks: Sequence[Track]) -> None:
@@ -121,16 +121,17 @@ class FleetSearch:
         time_limit: float | None = None,
         pause: float | None = None,
     ) -> int:
-        """Replace tracks by better ones, a few robots at a time; return how many times.
+        """Replan neighbourhoods of a few robots, keep better plans; return the number of gains.
 
-        Where that is stuck, the plan becomes one of several, which are crossed with each other.
+        If this brings no gain for long, the plan becomes one of a population, whose plans are
+        crossed with each other.
 
         Parameters
         ----------
         tasks
-            How many times some robots are planned anew.
+            The number of neighbourhoods to replan.
         patience
-            Ends after so many times in a row without a gain.
+            The most neighbourhoods in a row without a gain.
         time_limit
             When to stop at once [s].
         pause
@@ -139,7 +140,7 @@ class FleetSearch:
         return self._core.improve(tasks, patience, time_limit, pause)
 
     def retime(self) -> None:
-        """Have all robots as early as the order of visits at every vertex allows."""
+        """Shift every visit to the earliest time that keeps the order at each vertex."""
         self._core.retime()
 
     def tracks(self) -> tuple[Track, ...]:

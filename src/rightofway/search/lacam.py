@@ -59,8 +59,8 @@ def plan_by_lacam(
 
     Notes
     -----
-    Deterministic for a seed as long as there is time; not optimal. Nobody could be earlier on the
-    same routes in the same order at every vertex.
+    Deterministic for a seed as long as there is time; not optimal. No robot could be earlier on
+    the same routes with the same order at every vertex.
     """
     end, first_visit, vertices, enter = _core.plan_by_lacam(
         bound(problem), spreads, seed, most_effort, time_limit
@@ -95,7 +95,7 @@ def untimed_lacam(
     most_steps
         After how many steps of the fleet to stop, those taken back included.
     ends_anywhere
-        Robots that only prefer their last stage: any vertex will do where they are in nobody's way.
+        Robots that only prefer their last stage: any vertex will do that is in no robot's way.
 
     Returns
     -------

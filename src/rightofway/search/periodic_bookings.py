@@ -92,7 +92,7 @@ class PeriodicBookings:
     n_vertices
         How many vertices the roadmap has.
     period
-        Ticks after which all bookings come again; None for a line of time.
+        Ticks after which all bookings repeat; None for a line of time.
     headway
         Ticks that a vertex stays booked after it was left.
     books_ahead

@@ -15,7 +15,7 @@ SHORT = 0.1
 
 MAX_ROBOTS = 6
 MAX_VERTICES = 40
-"""Beyond these, the lines of all robots in one diagram can no longer be told apart."""
+"""Beyond these, the lines of all robots in one diagram can no longer be distinguished."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -64,7 +64,7 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     plan, seconds
         As for `dump_plan`.
     path
-        The file. It is replaced as a whole: nobody ever reads half of a plan.
+        The file. It is replaced as a whole: no program reads half of a plan.
 
     Raises
     ------

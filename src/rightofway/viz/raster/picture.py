@@ -27,7 +27,7 @@ LEAST_DIAGRAM_WIDTH = 720
 FILM_WIDTH, LARGEST_FILM_CELL, FILM_FINENESS = 800, 64, 2
 FRAME_MILLISECONDS, LAST_MILLISECONDS = 50, 1500
 FRAMES_PER_TICK = 8
-"""At most: more cannot be told apart."""
+"""The most frames: more cannot be distinguished."""
 
 
 def write_png(
