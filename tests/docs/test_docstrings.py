@@ -1,8 +1,9 @@
-"""Examples in docstrings are run too."""
+"""Examples in docstrings are run; exported functions name their parameters."""
 
 from __future__ import annotations
 
 import doctest
+import inspect
 from importlib import import_module
 from pkgutil import walk_packages
 
@@ -25,3 +26,20 @@ def test_the_examples_in_docstrings_do_what_they_say(name: str) -> None:
 def test_there_are_examples_in_docstrings() -> None:
     attempted = [doctest.testmod(import_module(name)).attempted for name in MODULES]
     assert sum(attempted) > 0
+
+
+ROOMS = ["rightofway", *(name for name in MODULES if hasattr(import_module(name), "__path__"))]
+"""Packages that say in ``__all__`` what they export."""
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_every_function_that_a_room_exports_names_its_parameters(room: str) -> None:
+    module = import_module(room)
+    exported = (getattr(module, name) for name in getattr(module, "__all__", ()))
+    assert [
+        function.__name__
+        for function in exported
+        if inspect.isfunction(function)
+        and inspect.signature(function).parameters
+        and "Parameters\n-----" not in (inspect.getdoc(function) or "")
+    ] == []

@@ -63,14 +63,20 @@ for command in (plan, improve, check, laps, simulate, show, table, convert, benc
 
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
-    """Run a command and end the process with its exit code."""
+    """Run a command and end the process with its exit code.
+
+    Parameters
+    ----------
+    args
+        The arguments; None for those of the process.
+    """
     speak_utf8()
     try:
         code = run(args)
-    except BrokenPipeError:  # nobody reads our messages
+    except BrokenPipeError:  # no program reads the messages
         code = UNREAD
     if code == UNREAD:
-        # Keep Python from complaining, at its exit, that nobody reads its output any more.
+        # Keep Python from complaining, at its exit, that no program reads its output any more.
         nowhere = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
             os.dup2(nowhere, stream)
