@@ -3,6 +3,7 @@
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
+from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.roadmap import (
     Edge,
     Grid,
@@ -48,6 +49,7 @@ __all__ = [
     "Plan",
     "PlannerRun",
     "Problem",
+    "Quantities",
     "Reroute",
     "Roadmap",
     "Robot",
@@ -63,12 +65,14 @@ __all__ = [
     "Track",
     "TripEnd",
     "Turn",
+    "Units",
     "VertexId",
     "Wait",
     "checked_time_limit",
     "choose_clock",
     "cluster",
     "completions_of",
+    "decimal",
     "drives_along",
     "flowtime_of",
     "lap_of",

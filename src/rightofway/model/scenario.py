@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.problem import Problem, problem_of
+from rightofway.model.quantities import Quantities, Units
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
@@ -26,6 +27,8 @@ class Scenario:
         What holds for the whole fleet.
     clock
         The clock to keep, where this is what is left of another scenario; else one is chosen.
+    units
+        What lengths and times are measured in; only for people, no plan depends on it.
     problem
         The same in ticks; derived.
 
@@ -39,6 +42,7 @@ class Scenario:
     robots: tuple[Robot, ...]
     rules: Rules = field(default_factory=Rules)
     clock: Clock | None = None
+    units: Units = field(default_factory=Units)
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -57,6 +61,11 @@ class Scenario:
         fleet = "1 robot" if count == 1 else f"{count} robots"
         return f"Scenario({fleet} on {self.roadmap!r}, tick {self.problem.clock.tick})"
 
+    @property
+    def quantities(self) -> Quantities:
+        """How times, lengths and speeds of this scenario are written for people."""
+        return Quantities(units=self.units, tick=self.problem.clock.tick)
+
 
 def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
     """Yield what is not even of the right kind."""
@@ -72,6 +81,8 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
             yield InputFault(f"robots[{index}]", f"{shown(robot)} is no robot (give a Robot)")
     if not isinstance(rules, Rules):
         yield InputFault("rules", f"{shown(rules)} are no rules (give Rules)")
+    if not isinstance(scenario.units, Units):
+        yield InputFault("units", f"{shown(scenario.units)} are no units (give Units)")
 
 
 def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:

@@ -20,7 +20,7 @@ from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.io.text import read_document
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, VertexId
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -107,11 +107,19 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
 
 def read_scenario(document: Any, base: Path | None) -> Loaded:
     """Return the scenario of a document with notes; the work behind `load` and `scenario_of`."""
-    from rightofway.io.scenario.shape import MapDocument, RulesDocument, ScenarioFrame
+    from rightofway.io.scenario.shape import (
+        MapDocument,
+        RulesDocument,
+        ScenarioFrame,
+        UnitsDocument,
+    )
 
     def rules_of(data: Any) -> Rules:
         given = checked(RulesDocument, data).given
         return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+
+    def units_of(data: Any) -> Units:
+        return Units(**checked(UnitsDocument, data).given("length", "time"))
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
         return map_of(checked(MapDocument, data), speeds, base)
@@ -120,6 +128,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", rules_of) or Rules()
+    units = faults.part(document, "units", units_of) or Units()
     robots = faults.part(document, "robots", _written_robots, base) or []
     speeds = _speeds(robots)
     loaded = faults.part(document, "map", loaded_map_of)
@@ -127,7 +136,9 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         placed = list(_listed(robots, loaded, faults))
     else:
         placed = _dealt(robots, loaded, faults) if loaded else []
-    scenario = _assembled(loaded.roadmap, placed, rules, faults) if loaded and placed else None
+    scenario = None
+    if loaded and placed:
+        scenario = _assembled(loaded.roadmap, placed, rules, units, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
@@ -278,7 +289,7 @@ def _check_map(row: ScenRow, on: LoadedMap) -> None:
 
 
 def _assembled(
-    roadmap: Roadmap, placed: Sequence[_Placed], rules: Rules, faults: Faults
+    roadmap: Roadmap, placed: Sequence[_Placed], rules: Rules, units: Units, faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(each.robot for each in placed)
@@ -287,7 +298,7 @@ def _assembled(
         if stages > MAX_STAGES:
             message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
             raise InputError.at("robots", f"{message} (give fewer laps)")
-        scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules)
+        scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules, units=units)
         _check_ticks(scenario)
     except InputError as error:
         for fault in error.faults:

@@ -28,6 +28,7 @@ from rightofway.io.fields import (
     optional,
 )
 from rightofway.model import Occupancy, TripEnd, VertexId
+from rightofway.model.quantities import LengthUnit, TimeUnit
 
 PLACES = "N<k>, [row, column] or a vertex name"
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
@@ -200,11 +201,19 @@ class RulesDocument(TripDocument):
     rotations: bool = optional("true or false")
 
 
+class UnitsDocument(Document):
+    """What numbers are measured in, for people who read reports; none by default."""
+
+    length: LengthUnit = optional("mm, cm or m")
+    time: TimeUnit = optional("ms, s, min or h")
+
+
 class ScenarioFrame(Document):
     """The keys of a scenario; their values are read one by one, so that faults add up."""
 
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
+    units: Any = optional("{length, time}: how reports write quantities")
     robots: Any = Field(description="a list of robots, or {scen: file}")
     rules: Any = optional("rules for the whole fleet")
 
@@ -213,5 +222,6 @@ class ScenarioDocument(ScenarioFrame):
     """A scenario: where the fleet drives, its robots, its rules."""
 
     map: MapDocument = Field(description="where the fleet drives")
+    units: UnitsDocument = optional("how reports write quantities")
     robots: list[RobotDocument] | FleetDocument = Field(description="the fleet")
     rules: RulesDocument = optional("rules for the whole fleet")

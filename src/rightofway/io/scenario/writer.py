@@ -9,7 +9,7 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.text import json_text
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn
+from rightofway.model import Roadmap, Robot, Rules, Scenario, Turn, Units
 from rightofway.model.values import written
 
 
@@ -32,6 +32,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "map": {"grid": list(grid.lines()), "cell_size": written(grid.cell_size)}
         if grid
         else {"roadmap": _roadmap(roadmap)},
+        **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
         "rules": _rules(scenario.rules),
     }
@@ -87,6 +88,12 @@ def _yaml_text(document: dict[str, Any]) -> str:
             width=float("inf"),
         )
     )
+
+
+def _units(units: Units) -> dict[str, Any]:
+    known = {"length": units.length, "time": units.time}
+    written_units = {key: value for key, value in known.items() if value is not None}
+    return {"units": written_units} if written_units else {}
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:

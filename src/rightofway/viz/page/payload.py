@@ -58,6 +58,7 @@ def payload_of(
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick = scenario.problem.clock.tick
     payload: dict[str, Any] = {
+        "units": {"length": scenario.units.length, "time": scenario.units.time},
         "tick": [tick.numerator, tick.denominator],
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,

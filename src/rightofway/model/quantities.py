@@ -1,0 +1,210 @@
+"""Times, lengths and speeds as people read them: ``6 min 23 s``, ``0.45 m``, ``1.2 m/s``.
+
+Inside the program times are ticks, and lengths and speeds are exact fractions. `Quantities` is the
+only place where these become text for people; files and JSON keep the exact values.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Literal, get_args
+
+from rightofway.errors import InputFault, InputError, shown
+
+LengthUnit = Literal["mm", "cm", "m"]
+TimeUnit = Literal["ms", "s", "min", "h"]
+
+SECONDS: dict[str, Fraction] = {
+    "ms": Fraction(1, 1000),
+    "s": Fraction(1),
+    "min": Fraction(60),
+    "h": Fraction(3600),
+}
+"""How long each unit of time is [s]."""
+
+METRES: dict[str, Fraction] = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1)}
+"""How long each unit of length is [m]."""
+
+DIGITS = 2
+"""Decimals of a number that is not exact in fewer."""
+
+Value = Fraction | int | float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Units:
+    """What a scenario's numbers are measured in; None where the scenario does not say.
+
+    Attributes
+    ----------
+    length
+        Unit of lengths and coordinates: ``mm``, ``cm`` or ``m``.
+    time
+        Unit of times: ``ms``, ``s``, ``min`` or ``h``. Speeds are lengths per time.
+
+    Raises
+    ------
+    InputError
+        If a unit is unknown.
+    """
+
+    length: LengthUnit | None = None
+    time: TimeUnit | None = None
+
+    def __post_init__(self) -> None:
+        faults = []
+        for key, kind in (("length", LengthUnit), ("time", TimeUnit)):
+            value, known = getattr(self, key), get_args(kind)
+            if value is not None and value not in known:
+                known_words = f"{', '.join(known[:-1])} or {known[-1]}"
+                faults.append(InputFault(key, f"{shown(value)} is no unit (give {known_words})"))
+        if faults:
+            raise InputError(faults, "units")
+
+    @property
+    def seconds(self) -> Fraction | None:
+        """Length of the time unit [s], or None where it is not known."""
+        return None if self.time is None else SECONDS[self.time]
+
+    @property
+    def metres(self) -> Fraction | None:
+        """Length of the length unit [m], or None where it is not known."""
+        return None if self.length is None else METRES[self.length]
+
+
+def decimal(value: Value, digits: int = DIGITS) -> str:
+    """Return a number as a person writes it.
+
+    Parameters
+    ----------
+    value
+        The number.
+    digits
+        The most decimals of the result.
+
+    Returns
+    -------
+    str
+        All decimals if ``digits`` are enough; else exactly ``digits`` decimals, so that a rounded
+        number looks rounded; else, for numbers that would be 0.00, two significant digits.
+
+    Examples
+    --------
+    >>> decimal(Fraction(1, 2)), decimal(Fraction(30313, 700)), decimal(5), decimal(4.999)
+    ('0.5', '43.30', '5', '5.00')
+    >>> decimal(Fraction(1, 3000))
+    '0.00033'
+    """
+    exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
+    scaled = exact * 10**digits
+    if scaled.denominator == 1:
+        text = f"{Decimal(scaled.numerator).scaleb(-digits):f}"
+        return text.rstrip("0").rstrip(".") if digits else text
+    rounded = _half_up(scaled)
+    if rounded:
+        return f"{Decimal(rounded).scaleb(-digits):f}"
+    return f"{Decimal(f'{float(exact):.1e}'):f}"
+
+
+def _half_up(number: Fraction) -> int:
+    """Return the nearest whole number; a half is rounded away from zero."""
+    magnitude = (2 * abs(number.numerator) + number.denominator) // (2 * number.denominator)
+    return magnitude if number >= 0 else -magnitude
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantities:
+    """How the quantities of one scenario are written for people.
+
+    Attributes
+    ----------
+    units
+        Units of the scenario.
+    tick
+        Length of a tick [time unit].
+    in_ticks
+        Whether times are written in ticks, as files have them, because a user asked for that.
+
+    Examples
+    --------
+    >>> q = Quantities(units=Units(length="m", time="s"), tick=Fraction(1, 2))
+    >>> q.duration(767), q.duration(3), q.length(Fraction(9, 20)), q.speed(Fraction(6, 5))
+    ('6 min 23.5 s', '1.5 s', '0.45 m', '1.2 m/s')
+    >>> plain = Quantities(units=Units(), tick=Fraction(1, 2))
+    >>> plain.duration(2), plain.duration(3), plain.moment(3)
+    ('1 time unit', '1.5 time units', 'time 1.5')
+    """
+
+    units: Units
+    tick: Fraction
+    in_ticks: bool = False
+
+    def duration(self, ticks: Value) -> str:
+        """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
+        if self.in_ticks:
+            return _counted(ticks, "tick")
+        time = self._time(ticks)
+        seconds = self.units.seconds
+        return _counted(time, "time unit") if seconds is None else self._clock(time * seconds)
+
+    def moment(self, ticks: Value) -> str:
+        """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
+        if self.in_ticks:
+            return f"tick {decimal(ticks)}"
+        return self.duration(ticks) if self.units.time else f"time {self.cell(ticks)}"
+
+    def cell(self, ticks: Value) -> str:
+        """Return a time as the bare number of a table's cell; `time_unit` is for its heading."""
+        return decimal(ticks if self.in_ticks else self._time(ticks))
+
+    @property
+    def time_unit(self) -> str:
+        """The unit of `cell`: ``s``, ``ticks``; empty where the scenario names none."""
+        return "ticks" if self.in_ticks else self.units.time or ""
+
+    def heading(self, words: str) -> str:
+        """Return the heading of a column of times: ``completes [s]``."""
+        return f"{words} [{self.time_unit}]" if self.time_unit else words
+
+    def length(self, value: Value) -> str:
+        """Return a length: ``0.45 m``, ``0.45 length units``."""
+        unit = self.units.length
+        return f"{decimal(value)} {unit}" if unit else _counted(value, "length unit")
+
+    def speed(self, value: Value) -> str:
+        """Return a speed: ``1.2 m/s``; a bare number where the scenario names no units."""
+        length, time = self.units.length, self.units.time
+        return f"{decimal(value)} {length}/{time}" if length and time else decimal(value)
+
+    def ticks_per_hour(self) -> Fraction | None:
+        """Return how many ticks an hour has, or None where the time unit is not known."""
+        seconds = self.units.seconds
+        return None if seconds is None else 3600 / (self.tick * seconds)
+
+    def _time(self, ticks: Value) -> Fraction:
+        exact = Fraction(repr(ticks)) if isinstance(ticks, float) else Fraction(ticks)
+        return exact * self.tick
+
+    def _clock(self, seconds: Fraction) -> str:
+        """Return a duration [s] in the parts that a person would say."""
+        if seconds < 0:
+            return f"-{self._clock(-seconds)}"
+        if self.units.time == "ms" and seconds < 1:
+            return f"{decimal(seconds * 1000)} ms"
+        if _half_up(seconds * 100) < 60 * 100:
+            return f"{decimal(seconds)} s"
+        if _half_up(seconds * 10) < 3600 * 10:
+            tenths = Fraction(_half_up(seconds * 10), 10)
+            minutes, rest = divmod(tenths, 60)
+            return f"{minutes} min" + (f" {decimal(rest, 1)} s" if rest else "")
+        minutes, rest_seconds = divmod(_half_up(seconds), 60)
+        hours, minutes = divmod(minutes, 60)
+        parts = ((hours, "h"), (minutes, "min"), (rest_seconds, "s"))
+        return " ".join(f"{number} {unit}" for number, unit in parts if number)
+
+
+def _counted(value: Value, noun: str) -> str:
+    text = decimal(value)
+    return f"{text} {noun}" if text == "1" else f"{text} {noun}s"
