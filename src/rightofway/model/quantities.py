@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Literal, get_args
 
-from rightofway.errors import InputFault, InputError, shown
+from rightofway.errors import InputError, InputFault, shown
 
 LengthUnit = Literal["mm", "cm", "m"]
 TimeUnit = Literal["ms", "s", "min", "h"]
