@@ -72,7 +72,7 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     )
     ways = (_by_edges if is_lattice else _by_ticks)(roadmap, wanted)
     return tuple(
-        Tick(_driving(scenario, robot, ways[itinerary.edge_ticks]) + _dwell(itinerary))
+        Tick(_driving(scenario, robot, ways[itinerary.edge_ticks]) + least_dwell_of_trip(itinerary))
         for robot, itinerary in enumerate(itineraries)
     )
 
@@ -82,8 +82,14 @@ def _legs(itinerary: Itinerary) -> Iterable[Leg]:
     return pairwise(place for place, _ in groupby(places))
 
 
-def _dwell(itinerary: Itinerary) -> int:
-    """Return how long all visits last; stages that follow each other at one vertex share one."""
+def least_dwell_of_trip(itinerary: Itinerary) -> int:
+    """Return how long all visits of a trip last at least, without the drives [ticks].
+
+    Parameters
+    ----------
+    itinerary
+        The trip; stages that follow each other at one vertex share a visit.
+    """
     visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
     moving = sum(least_dwell(stages, leaves=True) for stages in visits[:-1])
     return moving + least_dwell(visits[-1], leaves=False)

@@ -11,6 +11,7 @@ from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.model import Plan, Scenario, Stays, Tick, Track, VertexId, Wait, stays_of
 
 NOBODY = -1
+"""Stands for the visit of no robot."""
 
 
 def waits(plan: Plan) -> tuple[Wait, ...]:
@@ -35,7 +36,7 @@ def waits_in(
     vertex = np.concatenate([track.vertices for track in tracks])
     begin = enter + np.concatenate([stay.dwell for stay in stays])
     robot = np.repeat(np.arange(len(tracks)), lengths)
-    freed_by = _freed_by(bookings_of(scenario, tracks, stays))
+    frees = freed_by(bookings_of(scenario, tracks, stays))
     visit = np.flatnonzero(waiting > 0)
     visit = visit[np.lexsort((robot[visit], begin[visit]))]
     columns = (
@@ -44,7 +45,7 @@ def waits_in(
         begin[visit],
         waiting[visit],
         vertex[visit + 1],
-        freed_by[visit + 1],
+        np.where(frees == NOBODY, NOBODY, robot[frees])[visit + 1],
     )
     return tuple(
         Wait(
@@ -53,22 +54,33 @@ def waits_in(
             tick=Tick(tick),
             ticks=Tick(ticks),
             towards=VertexId(towards),
-            for_robot=None if freed_by == NOBODY else freed_by,
+            for_robot=None if for_robot == NOBODY else for_robot,
         )
-        for robot, vertex, tick, ticks, towards, freed_by in zip(
+        for robot, vertex, tick, ticks, towards, for_robot in zip(
             *(column.tolist() for column in columns), strict=True
         )
     )
 
 
-def _freed_by(bookings: Bookings) -> NDArray[np.int64]:
-    """Return, for each visit, which other robot's booking ends at the tick its own one begins."""
+def freed_by(bookings: Bookings) -> NDArray[np.int64]:
+    """Return, for each visit, which visit of another robot ends its booking as this one begins.
+
+    Parameters
+    ----------
+    bookings
+        All bookings of a fleet.
+
+    Returns
+    -------
+    ndarray
+        Numbers of visits, counted robot by robot along the tracks, or `NOBODY`; int64, shape (n,).
+    """
     before, after = slice(-1), slice(1, None)
-    freed_by = np.full(len(bookings.robot), NOBODY)
-    frees = (
+    frees = np.full(len(bookings.robot), NOBODY)
+    ends_as_begins = (
         (bookings.vertex[before] == bookings.vertex[after])
         & (bookings.end[before] == bookings.start[after])
         & (bookings.robot[before] != bookings.robot[after])
     )
-    freed_by[bookings.visit[after][frees]] = bookings.robot[before][frees]
-    return freed_by
+    frees[bookings.visit[after][ends_as_begins]] = bookings.visit[before][ends_as_begins]
+    return frees

@@ -1,6 +1,7 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
@@ -44,6 +45,8 @@ __all__ = [
     "Grid",
     "Itinerary",
     "Lap",
+    "Loss",
+    "LostTime",
     "Obstacle",
     "Occupancy",
     "Plan",

@@ -9,6 +9,7 @@ from itertools import chain
 from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
+from rightofway.model.lost_time import LostTime
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track, completions_of
 from rightofway.model.scenario import Scenario
@@ -269,6 +270,17 @@ class Plan:
         """Every wait of every robot, by tick, then by robot."""
         return self.once("waits", lambda: _from_above("waits")(self))
 
+    @property
+    def lost_time(self) -> tuple[LostTime, ...]:
+        """What each robot loses to others: how much, where and for which robot.
+
+        Raises
+        ------
+        NoPlanExists
+            If no way leads from one place of a robot's trip to the next.
+        """
+        return self.once("lost time", lambda: _from_above("lost_time")(self))
+
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
 
@@ -345,6 +357,7 @@ FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
 ROOMS_ABOVE = {
     "alone_completions": "rightofway.metrics",
     "frame_of": "rightofway.viz",
+    "lost_time": "rightofway.metrics",
     "waits": "rightofway.metrics",
 }
 """Functions that answer for a plan, by name: the model imports no room above, and works without."""

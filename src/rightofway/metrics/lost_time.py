@@ -1,0 +1,214 @@
+"""Where each completion time goes: alone + detours + making room + waiting = completion.
+
+Waits have a cause: the next visit on the route that begins to book its vertex at the very tick at
+which another robot's booking ends. Were the wait shorter, the robot would wait there. Waits that
+follow each other behind one robot, along vertices that both visit in the same order, are joined.
+
+Making room is what a last-exit decomposition of the route cuts out: between two stops, from each
+vertex on, everything up to the robot's last visit of that vertex.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.metrics.alone import least_dwell_of_trip
+from rightofway.metrics.collisions import Bookings, bookings_of
+from rightofway.metrics.measure import measure
+from rightofway.metrics.waits import NOBODY, freed_by
+from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+
+Bound = tuple[int, int, int]
+"""Visits: one in which a robot waits, the next of its visits that another robot's leaving makes
+possible, and that robot's visit; the last two are `NOBODY` for a wait without a cause."""
+
+
+def lost_time(plan: Plan) -> tuple[LostTime, ...]:
+    """Return what each robot loses to others: how much, where and for which robot.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules; of others, the numbers are what the tracks claim.
+
+    Returns
+    -------
+    tuple of LostTime
+        One for each robot; the sum of its parts is the robot's completion time exactly.
+
+    Raises
+    ------
+    NoPlanExists
+        If no way leads from one place of a robot's trip to the next.
+    """
+    return plan.once("lost time", lambda: _lost_time(plan))
+
+
+def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
+    scenario, tracks, alone = plan.scenario, plan.tracks, measure(plan).alone
+    stays = stays_of(scenario, tracks)
+    bookings = bookings_of(scenario, tracks, stays)
+    losses: defaultdict[int, list[Loss]] = defaultdict(list)
+    for loss in _joined_waits(tracks, stays, bookings):
+        losses[loss.robot].append(loss)
+    found = []
+    for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True)):
+        own = losses[robot]
+        waiting = sum(loss.ticks for loss in own)
+        driven = stay.completion - alone[robot] - waiting  # beyond the shortest trip
+        turning = int(stay.dwell.sum()) - least_dwell_of_trip(scenario.problem.itineraries[robot])
+        room = list(_room_made(robot, track, stay, bookings, turning)) if driven else []
+        making_room = sum(loss.ticks for loss in room)
+        lost = LostTime(
+            robot=robot,
+            alone=alone[robot],
+            detours=Tick(driven - making_room),
+            making_room=Tick(making_room),
+            waiting=Tick(waiting),
+            losses=tuple(sorted([*own, *room], key=lambda loss: loss.tick)),
+        )
+        found.append(lost)
+    return tuple(found)
+
+
+def joined_waits(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> tuple[Loss, ...]:
+    """Return all waits of tracks, those behind one robot joined, by robot, then by tick.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    stays
+        The parts of their visits.
+    """
+    return tuple(_joined_waits(tracks, stays, bookings_of(scenario, tracks, stays)))
+
+
+def _joined_waits(
+    tracks: Sequence[Track], stays: Sequence[Stays], bookings: Bookings
+) -> Iterator[Loss]:
+    lengths = np.array([len(track) for track in tracks])
+    robot = np.repeat(np.arange(len(tracks)), lengths)
+    waiting = np.concatenate([stay.waits for stay in stays])
+    enter = np.concatenate([track.enter for track in tracks])
+    begin = (enter + np.concatenate([stay.dwell for stay in stays])).tolist()
+    vertex = [
+        VertexId(one) for one in np.concatenate([track.vertices for track in tracks]).tolist()
+    ]
+    frees = freed_by(bookings)
+    visits = np.flatnonzero(waiting > 0)
+    bound = _next_bound(frees, robot)[visits + 1]
+    joined: list[Bound] = []  # visits: of the wait, bound by the other robot, its own
+    for visit, own in zip(visits.tolist(), bound.tolist(), strict=True):
+        wait = (visit, own, NOBODY if own == NOBODY else int(frees[own]))
+        if joined and not _go_together(joined[-1], wait, vertex, robot):
+            yield _joined(joined, robot, vertex, begin, waiting)
+            joined = []
+        joined.append(wait)
+    if joined:
+        yield _joined(joined, robot, vertex, begin, waiting)
+
+
+def _next_bound(frees: NDArray[np.int64], robot: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return, for each visit, the first from it on that another robot's leaving makes possible."""
+    last = len(frees)
+    bound = np.where(frees == NOBODY, last, np.arange(last))
+    following = np.minimum.accumulate(bound[::-1])[::-1]
+    is_own = robot[np.minimum(following, last - 1)] == robot
+    return np.where((following < last) & is_own, following, NOBODY)
+
+
+def _go_together(
+    before: Bound,
+    wait: Bound,
+    vertex: Sequence[int],
+    robot: NDArray[np.int64],
+) -> bool:
+    """Return whether a wait goes on from another: one robot, one leader, one run of vertices."""
+    (visit, own, leader), (next_visit, next_own, next_leader) = before, wait
+    if robot[visit] != robot[next_visit] or NOBODY in (leader, next_leader):
+        return False
+    return (
+        robot[leader] == robot[next_leader]
+        and next_leader - leader == next_own - own
+        and vertex[own : next_own + 1] == vertex[leader : next_leader + 1]
+    )
+
+
+def _joined(
+    waits: Sequence[Bound],
+    robot: NDArray[np.int64],
+    vertex: Sequence[int],
+    begin: Sequence[int],
+    waiting: NDArray[np.int64],
+) -> Loss:
+    (first, first_own, _), (last, last_own, leader) = waits[0], waits[-1]
+    is_caused = leader != NOBODY
+    return Loss(
+        kind="follows" if last_own > first_own else "waits",
+        robot=int(robot[first]),
+        for_robot=int(robot[leader]) if is_caused else None,
+        vertex=VertexId(vertex[first]),
+        until_vertex=VertexId(vertex[last]),
+        towards=VertexId(vertex[last + 1]),
+        freed=VertexId(vertex[last_own]) if is_caused else None,
+        tick=Tick(begin[first]),
+        end=Tick(begin[last] + int(waiting[last])),
+        ticks=Tick(sum(int(waiting[visit]) for visit, *_ in waits)),
+        count=len(waits),
+    )
+
+
+def _room_made(
+    robot: int, track: Track, stay: Stays, bookings: Bookings, turning: int
+) -> Iterator[Loss]:
+    """Yield the drives of one robot away from a vertex and back to it, between its stops.
+
+    ``turning`` is the time of turning that only a robot needs which leaves its last vertex again.
+    """
+    vertices, enter = track.vertices.tolist(), track.enter.tolist()
+    end = len(vertices) - 1
+    for first, last in pairwise(sorted({0, *stay.serves, end})):
+        latest = {vertices[visit]: visit for visit in range(first, last + 1)}
+        visit = first
+        while visit < last:
+            back = latest[vertices[visit]]
+            if back > visit:
+                leave, until = enter[visit + 1], enter[back]
+                ticks = int(stay.drive[visit:back].sum())
+                if back == end:
+                    ticks += max(turning, 0)
+                yield Loss(
+                    kind="makes room",
+                    robot=robot,
+                    for_robot=_visitor(bookings, robot, vertices[visit], leave, until),
+                    vertex=VertexId(vertices[visit]),
+                    until_vertex=VertexId(vertices[visit]),
+                    towards=VertexId(vertices[visit + 1]),
+                    freed=None,
+                    tick=Tick(leave),
+                    end=Tick(until),
+                    ticks=Tick(ticks),
+                    count=1,
+                )
+            visit = back + 1
+
+
+def _visitor(bookings: Bookings, robot: int, vertex: int, leave: int, until: int) -> int | None:
+    """Return the first other robot that books a vertex while a robot is away."""
+    first, after = np.searchsorted(bookings.vertex, (vertex, vertex + 1))
+    inside = (
+        (bookings.robot[first:after] != robot)
+        & (bookings.start[first:after] >= leave)
+        & (bookings.start[first:after] < until)
+    )
+    return int(bookings.robot[first:after][inside][0]) if inside.any() else None

@@ -1,0 +1,125 @@
+"""What robots lose to others, and where: the parts of a completion time, and their causes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from rightofway.model.units import Tick, VertexId
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loss:
+    """One cause of lost time: waits of one robot for one other, or a drive to make room.
+
+    Attributes
+    ----------
+    kind
+        ``waits``: the robot stands still with nothing to do. ``follows``: it waits several times
+        behind the same robot, along a run of vertices that both drive in the same direction.
+        ``makes room``: it leaves a vertex and comes back to it without a stop in between.
+    robot
+        The robot that loses time, by index.
+    for_robot
+        The robot that goes first, by index. None where no robot is the cause.
+    vertex
+        Where it waits first; or the vertex that it leaves and comes back to.
+    until_vertex
+        Where it waits last; for a single wait, and for a robot that makes room, equal to
+        ``vertex``.
+    towards
+        The vertex where it goes after the last wait; or the first one that it makes room in.
+    freed
+        The vertex that ``for_robot`` leaves at the very tick from which the robot books it, for the
+        last wait: ``towards``, or a vertex further on the route. None where no robot is the cause.
+    tick, end
+        When the first wait begins and the last one ends; or when the robot leaves the vertex and
+        when it is back [ticks].
+    ticks
+        The time that is lost: all waits; or the drives of making room, without waits [ticks].
+    count
+        How many waits are joined; 1 for a robot that makes room.
+    """
+
+    kind: Literal["waits", "follows", "makes room"]
+    robot: int
+    for_robot: int | None
+    vertex: VertexId
+    until_vertex: VertexId
+    towards: VertexId
+    freed: VertexId | None
+    tick: Tick
+    end: Tick
+    ticks: Tick
+    count: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LostTime:
+    """The parts of one robot's completion time: their sum is that time exactly.
+
+    Attributes
+    ----------
+    robot
+        The robot, by index.
+    alone
+        Its shortest completion time without the others [ticks].
+    detours
+        How much longer its drives are than on its shortest trip, without the drives that make room
+        [ticks]. Below 0 only in a plan that breaks the rules.
+    making_room
+        How long it drives away from vertices and back to them [ticks].
+    waiting
+        How long it stands still with nothing to do [ticks].
+    losses
+        The causes, by tick: those that wait or follow sum up to ``waiting``, the others to
+        ``making_room``.
+    """
+
+    robot: int
+    alone: Tick
+    detours: Tick
+    making_room: Tick
+    waiting: Tick
+    losses: tuple[Loss, ...]
+
+    @property
+    def completion(self) -> Tick:
+        """When the robot has done its work and is at its last vertex [ticks]."""
+        return Tick(self.alone + self.lost)
+
+    @property
+    def lost(self) -> Tick:
+        """How much later that is than without the others [ticks]."""
+        return Tick(self.detours + self.making_room + self.waiting)
+
+    def as_dict(
+        self, robot: Callable[[int], Any] = int, place: Callable[[int], Any] = int
+    ) -> dict[str, Any]:
+        """Return the attributes by name, as plain data.
+
+        Parameters
+        ----------
+        robot
+            What stands for a robot: its index, or for example its name.
+        place
+            What stands for a vertex.
+        """
+        marks = dict.fromkeys(("robot", "for_robot"), robot)
+        marks |= dict.fromkeys(("vertex", "until_vertex", "towards", "freed"), place)
+        return {
+            "robot": robot(self.robot),
+            "completion": self.completion,
+            "alone": self.alone,
+            "detours": self.detours,
+            "making_room": self.making_room,
+            "waiting": self.waiting,
+            "losses": [
+                {
+                    key: marks[key](value) if key in marks and value is not None else value
+                    for key, value in asdict(loss).items()
+                }
+                for loss in self.losses
+            ],
+        }
