@@ -1,8 +1,9 @@
 """The page writes times, lengths and speeds as the commands do."""
 
 import json
-import random
 from fractions import Fraction
+
+import numpy as np
 
 from rightofway.model import Quantities, Units
 from tests.builders.plans import door
@@ -27,13 +28,13 @@ def test_the_page_passes_the_cases_of_the_commands(show: Opener) -> None:
 
 def test_both_write_random_times_alike(show: Opener) -> None:
     """Numbers of ticks that are whole, or in between while the clock runs, at random ticks."""
-    random.seed(1)
+    rng = np.random.default_rng(1)
     viewer = show(door())
     for units in UNITS:
-        tick = Fraction(random.randint(1, 900), random.randint(1, 900))
+        tick = Fraction(*rng.integers(1, 900, 2).tolist())
         ticks = [
-            *(random.randint(0, 10 ** random.randint(1, 8)) for _ in range(40)),
-            *(random.random() * 10 ** random.randint(-8, 6) for _ in range(40)),
+            *rng.integers(0, 10 ** rng.integers(1, 8, 40)).tolist(),
+            *(rng.random(40) * 10.0 ** rng.integers(-8, 6, 40)).tolist(),
         ]
         ours = Quantities(units=units, tick=tick)
         expected = [[ours.duration(n), ours.moment(n), ours.cell(n)] for n in ticks]
