@@ -11,12 +11,12 @@ def test_a_robot_tells_its_times_and_why_it_waits(show: Opener) -> None:
     viewer.page.click("#robot-list .row:has-text('R1')")
     card = viewer.text("#card")
     assert "10 (+1, 11 %)" in card  # alone it takes 9: eight edges and a turning of one
-    assert "waits 1 tick in N0 for R2 to leave N1" in card
+    assert "waits 1 time unit in N0 for R2 to leave N1" in card
 
 
 def test_a_wait_in_the_card_leads_to_its_moment(show: Opener) -> None:
     viewer = show(door(), "#tick=6&robot=R1")
-    viewer.page.click("#card .go:has-text('waits 1 tick')")
+    viewer.page.click("#card .go:has-text('waits 1 time unit')")
     assert viewer.ask("clock.tick") == 0
 
 
@@ -27,8 +27,8 @@ def test_a_decision_leads_to_its_moment_and_tells_its_reason(show: Opener) -> No
     assert viewer.ask("clock.tick") == 1
     assert viewer.ask("choice.decision.robots") == [0, 1]
     card = viewer.text("#card")
-    assert "R1 and R2 would both have been in N1. R1 waits 1 tick in N0" in card
-    assert "They are equal as well" in card
+    assert "R1 and R2 would both have been in N1. R1 waits 1 time unit in N0" in card
+    assert "A tie: " in card
     assert [row.split() for row in card.splitlines()[-2:]] == [
         ["Conflicts", "left", "0", "0"],
         ["Sum", "of", "completion", "times", "19", "19"],
@@ -42,7 +42,7 @@ def test_a_decision_by_priority_needs_no_figures(show: Opener) -> None:
     )
     viewer = show(replace(plan, run=replace(plan.run, decisions=(decision,))))
     viewer.page.click("#tab-decisions")
-    assert "at 1 · 1 tick later · by priority" in viewer.text("#decision-list")
+    assert "at time 1 · 1 time unit later · by priority" in viewer.text("#decision-list")
     viewer.page.click("#decision-list .row")
     assert "R1 waits because R2 has the higher priority." in viewer.text("#card")
     assert viewer.page.locator("#card table").count() == 0

@@ -121,7 +121,7 @@ def test_what_holds_a_robot_up_interrupts_its_work(late: Viewer) -> None:
 def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
     """R2 waits from 0 to 9 instead of 5: the last 4 ticks are not in the plan."""
     late.page.click("#robot-list .row:has-text('R2')")
-    assert "waits 9 ticks in N2 for R1 to leave N1, 4 more than planned" in late.text("#card")
+    assert "waits 9 time units in N2 for R1 to leave N1, 4 more than planned" in late.text("#card")
     late.page.keyboard.press("Escape")
     late.wait_for("!frames.asked")
     orange = [*late.ask("channels(theme.wait)"), 255]

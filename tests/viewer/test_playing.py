@@ -91,9 +91,10 @@ def test_events_are_those_of_the_chosen_robot(show: Opener) -> None:
     assert [*seen, viewer.ask("clock.tick")] == [8, 10, 11, 14, 11]
 
 
-def test_time_is_told_in_units_and_ticks(show: Opener) -> None:
-    viewer = show(loop(), "#tick=7")  # a tick is half a unit
-    assert viewer.text("#readout") == "3.5 of 8 · tick 7 of 16"
+@pytest.mark.parametrize(("tick", "shown"), [(7, "3.5 of 8"), (0.5, "0.25 of 8"), (4, "2 of 8")])
+def test_the_clock_shows_the_very_moment_in_units(show: Opener, tick: float, shown: str) -> None:
+    """A tick is half a unit; a moment within a tick is shown, too."""
+    assert show(loop(), f"#tick={tick}").text("#readout") == shown
 
 
 @pytest.mark.parametrize("plan", [door(), loop(), crowd(40)])

@@ -25,7 +25,7 @@ FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
 
 SCRIPTS = (
-    "observable", "phases", "plan", "floor", "steady", "fleet_memo",
+    "observable", "quantities", "phases", "plan", "floor", "steady", "fleet_memo",
     "motion", "clock", "choice", "use", "words",
     "dom", "theme", "canvas", "shapes",
     "viewport", "bottleneck", "map_base", "map_route", "map_robots", "map_view",

@@ -36,7 +36,7 @@ class Card {
         ...this.#times(robot),
         ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
         ["Waits", waited ? `${words.time(waited)} in all` : "never"],
-        ["Speed", robot.speed],
+        ["Speed", this.plan.quantities.speed(robot.speed)],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],
       ]),
@@ -76,8 +76,8 @@ class Card {
 
   #stage(robot, stage) {
     const dwell = [];
-    if (stage.work) dwell.push(`works ${counted(stage.work, "tick")}`);
-    if (stage.turn && stage.visit + 1 < robot.vertices.length) dwell.push(`turns ${counted(stage.turn, "tick")}`);
+    if (stage.work) dwell.push(`works ${this.words.duration(stage.work)}`);
+    if (stage.turn && stage.visit + 1 < robot.vertices.length) dwell.push(`turns ${this.words.duration(stage.turn)}`);
     const text = [this.words.vertex(stage.vertex), ...dwell].join(", ");
     if (stage.visit < 0) return goTo("never", text, () => {});
     return this.#moment(robot.enter[stage.visit], text);

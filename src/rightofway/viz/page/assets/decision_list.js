@@ -1,13 +1,5 @@
 "use strict";
 
-const REASONS = {
-  node: "fewer conflicts left",
-  robot: "done sooner",
-  settled: "others are settled",
-  priority: "by priority",
-  only: "the only way",
-};
-
 /** All resolved conflicts, and the robots that were sent another way. */
 class DecisionList {
   constructor(plan, clock, choice, words) {
@@ -34,10 +26,10 @@ class DecisionList {
   }
 
   #decision(decision, index) {
-    const when = `at ${this.words.time(decision.tick)}`;
+    const parts = [`at ${this.words.moment(decision.tick)}`, this.words.loss(decision), this.words.why(decision)];
     return {
       head: this.words.decision(decision),
-      detail: `${when} · ${counted(decision.ticks, "tick")} later · ${REASONS[decision.level]}`,
+      detail: parts.join(" · "),
       isChosen: () => this.choice.decisionIndex === index,
       choose: () => {
         this.clock.pause();

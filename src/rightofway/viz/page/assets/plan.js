@@ -139,6 +139,7 @@ function lastAtMost(numbers, limit) {
 class Plan {
   constructor(raw) {
     this.tick = { numerator: raw.tick[0], denominator: raw.tick[1] };
+    this.quantities = new Quantities(raw.units, raw.tick);
     this.end = Math.max(raw.end, raw.floor?.end ?? 0);
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;

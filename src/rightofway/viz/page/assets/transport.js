@@ -2,7 +2,7 @@
 
 /** Play, step, slider, speed, and the moment in figures. */
 class Transport {
-  #told = NaN;
+  #told = "";
 
   constructor(plan, clock, words) {
     Object.assign(this, { plan, clock, words });
@@ -11,6 +11,7 @@ class Transport {
     this.speed = document.getElementById("speed");
     this.readout = document.getElementById("readout");
     this.slider.max = plan.end;
+    this.digits = plan.end / clock.ticksPerUnit < 10 ? 2 : 1;
     const label = (rate) => (rate < 1 ? `1/${1 / rate} ×` : `${rate} ×`);
     this.speed.append(...RATES.map((rate) => element("option", { value: rate }, label(rate))));
     this.speed.title = "Time units in a second";
@@ -18,18 +19,17 @@ class Transport {
     this.#showPlaying();
   }
 
-  /** Write the moment. */
+  /** Write the moment: exactly while time stands still, with as many decimals all the time while it runs. */
   refresh() {
-    const { tick, wholeTick, end } = this.clock;
+    const { tick, playing, end } = this.clock;
     this.slider.value = tick;
     this.slider.style.setProperty("--over", `${(100 * tick) / end}%`);
-    if (wholeTick === this.#told) return;
-    this.#told = wholeTick;
-    const now = this.words.time(wholeTick);
-    const isUnit = this.plan.tick.numerator === this.plan.tick.denominator;
-    const ticks = isUnit ? "" : ` · tick ${wholeTick} of ${end}`;
-    this.readout.replaceChildren(element("b", {}, now), ` of ${this.words.time(end)}${ticks}`);
-    this.slider.setAttribute("aria-valuetext", `${now} of ${this.words.time(end)}, tick ${wholeTick}`);
+    const now = playing ? this.plan.quantities.running(tick, this.digits) : this.words.time(tick);
+    if (now === this.#told) return;
+    this.#told = now;
+    const all = this.words.time(end);
+    this.readout.replaceChildren(element("b", {}, now), ` of ${all}`);
+    if (!playing) this.slider.setAttribute("aria-valuetext", `${now} of ${all}`);
   }
 
   #listen() {

@@ -1,21 +1,22 @@
 "use strict";
 
-/** "1 tick", "2 ticks". */
-function counted(number, thing) {
-  return `${number} ${thing}${number === 1 ? "" : "s"}`;
-}
-
 const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
-
-/** A number with its thousands apart, from five digits on. */
-function grouped(number) {
-  return number < 10000 ? String(number) : String(number).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
-}
 
 /** "R1, R2 and R3"; the first few of many. */
 function several(names) {
   if (names.length > 4) return `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
   return names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
+}
+
+/** Whether both choices of a decision cost the same. */
+function isTie({ level, completionSums }) {
+  return level === "robot" && completionSums !== null && completionSums[0] === completionSums[1];
+}
+
+const EQUAL_CONFLICTS = "either choice leaves as many conflicts in the whole system";
+
+function upperFirst(text) {
+  return text[0].toUpperCase() + text.slice(1);
 }
 
 /** Durations as people write them, names, and sentences made of them. */
@@ -32,16 +33,19 @@ class Words {
     return this.plan.roadmap.name(vertex);
   }
 
-  /** Ticks in the scenario's time unit, exactly: 3.5, or 2 1/3. */
+  /** A time where there is little room: "6 min 23 s"; a bare number where no unit is known. */
   time(ticks) {
-    const { numerator, denominator } = this.plan.tick;
-    const top = ticks * numerator;
-    const decimal = top / denominator;
-    const rounded = Math.round(decimal * 1000) / 1000;
-    if (rounded * denominator === top || denominator > 12) return grouped(rounded);
-    const whole = Math.floor(decimal);
-    const part = `${top - whole * denominator}/${denominator}`;
-    return whole ? `${whole} ${part}` : part;
+    return this.plan.quantities.short(ticks);
+  }
+
+  /** How long something lasts, in a sentence: "6 min 23 s", "2 time units". */
+  duration(ticks) {
+    return this.plan.quantities.duration(ticks);
+  }
+
+  /** A point in time, in a sentence: "6 min 23 s", "time 2". */
+  moment(ticks) {
+    return this.plan.quantities.moment(ticks);
   }
 
   /** A share in per cent, with as many places as help. */
@@ -63,7 +67,7 @@ class Words {
   }
 
   #wait(wait) {
-    const what = `waits ${counted(wait.ticks, "tick")} in ${this.vertex(wait.vertex)}`;
+    const what = `waits ${this.duration(wait.ticks)} in ${this.vertex(wait.vertex)}`;
     const next = this.vertex(wait.towards);
     if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
     return `${what} for ${this.robot(wait.forRobot)} to leave ${next}`;
@@ -111,13 +115,30 @@ class Words {
     }
   }
 
+  /** What the robot that waits loses by a decision, in few words. */
+  loss(decision) {
+    return decision.ticks ? `${this.duration(decision.ticks)} later` : "no time lost";
+  }
+
+  /** Why a decision was taken, in few words. */
+  why(decision) {
+    if (isTie(decision)) return "a tie: either choice costs the same";
+    return {
+      node: "fewer conflicts left",
+      robot: "both done sooner in all",
+      settled: "the other one is settled",
+      priority: "by priority",
+      only: "the only way",
+    }[decision.level];
+  }
+
   /** The same in whole sentences. */
   decisionAtLength(decision) {
     const [i, j] = decision.robots.map((robot) => this.robot(robot));
     const meeting = this.#meeting(decision, i, j);
     const waits = this.robot(decision.waits);
     const how = decision.ticks
-      ? `waits ${counted(decision.ticks, "tick")} in ${this.vertex(decision.waitsAt)}`
+      ? `waits ${this.duration(decision.ticks)} in ${this.vertex(decision.waitsAt)}`
       : `gives way in ${this.vertex(decision.waitsAt)}, at no loss`;
     return `${meeting} ${waits} ${how} and lets ${this.robot(this.first(decision))} go first.`;
   }
@@ -140,14 +161,11 @@ class Words {
       case "settled": return `${first} cannot wait: it would then meet robots that are settled already.`;
       case "priority": return `${waits} waits because ${first} has the higher priority.`;
       case "only": return `${first} cannot wait: that was impossible.`;
-      default: return this.#robotLevel(decision.completionSums ?? [null, null]);
+      default:
+        return isTie(decision)
+          ? `A tie: ${EQUAL_CONFLICTS}, and the completion times add up to the same. Then the first of the two waits.`
+          : `${upperFirst(EQUAL_CONFLICTS)}, so the smaller sum of completion times decides.`;
     }
-  }
-
-  #robotLevel([one, two]) {
-    const open = "Either way as many conflicts are left in the whole system, so the completion times decide.";
-    if (one === null || one !== two) return open;
-    return `${open} They are equal as well; then the first of the two waits.`;
   }
 
   /** What both choices lead to: a label, and a figure for each robot if it is the one that waits. */
