@@ -88,16 +88,22 @@ def payload_of(
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
     plane = plane_of(roadmap)
-    size = {"width": round(plane.width, DECIMALS), "height": round(plane.height, DECIMALS)}
+    drawn = {
+        "width": round(plane.width, DECIMALS),
+        "height": round(plane.height, DECIMALS),
+        "unit": plane.unit,
+        "origin": list(plane.origin),
+    }
     if roadmap.grid is not None:
-        return {**size, "rows": roadmap.grid.lines()}
+        return {**drawn, "rows": roadmap.grid.lines()}
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     return {
-        **size,
+        **drawn,
         "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
         "points": np.round(plane.points, DECIMALS).ravel().tolist(),
         "tails": _differences(tails.tolist()),
         "heads": _differences(roadmap.heads.tolist()),
+        "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
     }
 
 
