@@ -1,6 +1,7 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
@@ -10,7 +11,6 @@ from rightofway.model.roadmap import (
     Roadmap,
     roadmap_of_edges,
     roadmap_of_grid,
-    straight_length,
 )
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
 from rightofway.model.route import (
@@ -41,6 +41,7 @@ __all__ = [
     "Edge",
     "ExecutionTrace",
     "Floor",
+    "Frame",
     "Grid",
     "Itinerary",
     "Lap",
@@ -48,6 +49,7 @@ __all__ = [
     "Occupancy",
     "Plan",
     "PlannerRun",
+    "Point",
     "Problem",
     "Quantities",
     "Reroute",
@@ -80,10 +82,12 @@ __all__ = [
     "node_length",
     "roadmap_of_edges",
     "roadmap_of_grid",
+    "rounding_step",
     "route_along",
     "route_of",
     "route_through",
     "serving_visits",
+    "squared_distance",
     "stays_of",
     "steps_per_unit",
     "straight_length",

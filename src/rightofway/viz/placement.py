@@ -25,6 +25,8 @@ class Plane:
     points: NDArray[np.float64]  # of each vertex, x right and y down [units]; shape (V, 2)
     width: float
     height: float
+    unit: float  # [length unit]
+    corner: tuple[float, float]  # of the roadmap's plane, drawn at (0, 0) [length unit]
 
 
 def plane_of(roadmap: Roadmap) -> Plane:
@@ -33,14 +35,27 @@ def plane_of(roadmap: Roadmap) -> Plane:
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
         points = np.column_stack((columns, rows)).astype(np.float64)
-        return Plane(points=points, width=grid.columns, height=grid.rows)
+        return Plane(
+            points=points,
+            width=grid.columns,
+            height=grid.rows,
+            unit=float(grid.cell_size),
+            corner=(0.0, 0.0),
+        )
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     drawn = np.hypot(*(roadmap.positions[roadmap.heads] - roadmap.positions[tails]).T)
     drawn = drawn[drawn > 0]
     unit = float(np.quantile(drawn, SHORT)) if len(drawn) else 1.0
-    points = (roadmap.positions - roadmap.positions.min(axis=0)) / unit
+    left, top = roadmap.positions.min(axis=0)
+    points = (roadmap.positions - (left, top)) / unit
     width, height = points.max(axis=0) + 1
-    return Plane(points=points, width=float(width), height=float(height))
+    return Plane(
+        points=points,
+        width=float(width),
+        height=float(height),
+        unit=unit,
+        corner=(float(left), float(top)),
+    )
 
 
 def vertices_in_line(routes: Sequence[Sequence[int]]) -> list[int]:
