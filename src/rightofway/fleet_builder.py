@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.model import (
     Edge,
+    Point,
     Roadmap,
     Robot,
     Rules,
     Scenario,
     Stop,
     TripEnd,
+    Units,
     VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
+    rounding_step,
     straight_length,
 )
 from rightofway.model.places import Place, as_place, vertex_at
@@ -45,6 +48,13 @@ class FleetBuilder:
         A `networkx` graph, directed or not; see Notes.
     cell_size
         Side of a cell of a grid or a map file [length unit].
+    y
+        Which way y grows: ``down`` or ``up``.
+    origin
+        (x, y) of the lower left corner of a grid or a map file on the site [length unit]; (0, 0) is
+        the corner that has the least x and y by default.
+    units
+        What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
         ``ends``, ``laps``, ``rotations``.
@@ -52,7 +62,7 @@ class FleetBuilder:
     Raises
     ------
     InputError
-        For a map that cannot be read, more than one map, or a rule that is not known.
+        For a map that cannot be read, more than one map, or a rule or unit that is not known.
 
     Notes
     -----
@@ -62,7 +72,7 @@ class FleetBuilder:
     The nodes of a graph are named by their text, ``str(node)``, and a robot's place may be the node
     itself. A node's position is its ``pos`` attribute, or ``x`` and ``y``, or the node, if it is a
     pair of numbers. An edge's length is its ``length``, else its ``weight``, else the straight
-    distance between the positions of its ends, else 1.
+    distance between the positions of its ends, rounded up to 1/1000, else 1.
 
     Examples
     --------
@@ -79,24 +89,35 @@ class FleetBuilder:
         map_file: Path | str | None = None,
         graph: Any = None,
         cell_size: Number = 1,
+        y: Literal["down", "up"] = "down",
+        origin: tuple[Number, Number] | None = None,
+        units: Units | Mapping[str, Any] | None = None,
         **rules: Any,
     ) -> None:
         given = {"grid": grid, "map_file": map_file, "graph": graph}
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
-        self._positions: dict[str, tuple[Fraction, Fraction]] = {}
-        self._edges: list[Edge] = []
+        if y not in {"down", "up"}:
+            raise InputError.at("y", f"{shown(y)} is unknown (give down or up)")
+        if origin is not None and not (grid or map_file):
+            raise InputError.at("origin", "is for a grid or a map file (take it out)")
+        self._positions: dict[str, Point] = {}
+        self._edges: list[tuple[str, str, Fraction | None]] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
         self._rules = _rules(rules)
+        self._units = _units(units)
+        self._y_up = y == "up"
+        corner = None if origin is None else _point("origin", *_pair("origin", origin))
+        frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
-            self._roadmap = _within("grid", roadmap_of_grid, rows, cell_size=cell_size)
+            self._roadmap = _within("grid", roadmap_of_grid, rows, **frame)
         elif map_file is not None:
             from rightofway.io import load_map
 
-            self._roadmap = roadmap_of_grid(load_map(Path(map_file)), cell_size=cell_size)
+            self._roadmap = roadmap_of_grid(load_map(Path(map_file)), **frame)
         elif graph is not None:
             self._add_graph(graph)
 
@@ -108,7 +129,7 @@ class FleetBuilder:
         name
             A name of its own.
         x, y
-            Where it lies, x to the right and y down [length unit].
+            Where it lies on the site [length unit].
 
         Raises
         ------
@@ -122,11 +143,7 @@ class FleetBuilder:
             raise InputError.at(place, "is no name (give text)")
         if name in self._positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
-        try:
-            at = tuple(exact(value, digits=COORDINATE_DIGITS) for value in (x, y))
-        except ValueError as error:
-            raise InputError.at(place, str(error)) from None
-        self._positions[name] = (at[0], at[1])
+        self._positions[name] = _point(place, x, y)
         return self
 
     def add_edge(
@@ -139,16 +156,17 @@ class FleetBuilder:
         tail, head
             Names of the vertices that it leaves and enters.
         length
-            Its length [length unit]; the straight distance of the two vertices where that is a
-            fraction.
+            Its length [length unit]; by default the straight distance of the two vertices. Where
+            that is no fraction, it is rounded up to 1/1000, on a map with distances below 1 to
+            1/1000000.
         both_ways
             Whether it is driven from head to tail, too.
 
         Raises
         ------
         InputError
-            For a vertex that is not there, a length that is not positive, or no length where the
-            straight distance is no fraction.
+            For a vertex that is not there, a length that is not positive, or no length where both
+            vertices are at one position.
         """
         place = f"edge {shown(tail)} to {shown(head)}"
         self._refuse_fixed_map(place)
@@ -157,14 +175,12 @@ class FleetBuilder:
                 near = nearest(name, self._positions)
                 hint = f"did you mean {near!r}?" if near else "add it first"
                 raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
-        ends = (self._positions[tail], self._positions[head])
-        if length is None:
-            exactly = _within(place, straight_length, *ends)
-        else:
-            exactly = exact_length(length, f"{place}: length")
-        self._edges.append(Edge(tail=tail, head=head, length=exactly))
+        given = None if length is None else exact_length(length, f"{place}: length")
+        if given is None:
+            _within(place, straight_length, self._positions[tail], self._positions[head])
+        self._edges.append((tail, head, given))
         if both_ways:
-            self._edges.append(Edge(tail=head, head=tail, length=exactly))
+            self._edges.append((head, tail, given))
         return self
 
     def add_robot(
@@ -187,8 +203,8 @@ class FleetBuilder:
         name
             A name of its own.
         home
-            The place that it starts from: ``"N8"`` or (row, column) on a grid, else the name of a
-            vertex.
+            The place that it starts from: ``"N8"`` or (row, column) on a grid, the name of a
+            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit].
         target, work
             The place to work at, and how long [time unit]; short for one stop.
         stops
@@ -237,7 +253,12 @@ class FleetBuilder:
         InputError
             With every fault, as `Scenario`; or where there is no map.
         """
-        return Scenario(roadmap=self.roadmap(), robots=tuple(self._robots), rules=self._rules)
+        return Scenario(
+            roadmap=self.roadmap(),
+            robots=tuple(self._robots),
+            rules=self._rules,
+            units=self._units,
+        )
 
     def roadmap(self) -> Roadmap:
         """Return the map; vertices and edges can no longer be added.
@@ -251,8 +272,19 @@ class FleetBuilder:
             if not self._positions:
                 remedy = "give grid, map_file or graph, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
-            positions = {name: (float(x), float(y)) for name, (x, y) in self._positions.items()}
-            self._roadmap = roadmap_of_edges(positions, self._edges)
+            at = self._positions
+            ends = [(at[tail], at[head]) for tail, head, given in self._edges if given is None]
+            step = rounding_step(ends)
+            edges = [
+                Edge(
+                    tail=tail,
+                    head=head,
+                    length=given or straight_length(at[tail], at[head], step),
+                )
+                for tail, head, given in self._edges
+            ]
+            drawn = {name: (float(x), float(y)) for name, (x, y) in at.items()}
+            self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up)
         return self._roadmap
 
     def _vertex(self, key: str, place: Any) -> VertexId:
@@ -293,6 +325,28 @@ def _rules(given: dict[str, Any]) -> Rules:
         if name not in known:
             raise InputError.at(name, f"is unknown to FleetBuilder (rules are {', '.join(known)})")
     return Rules(**given)
+
+
+def _units(given: Units | Mapping[str, Any] | None) -> Units:
+    if given is None or isinstance(given, Units):
+        return given or Units()
+    if not (isinstance(given, Mapping) and given.keys() <= {"length", "time"}):
+        remedy = 'give {"length": "m", "time": "s"}'
+        raise InputError.at("units", f"{shown(given)} are no units ({remedy})")
+    return Units(**given)
+
+
+def _pair(place: str, given: Any) -> tuple[Any, Any]:
+    if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
+        raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
+    return given[0], given[1]
+
+
+def _point(place: str, x: Number, y: Number) -> Point:
+    try:
+        return exact(x, digits=COORDINATE_DIGITS), exact(y, digits=COORDINATE_DIGITS)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
 
 
 def _place_and_work(stop: Any) -> tuple[Any, Number]:

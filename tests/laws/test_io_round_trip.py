@@ -48,13 +48,19 @@ times = st.fractions(0, 60, max_denominator=60)
 turns = st.one_of(st.none(), times)
 
 
+coordinates = st.fractions(-(10**6), 10**6, max_denominator=10**6)
+
+
 @st.composite
 def grids(draw: st.DrawFn) -> Roadmap:
     rows, columns = draw(st.integers(1, 5)), draw(st.integers(2, 5))
     cells = draw(st.lists(st.sampled_from("..@"), min_size=rows * columns, max_size=rows * columns))
     cells[:2] = ".."
     lines = ["".join(cells[row * columns : (row + 1) * columns]) for row in range(rows)]
-    return roadmap_of_grid(lines, cell_size=draw(lengths))
+    corners = st.none() | st.tuples(coordinates, coordinates)
+    return roadmap_of_grid(
+        lines, cell_size=draw(lengths), y_up=draw(st.booleans()), origin=draw(corners)
+    )
 
 
 @st.composite
@@ -63,9 +69,8 @@ def drawn_roadmaps(draw: st.DrawFn) -> Roadmap:
     positions = draw(st.dictionaries(names, st.tuples(places, places), min_size=2, max_size=5))
     pairs = st.tuples(st.sampled_from(list(positions)), st.sampled_from(list(positions)))
     ends = draw(st.lists(pairs.filter(lambda pair: pair[0] != pair[1]), unique=True, max_size=8))
-    return roadmap_of_edges(
-        positions, [Edge(tail=tail, head=head, length=draw(lengths)) for tail, head in ends]
-    )
+    edges = [Edge(tail=tail, head=head, length=draw(lengths)) for tail, head in ends]
+    return roadmap_of_edges(positions, edges, y_up=draw(st.booleans()))
 
 
 @st.composite

@@ -2,6 +2,8 @@
 
 from fractions import Fraction
 
+import pytest
+
 from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz.placement import (
     MAX_ROBOTS,
@@ -24,6 +26,15 @@ def test_a_short_edge_is_a_unit_of_a_roadmap() -> None:
     plane = plane_of(loop().scenario.roadmap)
     assert plane.points.tolist() == [[0.5, 0], [1.5, 0], [1.5, 1], [0, 1]]
     assert (plane.width, plane.height) == (2.5, 2)
+
+
+def test_a_drawing_knows_its_unit_and_its_corner() -> None:
+    cells = plane_of(roadmap_of_grid(DOOR, cell_size=Fraction(1, 2)))
+    assert (cells.unit, cells.corner) == (0.5, (0, 0))
+    edge = Edge(tail="a", head="b", length=Fraction(9))  # drawn 2 across and 3 down
+    drawn = plane_of(roadmap_of_edges({"a": (3, 1), "b": (5, 4)}, [edge]))
+    assert drawn.unit == pytest.approx(13**0.5)
+    assert drawn.corner == (3, 1)
 
 
 def test_a_roadmap_without_an_edge_is_drawn_as_it_is() -> None:

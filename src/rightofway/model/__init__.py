@@ -1,6 +1,7 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
@@ -11,7 +12,6 @@ from rightofway.model.roadmap import (
     Roadmap,
     roadmap_of_edges,
     roadmap_of_grid,
-    straight_length,
 )
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
 from rightofway.model.route import (
@@ -42,6 +42,7 @@ __all__ = [
     "Edge",
     "ExecutionTrace",
     "Floor",
+    "Frame",
     "Grid",
     "Itinerary",
     "Lap",
@@ -51,6 +52,7 @@ __all__ = [
     "Occupancy",
     "Plan",
     "PlannerRun",
+    "Point",
     "Problem",
     "Quantities",
     "Reroute",
@@ -83,10 +85,12 @@ __all__ = [
     "node_length",
     "roadmap_of_edges",
     "roadmap_of_grid",
+    "rounding_step",
     "route_along",
     "route_of",
     "route_through",
     "serving_visits",
+    "squared_distance",
     "stays_of",
     "steps_per_unit",
     "straight_length",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -12,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
+from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
-from rightofway.model.values import DIGITS, Number, coerced, length, number
+from rightofway.model.values import Number, coerced, length, number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -72,11 +72,13 @@ class Roadmap:
     lengths
         The distinct edge lengths [length unit].
     positions
-        Where to draw each vertex, x to the right and y down; float64, shape (V, 2).
+        Where to draw each vertex, x to the right and y down [length unit]; float64, shape (V, 2).
     labels
         Names of the vertices, or None on a grid, where they are ``N<row-major number>``.
     grid
         The grid this roadmap was cut from, if any.
+    frame
+        Where the plane of the positions lies in the site's frame.
     """
 
     indptr: NDArray[np.int32]
@@ -86,6 +88,7 @@ class Roadmap:
     positions: NDArray[np.float64]
     labels: tuple[str, ...] | None = None
     grid: Grid | None = None
+    frame: Frame = field(default_factory=Frame)
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -100,6 +103,7 @@ class Roadmap:
         return (
             self.lengths == other.lengths
             and self.labels == other.labels
+            and self.frame == other.frame
             and _same_grid(self.grid, other.grid)
             and np.array_equal(self.indptr, other.indptr)
             and np.array_equal(self.heads, other.heads)
@@ -152,6 +156,15 @@ class Roadmap:
             raise KeyError(name)
         return VertexId(vertex)
 
+    def point(self, vertex: int) -> Point:
+        """Return where a vertex lies in the site's frame; on a grid, the centre of its cell."""
+        if self.grid is not None:
+            row, column = self.grid.cell(vertex)
+            size = self.grid.cell_size
+            return self.frame.to_site((column * size, row * size))
+        x, y = self.positions[vertex].tolist()
+        return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
+
     def without(self, closed: Collection[int]) -> Roadmap:
         """Return the same vertices without the edges from and to those that are closed."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
@@ -193,7 +206,13 @@ def _same_grid(one: Grid | None, other: Grid | None) -> bool:
     ) and np.array_equal(one.cells, other.cells)
 
 
-def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
+def roadmap_of_grid(
+    lines: Sequence[str],
+    *,
+    cell_size: Number = 1,
+    y_up: bool = False,
+    origin: Point | None = None,
+) -> Roadmap:
     """Make the roadmap of a grid: a vertex for each free cell, edges to the four next to it.
 
     Parameters
@@ -202,6 +221,11 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
         The rows, all of one length. ``.``, ``G`` and ``S`` are free, everything else is blocked.
     cell_size
         Side of a cell, and so the length of every edge [length unit].
+    y_up
+        Whether y grows upwards in the site's frame; the first row is the upper one all the same.
+    origin
+        The lower left corner of the grid in the site's frame [length unit]. By default (0, 0) is
+        the corner of the grid that has the least x and y.
 
     Raises
     ------
@@ -228,7 +252,15 @@ def roadmap_of_grid(lines: Sequence[str], *, cell_size: Number = 1) -> Roadmap:
         lengths=(size,),
         positions=np.column_stack((x, y)).astype(np.float64) * float(size),
         grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
+        frame=_frame_of_grid(rows * size, size, y_up=y_up, origin=origin),
     )
+
+
+def _frame_of_grid(height: Fraction, size: Fraction, *, y_up: bool, origin: Point | None) -> Frame:
+    """Return the frame of a grid: the point (0, 0) of its plane is the centre of its first cell."""
+    left, bottom = origin or (Fraction(0), Fraction(0) if y_up else height)
+    top = bottom + height - size / 2 if y_up else bottom - height + size / 2
+    return Frame(x=left + size / 2, y=top, y_up=y_up)
 
 
 def _check_lines(lines: Sequence[str]) -> None:
@@ -276,16 +308,19 @@ class Edge:
 
 
 def roadmap_of_edges(
-    positions: Mapping[str, tuple[float, float]], edges: Sequence[Edge]
+    positions: Mapping[str, tuple[float, float]], edges: Sequence[Edge], *, y_up: bool = False
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
     Parameters
     ----------
     positions
-        Name and (x, y) of every vertex [length unit], y downwards; the order gives the vertex ids.
+        Name and (x, y) of every vertex in the site's frame [length unit]; the order gives the
+        vertex ids.
     edges
         Directed edges; their order decides between equally short paths.
+    y_up
+        Whether y grows upwards in the site's frame.
 
     Raises
     ------
@@ -298,13 +333,15 @@ def roadmap_of_edges(
     class_of = {length: index for index, length in enumerate(lengths)}
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
+    down = (1.0, -1.0 if y_up else 1.0)
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
         length_class=np.array([class_of[edge.length] for edge in ordered], np.int32),
         lengths=lengths,
-        positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2),
+        positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
+        frame=Frame(y_up=y_up),
     )
 
 
@@ -330,33 +367,3 @@ def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) 
     if (edge.tail, edge.head) in seen:
         return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
     return None
-
-
-def straight_length(tail: tuple[Fraction, Fraction], head: tuple[Fraction, Fraction]) -> Fraction:
-    """Return the straight distance between two positions, if it is a fraction.
-
-    Parameters
-    ----------
-    tail, head
-        Positions (x, y) [length units].
-
-    Raises
-    ------
-    InputError
-        If it is none, or one of too many digits.
-
-    Examples
-    --------
-    >>> zero, three, four = Fraction(0), Fraction(3, 10), Fraction(4, 10)
-    >>> straight_length((zero, zero), (three, four))
-    Fraction(1, 2)
-    """
-    square = (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
-    found = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if square == 0:
-        raise InputError.at("", "has no length, its ends are at one position (give a length)")
-    if found**2 != square or max(found.numerator, found.denominator) > 10**DIGITS:
-        about = f"about {math.sqrt(square):.4g}"
-        message = f"the straight distance, {about}, is no fraction that can be kept (give a length)"
-        raise InputError.at("", message)
-    return found

@@ -26,7 +26,7 @@ class Plane:
     width: float
     height: float
     unit: float  # [length unit]
-    origin: tuple[float, float]  # the drawing's (0, 0) among the roadmap's positions [length unit]
+    corner: tuple[float, float]  # of the roadmap's plane, drawn at (0, 0) [length unit]
 
 
 def plane_of(roadmap: Roadmap) -> Plane:
@@ -35,18 +35,27 @@ def plane_of(roadmap: Roadmap) -> Plane:
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
         points = np.column_stack((columns, rows)).astype(np.float64)
-        unit = float(grid.cell_size)
         return Plane(
-            points=points, width=grid.columns, height=grid.rows, unit=unit, origin=(0.0, 0.0)
+            points=points,
+            width=grid.columns,
+            height=grid.rows,
+            unit=float(grid.cell_size),
+            corner=(0.0, 0.0),
         )
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     drawn = np.hypot(*(roadmap.positions[roadmap.heads] - roadmap.positions[tails]).T)
     drawn = drawn[drawn > 0]
     unit = float(np.quantile(drawn, SHORT)) if len(drawn) else 1.0
-    left, top = roadmap.positions.min(axis=0).tolist()
+    left, top = roadmap.positions.min(axis=0)
     points = (roadmap.positions - (left, top)) / unit
-    width, height = (points.max(axis=0) + 1).tolist()
-    return Plane(points=points, width=width, height=height, unit=unit, origin=(left, top))
+    width, height = points.max(axis=0) + 1
+    return Plane(
+        points=points,
+        width=float(width),
+        height=float(height),
+        unit=unit,
+        corner=(float(left), float(top)),
+    )
 
 
 def vertices_in_line(routes: Sequence[Sequence[int]]) -> list[int]:

@@ -16,12 +16,16 @@ from rightofway.model import (
     Floor,
     Grid,
     Obstacle,
+    Point,
     Roadmap,
     VertexId,
     cluster,
+    decimal,
     node_length,
     roadmap_of_edges,
     roadmap_of_grid,
+    rounding_step,
+    squared_distance,
     straight_length,
 )
 from rightofway.model.clustering import MAX_CELLS
@@ -35,8 +39,6 @@ if TYPE_CHECKING:
         RoadmapDocument,
     )
 
-Point = tuple[Fraction, Fraction]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedMap:
@@ -46,6 +48,7 @@ class LoadedMap:
     lines: tuple[str, ...] = ()  # of a grid, as they were written
     floor: Floor | None = None  # that the grid was cut from
     file: Path | None = None  # that the grid was read from
+    rounding: str | None = None  # how many lengths are rounded up, and to which step
 
     def find(self, place: Place) -> VertexId:
         """Return the vertex at a place, or raise an InputError that says what is there."""
@@ -82,18 +85,19 @@ def map_of(
     """
     if document.roadmap is not None:
         with under("roadmap"):
-            return LoadedMap(roadmap=_drawn(document.roadmap))
+            return _drawn(document.roadmap, y_up=document.y_up)
     if document.floor is not None:
         return _clustered(document, speeds)
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
+    frame = {"y_up": document.y_up, "origin": document.origin}
     if document.file is not None:
         with under("file"):
             file = file_beside(base, document.file)
             lines = load_map(file)
-            roadmap = roadmap_of_grid(lines, cell_size=cell_size)
+            roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
             return LoadedMap(roadmap=roadmap, lines=lines, file=file)
     with under("grid"):
-        roadmap = roadmap_of_grid(document.grid, cell_size=cell_size)
+        roadmap = roadmap_of_grid(document.grid, cell_size=cell_size, **frame)
         return LoadedMap(roadmap=roadmap, lines=tuple(document.grid))
 
 
@@ -106,37 +110,57 @@ def file_beside(base: Path | None, name: str) -> Path:
 
 
 def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> LoadedMap | None:
+    """Cut a floor into cells, from its upper left corner on; where y grows upwards, the lower one.
+
+    What is left at the other borders is not used.
+    """
     with under("floor"):
-        floor = _floor(document.floor)
+        floor = _floor(document.floor, document)
     cell_size = document.cell_size
     if not isinstance(cell_size, Fraction):
         if not speeds:
             return None
         cell_size = node_length(speeds)
     lines = cluster(floor, cell_size, max_cells=document.floor.max_cells or MAX_CELLS)
+    origin = document.origin
+    if document.y_up:
+        lines = lines[::-1]
+    elif origin:
+        origin = (origin[0], origin[1] - floor.height + len(lines) * cell_size)
     with under("floor"):
-        roadmap = roadmap_of_grid(lines, cell_size=cell_size)
+        roadmap = roadmap_of_grid(lines, cell_size=cell_size, y_up=document.y_up, origin=origin)
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
-def _floor(document: FloorDocument) -> Floor:
+def _floor(document: FloorDocument, on: MapDocument) -> Floor:
+    """Return a floor, its obstacles relative to the corner that has the least x and y."""
     width, height = document.size
+    left, low = on.origin or (Fraction(0), Fraction(0))
+    if on.origin and not on.y_up:
+        low -= height
     return Floor(
         width=width,
         height=height,
         obstacles=tuple(
-            Obstacle(name=obstacle.name, x=x, y=y, width=width, height=height)
+            Obstacle(name=obstacle.name, x=x - left, y=y - low, width=width, height=height)
             for obstacle in document.obstacles
             for x, y, width, height in [obstacle.rect]
         ),
     )
 
 
-def _drawn(document: RoadmapDocument) -> Roadmap:
+def _drawn(document: RoadmapDocument, *, y_up: bool) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
+    positions = document.vertices
+    straight = [
+        (positions[edge.tail], positions[edge.head])
+        for edge in document.edges
+        if edge.length is None and {edge.tail, edge.head} <= positions.keys()
+    ]
+    step = rounding_step(straight)
     for index, edge in enumerate(document.edges):
-        length = faults.attempt(f"edges[{index}]", _length, edge, document.vertices)
+        length = faults.attempt(f"edges[{index}]", _length, edge, positions, step)
         if length is None:
             continue
         there, back = (edge.tail, edge.head), (edge.head, edge.tail)
@@ -148,11 +172,15 @@ def _drawn(document: RoadmapDocument) -> Roadmap:
                 break
             edges.append(Edge(tail=tail, head=head, length=length))
     faults.stop()
-    positions = {name: (float(x), float(y)) for name, (x, y) in document.vertices.items()}
-    return roadmap_of_edges(positions, edges)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
+    rounded = sum(straight_length(*pair, step) ** 2 != squared_distance(*pair) for pair in straight)
+    note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
+    return LoadedMap(
+        roadmap=roadmap_of_edges(drawn, edges, y_up=y_up), rounding=note if rounded else None
+    )
 
 
-def _length(edge: EdgeDocument, positions: Mapping[str, Point]) -> Fraction:
+def _length(edge: EdgeDocument, positions: Mapping[str, Point], step: Fraction) -> Fraction:
     """Return the length of an edge after checking its ends."""
     faults = Faults()
     for place, name in (("from", edge.tail), ("to", edge.head)):
@@ -163,4 +191,4 @@ def _length(edge: EdgeDocument, positions: Mapping[str, Point]) -> Fraction:
     if edge.tail == edge.head:
         faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
     faults.stop()
-    return edge.length or straight_length(positions[edge.tail], positions[edge.head])
+    return edge.length or straight_length(positions[edge.tail], positions[edge.head], step)

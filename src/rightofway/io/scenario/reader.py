@@ -340,6 +340,9 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if loaded.floor and grid:
         cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
         yield f"floor cut into {cells} cells of {grid.cell_size}"
+    if loaded.rounding:
+        unit = scenario.units.length
+        yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
     if not scenario.problem.clock.exact:
         yield (
             f"durations are rounded up to 1/{MAX_TICKS_OF_SHORTEST} of the shortest;"

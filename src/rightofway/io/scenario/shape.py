@@ -36,6 +36,8 @@ RETURN = "home, or none"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
 
+YAxis = Literal["down", "up"]
+
 MAX_CELLS_ALLOWED = 10_000_000
 """The limit on cells of a floor can be raised to this."""
 
@@ -44,7 +46,9 @@ class ObstacleDocument(Document):
     """A rectangle of a floor that robots cannot enter."""
 
     name: Words = Field(default="", description="what it is, for messages")
-    rect: Rectangle = Field(description="[x, y, width, height], x right, y down [length unit]")
+    rect: Rectangle = Field(
+        description="[x, y, width, height]; x and y are the least that it covers [length unit]"
+    )
 
 
 class FloorDocument(Document):
@@ -63,7 +67,7 @@ class EdgeDocument(Document):
     tail: Name = Field(alias="from", description="the name of the vertex it begins at")
     head: Name = Field(alias="to", description="the name of the vertex it leads to")
     length: Positive = optional(
-        "its length [length unit]; the straight distance where that is a fraction"
+        "its length [length unit]; by default the straight distance, rounded up to 1/1000"
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
 
@@ -95,7 +99,7 @@ class RoadmapDocument(Document):
     """Named vertices and the ways between them."""
 
     vertices: dict[Name, Position] = Field(
-        description="for each vertex its name and [x, y], x right, y down [length unit]"
+        description="for each vertex its name and [x, y] [length unit]"
     )
     edges: list[EdgeDocument] = Field(
         description="a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
@@ -111,7 +115,9 @@ class MapDocument(Document):
     model_config = ConfigDict(
         json_schema_extra=described(
             oneOf=[{"required": [kind]} for kind in MAPS],
-            dependentSchemas={"cell_size": {"not": {"required": ["roadmap"]}}},
+            dependentSchemas={
+                key: {"not": {"required": ["roadmap"]}} for key in ("cell_size", "origin")
+            },
         )
     )
 
@@ -122,15 +128,27 @@ class MapDocument(Document):
     cell_size: CellSize = optional(
         "side of a cell [length unit]: 1 by default; on a floor clustered by default"
     )
+    y: YAxis = Field(default="down", description="down, or up: which way y grows")
+    origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
         kind = exactly_one_of(self, MAPS)
         if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
+        if kind == "roadmap" and self.origin is not None:
+            raise ValueError(
+                "origin is given with a roadmap, whose vertices have coordinates of the site"
+                " (take it out)"
+            )
         if kind != "floor" and self.cell_size == "clustered":
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
         return self
+
+    @property
+    def y_up(self) -> bool:
+        """Whether y grows upwards."""
+        return self.y == "up"
 
 
 class StopDocument(Document):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +27,10 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     Reading the document gives an equal scenario, where robots and vertices have printable names,
     numbers have at most 18 digits, and a roadmap without a grid has labels.
     """
-    roadmap, grid = scenario.roadmap, scenario.roadmap.grid
+    roadmap = scenario.roadmap
     return {
         "format": SCENARIO_FORMAT,
-        "map": {"grid": list(grid.lines()), "cell_size": written(grid.cell_size)}
-        if grid
-        else {"roadmap": _roadmap(roadmap)},
+        "map": _map(roadmap),
         **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
         "rules": _rules(scenario.rules),
@@ -96,9 +95,23 @@ def _units(units: Units) -> dict[str, Any]:
     return {"units": written_units} if written_units else {}
 
 
+def _map(roadmap: Roadmap) -> dict[str, Any]:
+    grid, frame = roadmap.grid, roadmap.frame
+    y = {"y": "up"} if frame.y_up else {}
+    if grid is None:
+        return {"roadmap": _roadmap(roadmap), **y}
+    size = grid.cell_size
+    left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
+    usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
+    origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
+    return {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin}
+
+
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
-    name = roadmap.name
-    positions = (roadmap.positions + 0.0).tolist()  # has no -0.0: it would be read as 0.0
+    name, frame = roadmap.name, roadmap.frame
+    down = (1.0, -1.0 if frame.y_up else 1.0)
+    # The sum has no -0.0, which would be read as 0.0.
+    positions = (roadmap.positions * down + (float(frame.x), float(frame.y))).tolist()
     vertices = {name(vertex): position for vertex, position in enumerate(positions)}
     edges = [
         {

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ from rightofway.model import (
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import plane_of, vertices_in_line
+from rightofway.viz.placement import Plane, plane_of, vertices_in_line
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
@@ -88,23 +89,29 @@ def payload_of(
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
     plane = plane_of(roadmap)
-    drawn = {
+    size = {
         "width": round(plane.width, DECIMALS),
         "height": round(plane.height, DECIMALS),
-        "unit": plane.unit,
-        "origin": list(plane.origin),
+        "frame": _frame(plane, roadmap),
     }
     if roadmap.grid is not None:
-        return {**drawn, "rows": roadmap.grid.lines()}
+        return {**size, "rows": roadmap.grid.lines()}
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     return {
-        **drawn,
+        **size,
         "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
         "points": np.round(plane.points, DECIMALS).ravel().tolist(),
         "tails": _differences(tails.tolist()),
         "heads": _differences(roadmap.heads.tolist()),
         "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
     }
+
+
+def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
+    """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
+    left, top = map(Fraction, plane.corner)
+    x, y = roadmap.frame.to_site((left, top))
+    return {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
 
 
 def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[str, Any]]:

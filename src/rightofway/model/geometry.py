@@ -1,0 +1,106 @@
+"""Points: in the site's frame, where users give them, and in the plane that is drawn; distances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from rightofway.errors import InputError
+from rightofway.model.values import DIGITS
+
+Point = tuple[Fraction, Fraction]
+"""x and y [length unit]."""
+
+COARSE, FINE = Fraction(1, 1_000), Fraction(1, 1_000_000)
+"""Steps of lengths that are rounded up [length unit]: in general, and for distances below 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """Where the plane that is drawn lies in the site's frame.
+
+    Attributes
+    ----------
+    x, y
+        The plane's point (0, 0) in the site's frame [length unit].
+    y_up
+        Whether y grows upwards on the site; in the plane it grows downwards.
+    """
+
+    x: Fraction = Fraction(0)
+    y: Fraction = Fraction(0)
+    y_up: bool = False
+
+    def to_site(self, point: Point) -> Point:
+        """Return the point of the site at a point of the plane."""
+        x, y = point
+        return self.x + x, self.y + (-y if self.y_up else y)
+
+    def to_plane(self, point: Point) -> Point:
+        """Return the point of the plane at a point of the site."""
+        x, y = point
+        return x - self.x, (self.y - y if self.y_up else y - self.y)
+
+
+def squared_distance(tail: Point, head: Point) -> Fraction:
+    """Return the square of the straight distance of two points."""
+    return (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
+
+
+def rounding_step(ends: Iterable[tuple[Point, Point]]) -> Fraction:
+    """Return the step to which the lengths of a map are rounded up.
+
+    Parameters
+    ----------
+    ends
+        The two ends of each edge whose length is its straight distance.
+
+    Returns
+    -------
+    Fraction
+        1/1000, or 1/1000000 if a distance is below 1 [length unit].
+    """
+    return FINE if any(0 < squared_distance(*pair) < 1 for pair in ends) else COARSE
+
+
+def straight_length(tail: Point, head: Point, step: Fraction = COARSE) -> Fraction:
+    """Return the straight distance of two points, rounded up to a step if it is no fraction.
+
+    Parameters
+    ----------
+    tail, head
+        The points.
+    step
+        The step [length unit].
+
+    Raises
+    ------
+    InputError
+        If the points are the same, or the distance has too many digits.
+
+    Examples
+    --------
+    >>> zero, one, three, four = map(Fraction, (0, 1, 3, 4))
+    >>> straight_length((zero, zero), (three, four)), straight_length((zero, zero), (one, one))
+    (Fraction(5, 1), Fraction(283, 200))
+    """
+    square = squared_distance(tail, head)
+    if square == 0:
+        raise InputError.at("", "has no length, its ends are at one position (give a length)")
+    found = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    if found**2 != square or _digits(found) > DIGITS:
+        steps = square / step**2
+        whole = math.isqrt(math.ceil(steps))
+        found = (whole if whole * whole >= steps else whole + 1) * step
+    if _digits(found) > DIGITS:
+        about = f"about {math.sqrt(square):.4g}"
+        message = f"the straight distance, {about}, has too many digits (give a length)"
+        raise InputError.at("", message)
+    return found
+
+
+def _digits(number: Fraction) -> int:
+    """Return the most digits of numerator and denominator; those of 10**n count as n."""
+    return len(str(max(number.numerator, number.denominator) - 1))
