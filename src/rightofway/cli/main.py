@@ -24,6 +24,7 @@ import click
 
 from rightofway import __version__
 from rightofway.cli.bench import bench
+from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
 from rightofway.cli.planning import improve, plan
@@ -58,7 +59,20 @@ def commands(context: click.Context, *, debug: bool) -> None:
     context.ensure_object(_Session).debug = debug
 
 
-for command in (plan, improve, check, laps, simulate, show, table, convert, bench, schema):
+for command in (
+    new,
+    examples,
+    plan,
+    improve,
+    check,
+    laps,
+    simulate,
+    show,
+    table,
+    convert,
+    bench,
+    schema,
+):
     commands.add_command(command)
 
 

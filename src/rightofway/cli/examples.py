@@ -1,0 +1,147 @@
+"""``rightofway new`` and ``rightofway examples``: files to begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
+
+import click
+
+import rightofway
+from rightofway.cli.terminal import say, writable
+from rightofway.errors import InputError, nearest
+from rightofway.files import write_whole
+
+NEW_EXAMPLES = """\b
+Examples:
+  rightofway new hall.yaml
+  rightofway plan hall.yaml --page hall.html
+"""
+
+EXAMPLES_EXAMPLES = """\b
+Examples:
+  rightofway examples
+  rightofway examples door -o door.yaml
+  rightofway examples --copy .
+"""
+
+SUFFIXES = (".yaml", ".toml")
+"""Endings of the examples; what else is in their folder belongs to one of them."""
+
+
+def _write_commented(path: str) -> None:
+    template = files("rightofway.cli").joinpath("template.yaml").read_text(encoding="utf-8")
+    write_whole(path, template.replace("{file}", path))
+
+
+TEMPLATES: dict[str, Callable[[str], None]] = {".yaml": _write_commented, ".yml": _write_commented}
+"""For each ending of a scenario file the function that writes its template."""
+
+
+@click.command(epilog=NEW_EXAMPLES, short_help="Write a scenario with comments, to be edited.")
+@click.argument("file", type=click.Path(), callback=writable(*TEMPLATES))
+def new(file: str) -> None:
+    """Write a small scenario to FILE, with a comment for each key, to be edited.
+
+    A FILE that exists is left alone.
+    """
+    if Path(file).exists():
+        raise InputError.at("", "the file exists (give another name, or remove it)", file)
+    TEMPLATES[Path(file).suffix.lower()](file)
+    say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
+
+
+@click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
+@click.argument("name", required=False)
+@click.option("-o", "--output", metavar="FILE", callback=writable(),
+              help="Write the example NAME to this file, and the maps that it needs beside it.",
+              )  # fmt: skip
+@click.option("--copy", "parent", metavar="FOLDER", type=click.Path(exists=True, file_okay=False),
+              help="Copy all examples to FOLDER/examples.")  # fmt: skip
+def examples(name: str | None, output: str | None, parent: str | None) -> None:
+    """List the examples, or print the example NAME."""
+    if parent is not None:
+        if name or output:
+            raise click.UsageError("--copy copies all examples (leave out the name and -o)")
+        _copy_all(Path(parent) / "examples")
+    elif name is None:
+        if output:
+            raise click.UsageError("-o writes one example (give its name)")
+        _list()
+    else:
+        found = _example(name)
+        if output in {None, "-"}:
+            click.echo(found.read_text(encoding="utf-8"), nl=False)
+        else:
+            _write(found, Path(output or ""))
+
+
+def examples_folder() -> Path:
+    """Return the folder of the examples: in the installed package, or in a clone at its top."""
+    package = Path(rightofway.__file__).parent
+    installed = package / "examples"
+    return installed if installed.is_dir() else package.parents[1] / "examples"
+
+
+def example_names() -> list[str]:
+    """Return the names of the examples, those of subfolders last."""
+    folder = examples_folder()
+    found = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
+    return [str(path.with_suffix("")) for path in sorted(found, key=lambda p: (len(p.parts), p))]
+
+
+def _example(name: str) -> Path:
+    stem = name.removesuffix(".yaml").removesuffix(".toml").removeprefix("examples/")
+    known = example_names()
+    if stem not in known:
+        meant = nearest(stem, known)
+        remedy = f"did you mean {meant}?" if meant else f"give one of: {', '.join(known)}"
+        raise click.BadParameter(f"{name!r} is not an example ({remedy})", param_hint="NAME")
+    beside = examples_folder() / stem
+    return next(path for path in map(beside.with_suffix, SUFFIXES) if path.is_file())
+
+
+def _list() -> None:
+    rows = [(name, _first_sentence(_example(name))) for name in example_names()]
+    formatter = click.HelpFormatter(width=80)
+    formatter.write_dl(rows)
+    click.echo(formatter.getvalue(), nl=False)
+
+
+def _first_sentence(path: Path) -> str:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    comment = [line.removeprefix("#").strip() for line in lines[:5] if line.startswith("#")]
+    return " ".join(comment).partition(". ")[0].removesuffix(".")
+
+
+def _write(example: Path, target: Path) -> None:
+    """Write an example, and beside it, in the same subfolders, the files that it names."""
+    text = example.read_text(encoding="utf-8")
+    folder = example.parent
+    companions = [path for path in folder.rglob("*") if path.is_file() and path != example]
+    for path in companions:
+        name = path.relative_to(folder)
+        if name.as_posix() not in text:
+            continue
+        beside = target.parent / name
+        if beside.exists() and beside.read_bytes() != path.read_bytes():
+            message = "another file of this name exists (choose another folder for the example)"
+            raise InputError.at("", message, str(beside))
+        beside.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(beside, path.read_bytes())
+        say(f"wrote {beside}")
+    write_whole(target, text)
+    say(f"wrote {target}")
+
+
+def _copy_all(target: Path) -> None:
+    if target.exists():
+        raise InputError.at("", "exists (give another folder, or remove it)", str(target))
+    folder = examples_folder()
+    for path in sorted(folder.rglob("*")):
+        if path.is_file():
+            copy = target / path.relative_to(folder)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(copy, path.read_bytes())
+    say(f"wrote {target} (for example: rightofway plan {target / 'door.yaml'})")
