@@ -52,6 +52,10 @@ stub-is-fresh:
 docs:
     sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
+# Write the generated parts of the pages: help texts, tables of keys, options and names
+docs-refresh:
+    python docs/refresh.py
+
 # Install for work on the code: edits to Python files are live, `just develop` again after C++
 develop:
     pip install scikit-build-core nanobind

@@ -16,12 +16,12 @@ extensions = [
     "sphinx.ext.napoleon",
     "mathml",
     "as_written",
-    "live",
+    "code_host",
     "plan_pages",
 ]
 exclude_patterns = ["_build"]
 
-myst_enable_extensions = ["deflist", "dollarmath"]
+
 myst_heading_anchors = 3
 
 default_role = "py:obj"

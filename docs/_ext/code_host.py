@@ -1,0 +1,32 @@
+"""Pages that can be read without a build: what only Sphinx understands stands in comments.
+
+A comment that begins with ``<!-- sphinx`` on a line of its own holds Markdown for Sphinx; code
+hosts do not show it. Sphinx leaves out what stands between ``<!-- not sphinx -->`` and
+``<!-- end -->``. An equation is a block of the language ``math``, which both draw.
+"""  # noqa: INP001 (a Sphinx extension, found by its path)
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+FOR_SPHINX = re.compile(r"^<!-- sphinx\n(.*?)^-->$", re.MULTILINE | re.DOTALL)
+FOR_CODE_HOSTS = re.compile(r"^<!-- not sphinx -->$.*?^<!-- end -->$", re.MULTILINE | re.DOTALL)
+ROOT_PAGE = re.compile(r"\]\(((?:\.\./)*)\.\./(CONTRIBUTING|CHANGELOG)\.md")
+EQUATION = re.compile(r"^( *)```math$", re.MULTILINE)
+
+
+def reveal(_app: Sphinx, _page: str, source: list[str]) -> None:
+    """Give Sphinx its own Markdown, and links to the pages that include those of the root."""
+    text = FOR_SPHINX.sub(r"\1", FOR_CODE_HOSTS.sub("", source[0]))
+    text = ROOT_PAGE.sub(lambda link: f"]({link[1]}{link[2].lower()}.md", text)
+    source[0] = EQUATION.sub(r"\1```{math}", text)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register the reader."""
+    app.connect("source-read", reveal)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,248 @@
+"""Write the generated parts of the pages: `just docs-refresh`; with ``--check`` only compare.
+
+A generated part stands in its page as plain Markdown, so that it can be read without a build. It
+stands between ``<!-- generated: MAKER ARGUMENTS -->`` and ``<!-- end -->``. `MAKERS` lists the
+makers. They read the program itself: help texts, the registry of planners, the JSON Schemas of the
+formats, ``__all__`` and docstrings, and the comments that C++ headers begin with.
+"""  # noqa: INP001 (a script, run by its path)
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
+from importlib import import_module
+from itertools import chain, pairwise, takewhile
+from pathlib import Path
+from typing import Any
+
+import click
+from click.testing import CliRunner
+
+from rightofway.bench import COLUMNS
+from rightofway.cli.main import commands
+from rightofway.execution import CAUSES, DEFAULT
+from rightofway.io import schema
+from rightofway.model import Robot, Rules, Stop
+from rightofway.planners import Option, find
+from rightofway.planners.registry import PLANNERS
+
+ROOT = Path(__file__).parents[1]
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+
+PART = re.compile(
+    r"^<!-- generated: (?P<words>[^\n]*?) -->$(?P<text>.*?)^<!-- end -->$", re.MULTILINE | re.DOTALL
+)
+
+Row = Sequence[str]
+
+RULES = schema("scenario")["$defs"]["RulesDocument"]["properties"]
+"""Keys that stand last where a robot has them too."""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Bring every page up to date, or name the stale ones."""
+    check = list(arguments) == ["--check"]
+    stale = []
+    for page in PAGES:
+        written = page.read_text(encoding="utf-8")
+        fresh = PART.sub(part, written)
+        if fresh != written:
+            stale.append(page.relative_to(ROOT).as_posix())
+            if not check:
+                page.write_text(fresh, encoding="utf-8")
+    for name in stale:
+        click.echo(f"{name}: {'stale (run `just docs-refresh`)' if check else 'refreshed'}")
+    return 1 if check and stale else 0
+
+
+def part(match: re.Match[str]) -> str:
+    """Return a part with its markers, made again."""
+    maker, *arguments = match["words"].split()
+    text = "\n".join(MAKERS[maker](*arguments))
+    return f"<!-- generated: {match['words']} -->\n\n{text}\n\n<!-- end -->"
+
+
+def table(heads: Row, rows: Iterable[Row]) -> Iterator[str]:
+    """Yield a Markdown table."""
+    for row in (heads, ["---"] * len(heads), *rows):
+        yield "| " + " | ".join(map(_cell, row)) + " |"
+
+
+def _cell(text: str) -> str:
+    """Return text as one cell: no bar ends it, and ``<`` outside of code begins no tag."""
+    parts = re.split(r"(`[^`]*`)", text.replace("|", "\\|").replace("\n", " "))
+    return "".join(one if one.startswith("`") else one.replace("<", "\\<") for one in parts)
+
+
+def command_help(*path: str) -> Iterable[str]:
+    """Return what a command prints with ``--help``, as a code block."""
+    terminal = CliRunner(env={"COLUMNS": "80"})
+    printed = terminal.invoke(
+        commands, [*path, "--help"], prog_name="rightofway", catch_exceptions=False
+    )
+    return ["```text", *printed.output.splitlines(), "```"]
+
+
+def planner_list() -> Iterable[str]:
+    """Return the planners of this package."""
+    rows = [(f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in PLANNERS]
+    return table(("planner", "what it does"), rows)
+
+
+def planner_options(planner: str) -> Iterable[str]:
+    """Return the options of a planner."""
+    rows = (
+        (f"`{each.name}`", f"`{each.default}`", _other_values(each), each.summary)
+        for each in find(planner).options
+    )
+    return table(("option", "default", "other values", "what it does"), rows)
+
+
+def _other_values(option: Option) -> str:
+    return ", ".join(f"`{word}`" for word in option.choices[1:]) or (
+        f"whole numbers from {option.least}"
+    )
+
+
+def document_keys(kind: str, *part: str) -> Iterable[str]:
+    """Return the keys of one part of a format: ``scenario RulesDocument``."""
+    whole = schema(kind)  # type: ignore[arg-type]  # a wrong kind is refused with a sentence
+    node = whole["$defs"][part[0]] if part else whole
+    node = node["anyOf"][-1] if "anyOf" in node else node
+    required = node.get("required", [])
+    defaults = _defaults().get(part[0], {}) if part else {}
+    keys = sorted(
+        node["properties"].items(), key=lambda item: (item[0] not in required, item[0] in RULES)
+    )
+    rows = (
+        (
+            f"`{key}`",
+            _text(value, whole),
+            "required" if key in required else _default(key, value, defaults),
+        )
+        for key, value in keys
+    )
+    return table(("key", "what", "default"), rows)
+
+
+def _defaults() -> dict[str, dict[str, Any]]:
+    """Return the defaults that the model has, where the schema leaves them to it."""
+    rules, robot = Rules(), Robot(name="R1", home=0, stops=(Stop(at=0),))  # type: ignore[arg-type]
+    return {
+        "RulesDocument": {
+            **{
+                name: getattr(rules, name) for name in ("occupancy", "headway", "laps", "rotations")
+            },
+            "return": rules.ends,
+        },
+        "RobotDocument": {"speed": robot.speed, "work": robot.stops[0].work},
+        "StopDocument": {"work": robot.stops[0].work},
+    }
+
+
+def _default(key: str, value: dict[str, Any], defaults: dict[str, Any]) -> str:
+    default = defaults.get(key, value.get("default"))
+    if default in (None, "", [], {}):
+        return ""
+    return f"`{str(default).lower() if isinstance(default, bool) else default}`"
+
+
+def _text(value: dict[str, Any], whole: dict[str, Any]) -> str:
+    if "description" in value:
+        return str(value["description"])
+    name = value.get("$ref", "").rpartition("/")[2]
+    return str(whole["$defs"].get(name, {}).get("description", ""))
+
+
+def result_columns() -> Iterable[str]:
+    """Return the columns of the results of a benchmark."""
+    return table(("column", "what"), ((f"`{each.name}`", each.what) for each in COLUMNS))
+
+
+def delay_causes() -> Iterable[str]:
+    """Return what makes robots late, and how it is written."""
+    examples = chain.from_iterable(cause.examples for cause in CAUSES.values())
+    default = {DEFAULT: "; this is the default"}
+    rows = ((f"`{text}`", what + default.get(text, "")) for text, what in examples)
+    return table(("cause", "what happens"), rows)
+
+
+def public_names(module: str) -> Iterable[str]:
+    """Return the names that a module offers, with the first sentence of each docstring."""
+    offered = import_module(module)
+    values = {name: getattr(offered, name) for name in offered.__all__}
+    rows = (
+        (_link(name, value) if module == "rightofway" else f"`{name}`", _first(name, value))
+        for name, value in values.items()
+    )
+    return table(("name", "what"), rows)
+
+
+def _link(name: str, value: Any) -> str:
+    """Return a name that links to the page of the room that defines it."""
+    room = value.__module__.split(".")[1]
+    return f"[`{name}`]({'solve' if room == 'fleet_builder' else room}.md)"
+
+
+def _first(name: str, value: Any) -> str:
+    """Return the first sentence of a docstring, in Markdown."""
+    documented = inspect.isclass(value) or inspect.isroutine(value)
+    text = (inspect.getdoc(value) or "") if documented else _constants().get(name, "")
+    return text.split("\n\n")[0].replace("``", "`")
+
+
+@cache
+def _constants() -> dict[str, str]:
+    """Return the sentences below the constants of the package, by the names of the constants."""
+    found = {}
+    for source in sorted((ROOT / "src").rglob("*.py")):
+        body = ast.parse(source.read_text(encoding="utf-8")).body
+        for statement, below in pairwise(body):
+            if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+                targets = getattr(statement, "targets", [getattr(statement, "target", None)])
+                found |= {
+                    each.id: str(below.value.value) for each in targets if hasattr(each, "id")
+                }
+    return found
+
+
+def decisions() -> Iterable[str]:
+    """Return the decisions by their titles."""
+    pages = sorted((ROOT / "docs" / "decisions").glob("0*.md"))
+    titles = [page.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ") for page in pages]
+    return [f"- [{title}]({page.name})" for title, page in zip(titles, pages, strict=True)]
+
+
+def native_headers() -> Iterable[str]:
+    """Return the headers of the native core, with what each says of itself first."""
+    headers = sorted((ROOT / "cpp").glob("[!bt]*/*.hpp"))
+    return table(
+        ("header", "what it is"),
+        ((f"`{each.parent.name}/{each.name}`", _opening(each)) for each in headers),
+    )
+
+
+def _opening(header: Path) -> str:
+    """Return the first paragraph of the comment that a file begins with."""
+    lines = header.read_text(encoding="utf-8").splitlines()
+    return " ".join(line[3:] for line in takewhile(lambda line: line.startswith("// "), lines))
+
+
+MAKERS: dict[str, Callable[..., Iterable[str]]] = {
+    "command-help": command_help,
+    "planner-list": planner_list,
+    "planner-options": planner_options,
+    "document-keys": document_keys,
+    "result-columns": result_columns,
+    "delay-causes": delay_causes,
+    "decisions": decisions,
+    "public-names": public_names,
+    "native-headers": native_headers,
+}
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
