@@ -2,13 +2,16 @@
 
 import json
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 
 from rightofway.model import Quantities, Units
 from tests.builders.plans import door
-from tests.model.test_quantities import CASES
 from tests.viewer.conftest import Opener
+
+CASES = json.loads((Path(__file__).parents[1] / "data" / "quantities.json").read_text())
+"""Values and their texts; the package is tested with the same ones."""
 
 UNITS = [Units(), *(Units(length="m", time=time) for time in ("ms", "s", "min", "h"))]
 
