@@ -24,6 +24,8 @@ from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import (
     Decision,
     ExecutionTrace,
+    Loss,
+    LostTime,
     Plan,
     PlannerRun,
     Reroute,
@@ -55,7 +57,7 @@ if _TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
     from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, write_plan, write_scenario
-    from rightofway.metrics import Metrics, measure, waits
+    from rightofway.metrics import Metrics, lost_time, measure, waits
     from rightofway.viz import Film, write_gif, write_page, write_png
     from rightofway.viz.palette import Theme
 
@@ -65,7 +67,7 @@ _ROOMS = {
     "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
     "execution": ("Outcome", "simulate"),
     "io": ("load", "load_plan", "write_plan", "write_scenario"),
-    "metrics": ("Metrics", "measure", "waits"),
+    "metrics": ("Metrics", "lost_time", "measure", "waits"),
     "viz": ("Film", "write_gif", "write_page", "write_png"),
     "viz.palette": ("Theme",),
 }
@@ -85,6 +87,8 @@ __all__ = [
     "LacamOptions",
     "LnsOptions",
     "LocalSearchOptions",
+    "Loss",
+    "LostTime",
     "Metrics",
     "NoPlanExists",
     "Outcome",
@@ -114,6 +118,7 @@ __all__ = [
     "improve",
     "load",
     "load_plan",
+    "lost_time",
     "measure",
     "plan_of",
     "run_laps",

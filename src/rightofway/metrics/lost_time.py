@@ -70,7 +70,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
             detours=Tick(driven - making_room),
             making_room=Tick(making_room),
             waiting=Tick(waiting),
-            losses=tuple(sorted([*own, *room], key=lambda loss: loss.tick)),
+            losses=tuple(sorted([*own, *room], key=lambda loss: (loss.tick, -loss.end))),
         )
         found.append(lost)
     return tuple(found)

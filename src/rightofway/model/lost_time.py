@@ -73,8 +73,8 @@ class LostTime:
     waiting
         How long it stands still with nothing to do [ticks].
     losses
-        The causes, by tick: those that wait or follow sum up to ``waiting``, the others to
-        ``making_room``.
+        The causes, by tick, then the longest first: those that wait or follow sum up to
+        ``waiting``, the others to ``making_room``.
     """
 
     robot: int
