@@ -19,11 +19,11 @@ def test_robots_are_where_they_were_and_ghosts_where_the_plan_has_them(late: Vie
     """At 8 R1 still works in N1, where R2 should be; R2 waits in N2, and R1 should be at home."""
     assert late.ask("[[...motion.x], [...ghosts.x]]") == [[1, 2], [0, 1]]
     viewport = "mapView.viewport.left + {} * mapView.viewport.scale"
-    radius = 0.33 * 1.14
+    radius = late.ask("1.14 * mapView.sizes.robot / mapView.viewport.scale")
     top = late.ask("mapView.viewport.top")
     blue = [*late.ask("channels(plan.robots[0].colour)"), 255]
     x = late.ask(viewport.format(0 + radius))
-    ring = [pixel(late, "map", x, top + down) for down in range(-6, 7)]
+    ring = [pixel(late, "map", x, top + down) for down in range(-8, 9)]
     assert blue in ring
 
 

@@ -1,13 +1,13 @@
 "use strict";
 
-const NAMED_CELL = 46; // vertices have their names from this size on [pixels]
-const RULED_CELL = 13; // cells have lines between them from this size on
-const MARKED = 0.84; // side of a home or stop, of a cell
+const RULED_CELL = 13; // cells have lines between them from this size on [pixels]
+const MANY_ROBOTS = 200; // of more, homes and stops are faint, or they would hide the robots
+const ARROW_GAP = 56; // pixels between two arrow heads of a lane
 
-/** What does not move: floor, walls, edges, heat, homes, stops, names of vertices. */
+/** What does not move: background, floor, walls, lanes, heat, homes, stops. */
 class MapBase {
-  constructor(plan, viewport, theme, choice, use, bottleneck) {
-    Object.assign(this, { plan, viewport, theme, choice, use, bottleneck });
+  constructor(plan, viewport, sizes, theme, choice, use, bottleneck) {
+    Object.assign(this, { plan, viewport, sizes, theme, choice, use, bottleneck });
   }
 
   /** Paint everything in map units: one unit is a cell. */
@@ -20,19 +20,14 @@ class MapBase {
     else this.#network(context);
     if (this.choice.heat) this.#heat(context);
     this.bottleneck.paintMap(context, scale);
-    for (const robot of this.plan.robots) this.#marks(context, robot);
+    this.#homes(context);
+    this.#stops(context);
     context.restore();
-    if (scale >= NAMED_CELL) this.#names(context);
   }
 
   /** A length in pixels, in map units. */
   #pixels(length) {
     return length / this.viewport.scale;
-  }
-
-  /** Whether marks are so small that they would hide the robots. */
-  get #crowded() {
-    return this.viewport.scale < RULED_CELL;
   }
 
   #grid(context) {
@@ -61,67 +56,110 @@ class MapBase {
     context.stroke();
   }
 
+  /** Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way. */
   #network(context) {
-    const { x, y, tails, heads, size } = this.plan.roadmap;
-    const both = new Set(tails.map((tail, edge) => tail * size + heads[edge]));
-    context.strokeStyle = context.fillStyle = this.theme.wall;
-    context.lineWidth = Math.max(0.07, this.#pixels(1));
+    const { x, y, size } = this.plan.roadmap;
+    const { oneWay, bothWays } = this.plan.roadmap.lanes;
+    const { lane } = this.sizes;
+    const draw = (lanes, width, colour) => {
+      context.strokeStyle = colour;
+      context.lineWidth = this.#pixels(width);
+      context.beginPath();
+      for (const [tail, head] of lanes) line(context, x[tail], y[tail], x[head], y[head]);
+      context.stroke();
+    };
+    context.lineCap = "round";
+    draw(bothWays, lane, this.theme.wall);
+    draw(oneWay, lane * 0.7, this.theme.wall);
+    context.lineCap = "butt";
+    if (lane < 5) return;
+    context.setLineDash([this.#pixels(5), this.#pixels(5)]);
+    draw(bothWays, 1, this.theme.paper);
+    context.setLineDash([]);
+    this.#arrows(context, oneWay);
+    context.fillStyle = this.theme.paper;
+    context.strokeStyle = this.theme.muted;
+    context.lineWidth = this.#pixels(1.25);
+    for (let vertex = 0; vertex < size; vertex++) {
+      disc(context, x[vertex], y[vertex], this.#pixels(this.sizes.vertex));
+      context.stroke();
+    }
+  }
+
+  #arrows(context, lanes) {
+    const { x, y } = this.plan.roadmap;
+    const size = Math.min(Math.max(this.sizes.lane * 0.32, 3), 5);
+    context.strokeStyle = this.theme.muted;
+    context.lineWidth = this.#pixels(1.75);
+    context.lineCap = context.lineJoin = "round";
     context.beginPath();
-    for (let edge = 0; edge < tails.length; edge++) {
-      const [tail, head] = [tails[edge], heads[edge]];
-      const twoWay = both.has(head * size + tail);
-      if (tail < head || !twoWay) line(context, x[tail], y[tail], x[head], y[head]);
-      if (!twoWay) arrowHead(context, x[tail], y[tail], x[head], y[head]);
+    for (const [tail, head] of lanes) {
+      const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
+      const length = Math.hypot(right, down) * this.viewport.scale;
+      if (length < 2 * this.sizes.vertex + 3 * size) continue;
+      const count = Math.max(Math.floor(length / ARROW_GAP), 1);
+      for (let i = 0; i < count; i++) {
+        const share = (i + 0.5) / count;
+        chevron(context, x[tail] + right * share, y[tail] + down * share, Math.atan2(down, right), this.#pixels(size));
+      }
     }
     context.stroke();
-    for (let vertex = 0; vertex < size; vertex++) disc(context, x[vertex], y[vertex], 0.13);
+    context.lineCap = "butt";
   }
 
   #heat(context) {
-    const { x, y } = this.plan.roadmap;
-    const { heatLow, heatHigh } = this.theme;
-    this.use.held.forEach((ticks, vertex) => {
-      if (!ticks) return;
-      context.fillStyle = blend(heatLow, heatHigh, Math.sqrt(ticks / this.use.most));
-      if (this.plan.roadmap.rows) context.fillRect(x[vertex] - 0.5, y[vertex] - 0.5, 1, 1);
-      else disc(context, x[vertex], y[vertex], 0.4);
-    });
+    const { x, y, size, rows } = this.plan.roadmap;
+    for (let vertex = 0; vertex < size; vertex++) {
+      const colour = this.use.heat(vertex, this.theme);
+      if (!colour) continue;
+      context.fillStyle = colour;
+      if (rows) context.fillRect(x[vertex] - 0.5, y[vertex] - 0.5, 1, 1);
+      else disc(context, x[vertex], y[vertex], this.#pixels(Math.max(this.sizes.vertex * 1.6, 5)));
+    }
   }
 
-  /** A home is a frame, a stop a tinted field with a diamond, both in the robot's colour. */
-  #marks(context, robot) {
-    context.globalAlpha = (this.choice.standsOut(robot.index) ? 1 : 0.2) * (this.#crowded ? 0.45 : 1);
+  #strength(robot) {
+    return (this.choice.standsOut(robot.index) ? 1 : 0.25) * (this.plan.robots.length > MANY_ROBOTS ? 0.45 : 1);
+  }
+
+  /** A home is a frame in the robot's colour. */
+  #homes(context) {
     const { x, y } = this.plan.roadmap;
-    const strength = context.globalAlpha;
-    context.strokeStyle = context.fillStyle = robot.colour;
-    context.lineWidth = Math.max(0.03, this.#pixels(1));
-    for (const vertex of new Set(robot.stages.map((stage) => stage.vertex))) {
-      if (vertex === robot.home) continue;
-      context.globalAlpha = strength * (this.choice.heat ? 0 : 0.16);
-      field(context, x[vertex], y[vertex], MARKED);
+    const side = this.#pixels(2 * this.sizes.home);
+    context.lineWidth = this.#pixels(Math.min(Math.max(this.sizes.home * 0.1, 1.5), 3));
+    for (const robot of this.plan.robots) {
+      const strength = this.#strength(robot);
+      field(context, x[robot.home], y[robot.home], side);
+      context.fillStyle = this.theme.floor;
+      context.globalAlpha = this.choice.heat ? 0 : strength;
+      context.fill();
+      context.fillStyle = context.strokeStyle = robot.colour;
+      context.globalAlpha *= 0.12;
       context.fill();
       context.globalAlpha = strength;
-      if (this.#crowded) continue;
-      diamond(context, x[vertex], y[vertex], 0.17);
-      context.fill();
+      context.stroke();
     }
-    field(context, x[robot.home], y[robot.home], MARKED - 0.05);
-    context.stroke();
     context.globalAlpha = 1;
   }
 
-  #names(context) {
-    const { roadmap } = this.plan;
-    const { scale, left, top } = this.viewport;
-    const [right, down] = roadmap.rows ? [-0.34, -0.35] : [0, -0.5];
-    context.font = this.theme.font(Math.min(Math.max(scale * 0.14, 9.5), 13));
-    context.fillStyle = this.theme.muted;
-    context.textBaseline = roadmap.rows ? "top" : "bottom";
-    context.textAlign = roadmap.rows ? "left" : "center";
-    for (let vertex = 0; vertex < roadmap.size; vertex++) {
-      const x = left + (roadmap.x[vertex] + right) * scale;
-      const y = top + (roadmap.y[vertex] + down) * scale;
-      context.fillText(shortened(context, roadmap.name(vertex), scale * 0.8), x, y);
+  /** A stop is a diamond in the robot's colour; those of several robots stand side by side. */
+  #stops(context) {
+    const { x, y } = this.plan.roadmap;
+    const size = this.#pixels(this.sizes.stop);
+    context.lineJoin = "round";
+    context.lineWidth = this.#pixels(2.5);
+    context.strokeStyle = this.theme.floor;
+    for (const [vertex, robots] of this.plan.stops) {
+      const small = size / Math.sqrt(Math.min(robots.length, 3));
+      robots.forEach((robot, i) => {
+        const along = (i - (robots.length - 1) / 2) * 2.1 * small;
+        context.globalAlpha = this.#strength(robot);
+        context.fillStyle = robot.colour;
+        diamond(context, x[vertex] + along, y[vertex], small);
+        context.stroke();
+        context.fill();
+      });
     }
+    context.globalAlpha = 1;
   }
 }

@@ -1,20 +1,16 @@
 "use strict";
 
-const RADIUS = 0.33; // of a robot, in cells
-const SMALL_RADIUS = 0.46; // where cells are small
-const SMALL_CELL = 12; // pixels
 const FEW = 80; // up to here, waiting robots point to where they want to go
 
 /** The robots: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
 class MapRobots {
-  constructor(plan, motion, ghosts, theme, choice) {
-    Object.assign(this, { plan, motion, ghosts, theme, choice });
-    this.inks = plan.robots.map((robot) => inkOn(robot.colour));
+  constructor(plan, motion, ghosts, sizes, theme, choice) {
+    Object.assign(this, { plan, motion, ghosts, sizes, theme, choice });
   }
 
   /** Paint all robots in map units; those that stand out come last, and so on top. */
   paint(context, scale) {
-    const radius = Math.max(scale < SMALL_CELL ? SMALL_RADIUS : RADIUS, 1.6 / scale);
+    const radius = this.sizes.robot / scale;
     if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, radius, scale);
     if (this.choice.robotIndex < 0) {
       for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
@@ -60,35 +56,46 @@ class MapRobots {
 
   #chosen(context, robot, radius, scale) {
     const [x, y] = [this.motion.x[robot.index], this.motion.y[robot.index]];
-    const grown = Math.max(radius, 6 / scale);
+    const grown = Math.max(radius, 7 / scale);
     context.strokeStyle = this.theme.ink;
-    context.lineWidth = Math.max(0.025, 1.5 / scale);
-    ring(context, x, y, grown * 1.5);
+    context.lineWidth = 2.5 / scale;
+    ring(context, x, y, grown + (this.#dialled(robot.index) ? 0.42 * grown : 0) + 4 / scale);
     this.#robot(context, robot, grown, scale);
+  }
+
+  /** Whether work or turning is drawn round a robot. */
+  #dialled(index) {
+    const activity = this.motion.activity[index];
+    return activity === WORK || activity === TURN;
   }
 
   #robot(context, robot, radius, scale) {
     const i = robot.index;
     const [x, y, activity] = [this.motion.x[i], this.motion.y[i], this.motion.activity[i]];
     const alpha = context.globalAlpha;
+    if (this.#outlined) this.#outline(context, x, y, radius, scale);
     if (activity === WAIT) this.#waiting(context, robot, x, y, radius, scale);
     else if (activity === HELD || activity === BROKEN) this.#trouble(context, robot, x, y, radius, scale);
     else {
-      if (activity === DONE) context.globalAlpha = alpha * 0.38;
+      if (activity === DONE) context.globalAlpha = alpha * 0.45;
       context.fillStyle = robot.colour;
       disc(context, x, y, radius);
-      if (this.choice.heat) this.#outline(context, scale);
       context.globalAlpha = alpha;
     }
-    if (activity === WORK || activity === TURN) this.#dial(context, robot, x, y, radius, scale);
-    if (radius * scale >= 9) this.#label(context, robot, x, y, radius, scale);
+    if (this.#dialled(i)) this.#dial(context, robot, x, y, radius, scale);
   }
 
-  /** Keeps a robot that was just drawn apart from a hot vertex of much the same colour. */
-  #outline(context, scale) {
-    context.strokeStyle = this.theme.floor;
-    context.lineWidth = Math.max(0.04, 1 / scale);
-    context.stroke();
+  /** Whether robots are set apart from what lies behind; of a crowd only on the heat map. */
+  get #outlined() {
+    return this.choice.heat || this.plan.robots.length <= FEW;
+  }
+
+  #outline(context, x, y, radius, scale) {
+    const alpha = context.globalAlpha;
+    context.globalAlpha = 1;
+    context.fillStyle = this.theme.floor;
+    disc(context, x, y, radius + 1.5 / scale);
+    context.globalAlpha = alpha;
   }
 
   #waiting(context, robot, x, y, radius, scale) {
@@ -131,9 +138,9 @@ class MapRobots {
     if (next === undefined) return;
     const { x: xs, y: ys } = this.plan.roadmap;
     context.strokeStyle = robot.colour;
-    context.lineWidth = Math.max(0.06, 1.25 / scale);
+    context.lineWidth = Math.min(Math.max(0.06, 2.5 / scale), 5 / scale);
     context.lineCap = "round";
-    context.setLineDash([0, 0.16]);
+    context.setLineDash([0, 2.4 * context.lineWidth]);
     context.beginPath();
     line(context, x, y, xs[next], ys[next]);
     context.stroke();
@@ -159,30 +166,5 @@ class MapRobots {
         arc(context, x, y, radius * 1.3, angle, angle + 0.9);
       }
     }
-  }
-
-  #label(context, robot, x, y, radius, scale) {
-    const size = Math.min(radius * scale * 0.78, (radius * scale * 2.6) / Math.max(robot.name.length, 2));
-    if (size < 6.5) return;
-    const hollow = this.motion.activity[robot.index] !== DRIVE &&
-      this.motion.activity[robot.index] !== WORK && this.motion.activity[robot.index] !== TURN;
-    context.save();
-    context.translate(x, y);
-    context.scale(1 / scale, 1 / scale);
-    context.font = this.theme.font(size, 600);
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.fillStyle = hollow ? this.theme.ink : this.inks[robot.index];
-    if (this.motion.activity[robot.index] === BROKEN) this.#halo(context, robot.name, size);
-    context.fillText(robot.name, 0, size * 0.04);
-    context.restore();
-  }
-
-  /** Keeps a name apart from the cross behind it. */
-  #halo(context, name, size) {
-    context.strokeStyle = this.theme.floor;
-    context.lineWidth = size * 0.3;
-    context.lineJoin = "round";
-    context.strokeText(name, 0, size * 0.04);
   }
 }

@@ -3,18 +3,24 @@
 /** The map: what does not move is painted once, robots at each frame. */
 class MapView {
   constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck) {
-    Object.assign(this, { canvas, plan, motion, clock, choice, words, use, bottleneck });
+    Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.viewport = new Viewport(canvas, plan.roadmap);
-    const base = new MapBase(plan, this.viewport, theme, choice, use, bottleneck);
-    this.base = new Layer((context) => base.paint(context));
-    this.robots = new MapRobots(plan, motion, ghosts, theme, choice);
-    this.route = new MapRoute(plan, motion, theme, choice);
-    this.hover = document.getElementById("hover");
+    this.sizes = new MapSizes(plan, this.viewport);
+    const base = new MapBase(plan, this.viewport, this.sizes, theme, choice, use, bottleneck);
+    this.base = new Layer((context, width, height) => {
+      base.paint(context);
+      paintScaleBar(context, width, height, plan, this.viewport, theme);
+      this.names.refresh();
+    });
+    this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
+    this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
+    this.names = new MapNames(plan, motion, this.viewport, this.sizes, theme, choice, use);
+    this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use);
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
     canvas.setAttribute("aria-label", `Map with ${counted(plan.robots.length, "robot")}`);
     this.viewport.on("click", () => this.#click());
-    this.viewport.on("hover", () => this.#tellWhatIsThere());
+    this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());
     this.#listenToTools();
   }
@@ -33,40 +39,20 @@ class MapView {
     this.route.paint(context, scale);
     this.bottleneck.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
+    context.setTransform(size.ratio, 0, 0, size.ratio, 0, 0);
+    this.names.paint(context, size.width, size.height);
+    this.tip.refresh(this.viewport, this.sizes);
   }
 
   #click() {
     const { x, y } = this.viewport.pointer;
-    const reach = Math.max(0.6, 14 / this.viewport.scale);
+    const reach = Math.max(0.45, (this.sizes.robot + 8) / this.viewport.scale);
     this.choice.chooseRobot(nearest(this.motion.x, this.motion.y, x, y, reach));
   }
 
   #bringIntoSight() {
     const { robotIndex } = this.choice;
     if (robotIndex >= 0) this.viewport.show(this.motion.x[robotIndex], this.motion.y[robotIndex]);
-  }
-
-  #tellWhatIsThere() {
-    const { x, y } = this.viewport.pointer;
-    const vertex = this.plan.roadmap.near(x, y);
-    this.hover.textContent = vertex < 0 ? "" : this.#about(vertex);
-  }
-
-  /** Name of a vertex, who is there, who comes next. */
-  #about(vertex) {
-    const now = this.clock.tick;
-    const visits = this.use.visitsAt(vertex).sort(([one, a], [two, b]) => one.enter[a] - two.enter[b]);
-    const here = visits.find(([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit));
-    const next = visits.find(([robot, visit]) => robot.enter[visit] > now);
-    const parts = [this.words.vertex(vertex)];
-    if (here) parts.push(`${here[0].name} ${this.#until(here[0].leave(here[1]))}`);
-    if (next) parts.push(`${here ? "then " : ""}${next[0].name} from ${this.words.time(next[0].enter[next[1]])}`);
-    if (this.choice.heat) parts.push(`held for ${this.words.time(this.use.held[vertex])}`);
-    return parts.join(" · ");
-  }
-
-  #until(tick) {
-    return tick === Infinity ? "stays" : `until ${this.words.time(tick)}`;
   }
 
   #listenToTools() {
@@ -79,11 +65,12 @@ class MapView {
     this.choice.on("mode", () => this.#showHeat());
   }
 
+  /** The scale of the heat map is linear, with its unit. */
   #showHeat() {
     document.getElementById("heat").setAttribute("aria-pressed", this.choice.heat);
     document.getElementById("heat-legend").hidden = !this.choice.heat;
-    const marks = [0, this.use.most / 4, this.use.most]; // the colour goes with the square root
-    const labels = marks.map((ticks) => element("span", {}, this.words.time(ticks)));
+    const marks = [0, this.use.most / 2, this.use.most];
+    const labels = marks.map((ticks) => element("span", {}, this.words.duration(ticks)));
     document.getElementById("heat-scale").replaceChildren(...labels);
   }
 }

@@ -14,6 +14,11 @@ class Roadmap {
     this.width = raw.width;
     this.height = raw.height;
     this.rows = raw.rows ?? null;
+    this.unit = raw.unit; // length units in a unit of the drawing
+    this.origin = raw.origin; // of the drawing, in the plane of the roadmap [length unit]
+    const corner = this.rows ? this.unit / 2 : 0; // the middle of a grid's first cell
+    this.frame = raw.frame ?? { x: corner, y: corner, yUp: false };
+    this.background = raw.background ?? null;
     if (this.rows) this.#readGrid();
     else this.#readNetwork(raw);
     this.size = this.x.length;
@@ -21,6 +26,13 @@ class Roadmap {
 
   name(vertex) {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
+  }
+
+  /** Where a point of the drawing is in the site's frame [length unit]. */
+  toSite(x, y) {
+    const { frame, origin, unit } = this;
+    const [right, down] = [origin[0] + x * unit, origin[1] + y * unit];
+    return [frame.x + right, frame.yUp ? frame.y - down : frame.y + down];
   }
 
   /** The vertex within half a unit of a point, or -1. */
@@ -49,6 +61,22 @@ class Roadmap {
     this.y = Float32Array.from(raw.names, (_, vertex) => raw.points[2 * vertex + 1]);
     this.tails = fromDifferences(raw.tails, Int32Array);
     this.heads = fromDifferences(raw.heads, Int32Array);
+    this.lengths = raw.lengths;
+    this.lanes = this.#sortLanes();
+  }
+
+  /** Pairs of vertices with a lane between them: for one way, and for both. */
+  #sortLanes() {
+    const { tails, heads, names } = this;
+    const size = names.length;
+    const edges = new Set(Array.from(tails, (tail, edge) => tail * size + heads[edge]));
+    const lanes = { oneWay: [], bothWays: [] };
+    tails.forEach((tail, edge) => {
+      const head = heads[edge];
+      if (!edges.has(head * size + tail)) lanes.oneWay.push([tail, head]);
+      else if (tail < head) lanes.bothWays.push([tail, head]);
+    });
+    return lanes;
   }
 }
 
@@ -154,6 +182,19 @@ class Plan {
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;
     this.metrics = raw.metrics;
+  }
+
+  /** The places that robots go to, homes apart, each with its robots. */
+  get stops() {
+    const stops = new Map();
+    for (const robot of this.planned) {
+      for (const vertex of new Set(robot.stages.map((stage) => stage.vertex))) {
+        if (vertex === robot.home) continue;
+        if (!stops.has(vertex)) stops.set(vertex, []);
+        stops.get(vertex).push(robot);
+      }
+    }
+    return stops;
   }
 
   /** When a visit begins to book its vertex, and when it stops. */

@@ -5,13 +5,22 @@ function line(context, fromX, fromY, toX, toY) {
   context.lineTo(toX, toY);
 }
 
-/** Two strokes in the middle of a way that leads in one direction only. */
-function arrowHead(context, fromX, fromY, toX, toY) {
-  const angle = Math.atan2(toY - fromY, toX - fromX);
-  const [x, y] = [(fromX + toX) / 2, (fromY + toY) / 2];
-  for (const turn of [2.6, -2.6]) {
-    line(context, x, y, x + 0.2 * Math.cos(angle + turn), y + 0.2 * Math.sin(angle + turn));
-  }
+/** An arrow head with its middle at a point, in the present stroke. */
+function chevron(context, x, y, angle, size) {
+  const [along, across] = [Math.cos(angle) * size, Math.sin(angle) * size];
+  context.moveTo(x - along * 0.5 - across, y - across * 0.5 + along);
+  context.lineTo(x + along * 0.5, y + across * 0.5);
+  context.lineTo(x - along * 0.5 + across, y - across * 0.5 - along);
+}
+
+/** A text at the present alignment, set apart from what is behind it. */
+function haloed(context, text, x, y, ink, halo, width) {
+  context.strokeStyle = halo;
+  context.lineWidth = width;
+  context.lineJoin = "round";
+  context.strokeText(text, x, y);
+  context.fillStyle = ink;
+  context.fillText(text, x, y);
 }
 
 function disc(context, x, y, radius) {

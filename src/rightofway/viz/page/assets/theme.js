@@ -38,7 +38,8 @@ function channels(colour) {
 /** The colour at `share` (0 to 1) of the way between two. */
 function blend(low, high, share) {
   const [from, to] = [channels(low), channels(high)];
-  return `rgb(${from.map((start, i) => Math.round(start + (to[i] - start) * share)).join(" ")})`;
+  const mixed = from.map((start, i) => Math.round(start + (to[i] - start) * share));
+  return `#${mixed.map((channel) => channel.toString(16).padStart(2, "0")).join("")}`;
 }
 
 /** White or near-black, whichever reads better on a colour. */

@@ -21,6 +21,11 @@ class Use {
     return this.#held.value.most;
   }
 
+  /** The colour of a vertex on the heat map: the scale is linear from nothing to `most`. */
+  heat(vertex, { heatLow, heatHigh }) {
+    return this.held[vertex] ? blend(heatLow, heatHigh, this.held[vertex] / this.most) : null;
+  }
+
   /** The visits at a vertex, as pairs of robot and visit. */
   visitsAt(vertex) {
     const { first, robots, visits } = this.#byVertex.value;

@@ -1,8 +1,8 @@
 "use strict";
 
-const LARGEST_CELL = 200; // pixels
-const LARGEST_FITTED_CELL = 104;
-const MARGIN = 26;
+const LARGEST_CELL = 400; // pixels
+const LARGEST_FITTED = { cell: 190, edge: 320 }; // pixels; an edge that is as long as a unit
+const LEGEND_HEIGHT = 34; // pixels below the map: scale bar, legends
 
 /**
  * Which part of the map is shown, and how large. Dragging pans, wheel and two fingers zoom.
@@ -33,14 +33,17 @@ class Viewport extends Observable {
     return (pixels - this.top) / this.scale;
   }
 
-  /** Show the whole map. */
+  /** Show the whole map: the cells of a grid to their borders, a roadmap with room for its marks. */
   fit() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const { width: columns, height: rows } = this.roadmap;
-    const fitting = Math.min((width - 2 * MARGIN) / columns, (height - 2 * MARGIN) / rows);
-    this.scale = Math.max(Math.min(fitting, LARGEST_FITTED_CELL), 0.1);
+    const { rows, width: columns, height: lines } = this.roadmap;
+    const [across, down] = rows ? [columns, lines] : [columns - 1, lines - 1];
+    const margin = rows ? 16 : Math.min(36, 16 + width * 0.03);
+    const room = { width: width - 2 * margin, height: height - 1.25 * margin - LEGEND_HEIGHT };
+    const fitting = Math.min(room.width / Math.max(across, 1e-9), room.height / Math.max(down, 1e-9));
+    this.scale = Math.max(Math.min(fitting, LARGEST_FITTED[rows ? "cell" : "edge"]), 0.1);
     this.left = (width - (columns - 1) * this.scale) / 2;
-    this.top = (height - (rows - 1) * this.scale) / 2;
+    this.top = 1.25 * margin + (room.height - (lines - 1) * this.scale) / 2;
     this.#changed(true);
   }
 

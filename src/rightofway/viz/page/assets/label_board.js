@@ -1,0 +1,57 @@
+"use strict";
+
+const SQUARE = 48; // pixels; side of the squares that taken places are sorted into
+
+/** Which places of a picture are taken, so that no two labels are written over each other. */
+class LabelBoard {
+  #squares = new Map();
+
+  clear() {
+    this.#squares.clear();
+  }
+
+  /** Keep a rectangle free of labels. */
+  take(left, top, right, bottom) {
+    this.#add({ left, top, right, bottom, radius: 0 });
+  }
+
+  /** Keep a disc free of labels. */
+  takeDisc(x, y, radius) {
+    this.#add({ left: x - radius, top: y - radius, right: x + radius, bottom: y + radius, x, y, radius });
+  }
+
+  isFree(left, top, right, bottom) {
+    for (const key of this.#keys(left, top, right, bottom)) {
+      for (const it of this.#squares.get(key) ?? []) {
+        if (it.left >= right || it.right <= left || it.top >= bottom || it.bottom <= top) continue;
+        if (!it.radius) return false;
+        const across = it.x - Math.min(Math.max(it.x, left), right);
+        const down = it.y - Math.min(Math.max(it.y, top), bottom);
+        if (across * across + down * down < it.radius * it.radius) return false;
+      }
+    }
+    return true;
+  }
+
+  #add(item) {
+    for (const key of this.#keys(item.left, item.top, item.right, item.bottom)) {
+      if (!this.#squares.has(key)) this.#squares.set(key, []);
+      this.#squares.get(key).push(item);
+    }
+  }
+
+  *#keys(left, top, right, bottom) {
+    for (let row = Math.floor(top / SQUARE); row <= Math.floor(bottom / SQUARE); row++) {
+      for (let column = Math.floor(left / SQUARE); column <= Math.floor(right / SQUARE); column++) yield row * 65536 + column;
+    }
+  }
+}
+
+/** Where a label may stand round a disc, best first: how far right and down its middle is. */
+const SIDES = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.75, -0.8], [-0.75, -0.8], [0.75, 0.8], [-0.75, 0.8]];
+
+/** The box of a label on a side of a disc. */
+function boxBeside(x, y, radius, width, height, [right, down]) {
+  const [middleX, middleY] = [x + right * (radius + 3 + width / 2), y + down * (radius + 2 + height / 2)];
+  return [middleX - width / 2, middleY - height / 2, middleX + width / 2, middleY + height / 2];
+}

@@ -1,0 +1,257 @@
+"use strict";
+
+const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
+const MOST_PLACES = 300; // names of places in sight
+const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
+const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
+const ROBOT_TYPE = 13; // pixels
+const PLACE_TYPE = 12;
+const LONGEST_NAME = 20; // characters; longer ones are cut
+
+/**
+ * Names of robots and places, none over another. Robots come first, then homes and stops, then
+ * other vertices; a name without room is left out. A place keeps its spot while the view does, and
+ * is left out while a robot or a robot's name covers it.
+ */
+class MapNames {
+  #robots = new LabelBoard();
+  #places = new LabelBoard();
+  #marks = new LabelBoard(); // homes and stops
+  #lanes = new LabelBoard();
+  #sides; // of each robot's name, so that it does not jump
+  #widths = new Map();
+  #spots = null;
+
+  constructor(plan, motion, viewport, sizes, theme, choice, use) {
+    Object.assign(this, { plan, motion, viewport, sizes, theme, choice, use });
+    this.#sides = new Int8Array(plan.robots.length);
+    this.written = []; // what the last frame shows: { name, box } of each label
+    this.inks = plan.robots.map((robot) => inkOn(robot.colour));
+  }
+
+  /** The view or the choice is another one: places find their spots again. */
+  refresh() {
+    this.#spots = null;
+  }
+
+  /** Write all names, in pixels of the canvas. */
+  paint(context, width, height) {
+    this.written = [];
+    this.#spots ??= this.#findSpots(context, width, height);
+    this.#robots.clear();
+    const inSight = this.#inSight(width, height);
+    const named = inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
+    if (!named.length && !this.#spots.length) return;
+    const radius = this.sizes.robot;
+    for (const index of inSight) this.#robots.takeDisc(...this.#at(index), radius);
+    const outside = named.filter((index) => !this.#fitsInside(context, index, radius));
+    for (const index of outside) this.#beside(context, index, radius);
+    const outsiders = new Set(outside);
+    for (const index of named) if (!outsiders.has(index)) this.#inside(context, index, radius);
+    this.#writePlaces(context);
+  }
+
+  #isChosen(index) {
+    return this.choice.robotIndex >= 0 && this.choice.standsOut(index);
+  }
+
+  #at(index) {
+    const { left, top, scale } = this.viewport;
+    return [left + this.motion.x[index] * scale, top + this.motion.y[index] * scale];
+  }
+
+  /** The robots in sight, those chosen first, and those that are done last. */
+  #inSight(width, height) {
+    const found = [];
+    for (let index = 0; index < this.plan.robots.length; index++) {
+      const [x, y] = this.#at(index);
+      if (x > -5 && x < width + 5 && y > -5 && y < height + 5) found.push(index);
+    }
+    const rank = (index) => (this.#isChosen(index) ? 0 : this.motion.activity[index] === DONE ? 2 : 1);
+    return found.length > MOST_NAMED ? found : found.sort((one, other) => rank(one) - rank(other) || one - other);
+  }
+
+  #width(context, text, font) {
+    const key = `${font} ${text}`;
+    if (!this.#widths.has(key)) {
+      context.font = font;
+      this.#widths.set(key, context.measureText(text).width);
+    }
+    return this.#widths.get(key);
+  }
+
+  #insideFont(radius) {
+    return this.theme.font(Math.min(Math.round(radius * 0.78), 20), 600);
+  }
+
+  #fitsInside(context, index, radius) {
+    return radius >= 13 && this.#width(context, this.plan.robots[index].name, this.#insideFont(radius)) < radius * 1.7;
+  }
+
+  #inside(context, index, radius) {
+    const { name } = this.plan.robots[index];
+    const activity = this.motion.activity[index];
+    const hollow = activity !== DRIVE && activity !== WORK && activity !== TURN;
+    const [x, y] = this.#at(index);
+    context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
+    context.font = this.#insideFont(radius);
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    const ink = hollow ? this.theme.ink : this.inks[index];
+    if (activity === BROKEN) haloed(context, name, x, y + 1, ink, this.theme.floor, 5);
+    else {
+      context.fillStyle = ink;
+      context.fillText(name, x, y + 1);
+    }
+    context.globalAlpha = 1;
+    const half = this.#width(context, name, context.font) / 2;
+    this.written.push({ name, box: [x - half, y - radius * 0.4, x + half, y + radius * 0.4] });
+  }
+
+  /** Beside its disc: where it was if that is free, rather not over the name of a place. */
+  #beside(context, index, radius) {
+    const name = cut(this.plan.robots[index].name);
+    const font = this.theme.font(ROBOT_TYPE, 600);
+    const width = this.#width(context, name, font);
+    const [x, y] = this.#at(index);
+    const away = this.#isHome(index) ? this.sizes.home : radius;
+    let [best, least, box] = [-1, Infinity, null];
+    for (let step = 0; step < SIDES.length; step++) {
+      const side = (this.#sides[index] + step) % SIDES.length;
+      const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
+      if (!this.#robots.isFree(...there)) continue;
+      const cost = (this.#places.isFree(...there) ? 0 : 3) + (this.#marks.isFree(...there) ? 0 : 2) + (step ? 1 : 0);
+      if (cost < least) [best, least, box] = [side, cost, there];
+      if (!least) break;
+    }
+    if (!box && !this.#isChosen(index)) return;
+    if (box) this.#sides[index] = best;
+    else box = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[0]); // a chosen robot's name may cover others
+    this.#robots.take(...box);
+    context.font = font;
+    context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
+    this.#write(context, name, box, this.motion.activity[index] === DONE ? this.theme.muted : this.theme.ink);
+    context.globalAlpha = 1;
+  }
+
+  #isHome(index) {
+    const { x, y } = this.plan.roadmap;
+    const { home } = this.plan.robots[index];
+    return Math.hypot(this.motion.x[index] - x[home], this.motion.y[index] - y[home]) * this.viewport.scale < 3;
+  }
+
+  #write(context, name, box, ink) {
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, this.theme.floor, 3.5);
+    this.written.push({ name, box });
+  }
+
+  #writePlaces(context) {
+    for (const { name, box, ink, font, halo } of this.#spots) {
+      if (!this.#robots.isFree(...box)) continue;
+      context.font = font;
+      context.textAlign = "left";
+      context.textBaseline = "middle";
+      haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
+      this.written.push({ name, box });
+    }
+  }
+
+  /** The names of places in sight and where they stand, the important ones first. */
+  #findSpots(context, width, height) {
+    const { roadmap } = this.plan;
+    const marks = this.#usedPlaces();
+    this.#keepFree(marks);
+    const spots = [];
+    for (const vertex of this.#named(marks)) {
+      const [x, y] = this.#pointOf(vertex);
+      if (x < 0 || x > width || y < 0 || y > height) continue;
+      const isMark = marks.has(vertex);
+      const font = this.theme.font(PLACE_TYPE, isMark ? 600 : 400);
+      const name = cut(roadmap.name(vertex));
+      const box = this.#spot(vertex, this.#width(context, name, font), isMark);
+      if (!box) continue;
+      this.#places.take(...box);
+      spots.push({ name, box, font, ...this.#colours(vertex, isMark) });
+      if (spots.length >= MOST_PLACES) break;
+    }
+    return spots;
+  }
+
+  #colours(vertex, isMark) {
+    const { theme, plan: { roadmap } } = this;
+    const heat = this.choice.heat && roadmap.rows ? this.use.heat(vertex, theme) : null;
+    if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
+    return { ink: isMark ? theme.ink : theme.muted, halo: roadmap.rows ? theme.floor : theme.paper };
+  }
+
+  #pointOf(vertex) {
+    const { left, top, scale } = this.viewport;
+    return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
+  }
+
+  /** Homes and stops, and on a roadmap lanes, that names rather do not cover. */
+  #keepFree(marks) {
+    for (const board of [this.#places, this.#marks, this.#lanes]) board.clear();
+    for (const [vertex, { isHome }] of marks) {
+      this.#marks.takeDisc(...this.#pointOf(vertex), isHome ? this.sizes.home : this.sizes.stop);
+    }
+    if (this.plan.roadmap.rows) return;
+    const { bothWays, oneWay } = this.plan.roadmap.lanes;
+    const half = this.sizes.lane / 2;
+    for (const [tail, head] of [...bothWays, ...oneWay]) {
+      const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
+      const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
+      for (let i = 0; i <= pieces; i++) {
+        this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);
+      }
+    }
+  }
+
+  /** A box for the name of a place, or null without room; only homes and stops may cover a lane. */
+  #spot(vertex, wide, isMark) {
+    const [x, y] = this.#pointOf(vertex);
+    const high = PLACE_TYPE + 2;
+    const { scale } = this.viewport;
+    if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
+      const inset = Math.min(scale * 0.05, 7);
+      const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
+      return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
+    }
+    const radius = isMark ? this.sizes.home : Math.max(this.sizes.lane / 2, this.sizes.vertex);
+    const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
+    const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
+    return free.find((box) => this.#lanes.isFree(...box)) ?? (isMark ? free[0] ?? null : null);
+  }
+
+  /** The vertices that may have a name, in the order of their importance. */
+  #named(marks) {
+    const { roadmap } = this.plan;
+    const isChosen = (vertex) => marks.get(vertex).robots.some((index) => this.#isChosen(index));
+    if (roadmap.rows && this.viewport.scale < NAMED_CELL) {
+      const shown = [...marks.keys()].filter((vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex));
+      return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
+    }
+    const chosenFirst = [...marks.keys()].sort((one, other) => isChosen(other) - isChosen(one));
+    return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
+  }
+
+  /** The homes and stops, each with its robots. */
+  #usedPlaces() {
+    const places = new Map();
+    for (const { home, stages, index } of this.plan.robots) {
+      for (const vertex of [home, ...stages.map((stage) => stage.vertex)]) {
+        if (!places.has(vertex)) places.set(vertex, { robots: [], isHome: false });
+        places.get(vertex).robots.push(index);
+        places.get(vertex).isHome ||= vertex === home;
+      }
+    }
+    return places;
+  }
+}
+
+/** A name, and the beginning of one that is too long. */
+function cut(name) {
+  return name.length > LONGEST_NAME ? `${name.slice(0, LONGEST_NAME - 1)}…` : name;
+}

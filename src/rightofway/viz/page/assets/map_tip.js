@@ -1,0 +1,96 @@
+"use strict";
+
+const TIP_GAP = 16; // pixels from the pointer
+
+/** What is under the pointer, beside it: a robot and what it does, a place and who is there, where that is. */
+class MapTip {
+  constructor(canvas, plan, motion, clock, choice, words, use) {
+    Object.assign(this, { canvas, plan, motion, clock, choice, words, use });
+    this.box = document.getElementById("hover");
+  }
+
+  /** The pointer is elsewhere. */
+  show(viewport, sizes) {
+    this.refresh(viewport, sizes);
+    if (this.box.hidden) return;
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const [x, y] = [viewport.left + viewport.pointer.x * viewport.scale, viewport.top + viewport.pointer.y * viewport.scale];
+    const { offsetWidth: wide, offsetHeight: high } = this.box;
+    const left = x + TIP_GAP + wide < width ? x + TIP_GAP : Math.max(x - TIP_GAP - wide, 4);
+    const top = y + TIP_GAP + high < height ? y + TIP_GAP : Math.max(y - TIP_GAP - high, 4);
+    this.box.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+  }
+
+  /** Time goes on below a pointer that rests. */
+  refresh(viewport, sizes) {
+    const { x, y } = viewport.pointer;
+    const lines = Number.isNaN(x) ? [] : this.#about(x, y, sizes.robot / viewport.scale);
+    this.box.hidden = !lines.length;
+    const text = lines.map(({ text }) => text).join("\n");
+    if (text === this.text) return;
+    this.text = text;
+    this.box.replaceChildren(...lines.map(({ text: words, robot, kind }) =>
+      element("div", { className: kind ?? "" }, ...(robot ? [swatch(robot)] : []), words)));
+  }
+
+  #about(x, y, radius) {
+    const index = nearest(this.motion.x, this.motion.y, x, y, Math.max(radius * 1.2, 0.3));
+    const vertex = this.plan.roadmap.near(x, y);
+    return [
+      ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
+      ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
+      { text: this.#position(x, y), kind: "position" },
+    ];
+  }
+
+  /** Its name, what it does, since when and until when. */
+  #aboutRobot(robot) {
+    const { words } = this;
+    const phase = this.motion.phase[robot.index];
+    const { begin, visit } = robot.phases;
+    const activity = this.motion.activity[robot.index];
+    const here = words.vertex(robot.vertices[visit[phase]]);
+    const where = activity === DRIVE ? ` to ${words.vertex(robot.vertices[visit[phase] + 1])}` : ` in ${here}`;
+    const end = robot.phases.end(phase);
+    const times = end === Infinity ? `since ${words.moment(begin[phase])}` : `${words.moment(begin[phase])} to ${words.moment(end)}`;
+    return [
+      { text: robot.name, robot, kind: "title" },
+      { text: `${ACTIVITY_WORDS[activity]}${where}, ${times}` },
+    ];
+  }
+
+  /** Its name, who is there but the robot that was named, and who comes next. */
+  #aboutPlace(vertex, named) {
+    const now = this.clock.tick;
+    const { words } = this;
+    const visits = this.use.visitsAt(vertex).sort(([one, a], [two, b]) => one.enter[a] - two.enter[b]);
+    const here = visits.find(([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit));
+    const next = visits.find(([robot, visit]) => robot.enter[visit] > now);
+    const lines = [{ text: this.#placeName(vertex), kind: "title" }];
+    if (here && here[0].index !== named) {
+      const leave = here[0].leave(here[1]);
+      const until = leave === Infinity ? "stays" : `until ${words.moment(leave)}`;
+      lines.push({ text: `${here[0].name} ${until}`, robot: here[0] });
+    }
+    if (next) lines.push({ text: `next ${next[0].name}, at ${words.moment(next[0].enter[next[1]])}`, robot: next[0] });
+    if (this.choice.heat) lines.push({ text: `held for ${words.duration(this.use.held[vertex])} in all` });
+    return lines;
+  }
+
+  /** The name of a place, and whose home or stop it is. */
+  #placeName(vertex) {
+    const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
+    const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
+    const uses = [homes.length ? `home of ${several(homes)}` : "", stops.length ? `stop of ${several(stops)}` : ""];
+    return [this.words.vertex(vertex), ...uses.filter(Boolean)].join(", ");
+  }
+
+  /** Coordinates in the site's frame, to a hundredth of a cell or so. */
+  #position(x, y) {
+    const { roadmap, quantities } = this.plan;
+    const digits = Math.max(0, Math.ceil(-Math.log10(roadmap.unit / 50)));
+    const [right, up] = roadmap.toSite(x, y).map((value) => value.toFixed(Math.min(digits, 6)));
+    const unit = quantities.units.length ? ` ${quantities.units.length}` : "";
+    return `x ${right}${unit}, y ${up}${unit}`;
+  }
+}

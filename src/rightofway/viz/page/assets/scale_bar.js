@@ -1,0 +1,36 @@
+"use strict";
+
+const LONGEST_BAR = 130; // pixels
+
+/** The longest round length that a bar of so many pixels has room for [length unit]. */
+function roundLength(perPixel) {
+  const most = LONGEST_BAR * perPixel;
+  const power = 10 ** Math.floor(Math.log10(most));
+  return [5, 2, 1].find((digit) => digit * power <= most) * power;
+}
+
+/** How long a length is on the map, at its lower right corner. */
+function paintScaleBar(context, width, height, plan, { scale }, theme) {
+  const length = roundLength(plan.roadmap.unit / scale);
+  const wide = (length / plan.roadmap.unit) * scale;
+  const [right, bottom] = [width - 18, height - 10];
+  const trace = () => {
+    context.beginPath();
+    context.moveTo(right - wide, bottom - 5);
+    context.lineTo(right - wide, bottom);
+    context.lineTo(right, bottom);
+    context.lineTo(right, bottom - 5);
+    context.stroke();
+  };
+  context.lineJoin = "miter";
+  context.strokeStyle = theme.paper;
+  context.lineWidth = 4;
+  trace();
+  context.strokeStyle = theme.muted;
+  context.lineWidth = 1.5;
+  trace();
+  context.font = theme.font(12);
+  context.textAlign = "right";
+  context.textBaseline = "bottom";
+  haloed(context, plan.quantities.length(Number(length.toPrecision(1))), right, bottom - 6, theme.ink, theme.paper, 3);
+}

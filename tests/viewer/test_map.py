@@ -1,0 +1,174 @@
+"""What the map shows beside its robots: names, lanes, routes, the scale, what is at the pointer."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+import pytest
+
+from rightofway.model import (
+    Edge,
+    Plan,
+    PlannerRun,
+    Robot,
+    Scenario,
+    Stop,
+    Track,
+    Units,
+    roadmap_of_edges,
+)
+from tests.builders.plans import crowd, door, loop
+from tests.viewer.conftest import Opener, Viewer
+
+SIZES = [(1600, 1000), (1280, 720), (390, 844)]
+
+
+def yard() -> Plan:
+    """Return two robots on a roadmap in metres: dock to gate both ways, then round one way."""
+    lengths = {
+        ("dock", "gate"): 4, ("gate", "dock"): 4, ("gate", "press"): 3, ("press", "paint"): 4,
+        ("paint", "dock"): 3,
+    }  # fmt: skip
+    roadmap = roadmap_of_edges(
+        {"dock": (0, 0), "gate": (4, 0), "press": (4, 3), "paint": (0, 3)},
+        [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
+    )
+    robots = (
+        Robot(
+            name="porter", home=roadmap.vertex("dock"), stops=(Stop(at=roadmap.vertex("press")),)
+        ),
+        Robot(name="runner", home=roadmap.vertex("gate"), stops=(Stop(at=roadmap.vertex("dock")),)),
+    )
+    return Plan(
+        scenario=Scenario(roadmap=roadmap, robots=robots, units=Units(length="m", time="s")),
+        tracks=(
+            Track.of([0, 1, 2, 3, 0], [0, 8, 11, 15, 18]),
+            Track.of([1, 0, 1], [0, 4, 8]),
+        ),
+        run=PlannerRun(name="by hand"),
+    )
+
+
+def labels(viewer: Viewer) -> list[dict[str, Any]]:
+    """Return the names on the map, each with its box [pixels]."""
+    viewer.wait_for("!frames.asked")
+    found: list[dict[str, Any]] = viewer.ask("mapView.names.written")
+    return found
+
+
+def overlap(one: list[float], other: list[float]) -> bool:
+    """Return whether two boxes (left, top, right, bottom) share more than an edge."""
+    return (
+        min(one[2], other[2]) - max(one[0], other[0]) > 0.01
+        and min(one[3], other[3]) - max(one[1], other[1]) > 0.01
+    )
+
+
+@pytest.mark.parametrize("plan", [door(), loop(), yard(), crowd(50)])
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_no_name_covers_another(show: Opener, plan: Plan, width: int, height: int) -> None:
+    viewer = show(plan, viewport={"width": width, "height": height})
+    for tick in (0, 3.5, 9, 17.25):
+        viewer.ask(f"clock.seek({tick})")
+        boxes = labels(viewer)
+        assert boxes
+        for one, other in combinations(boxes, 2):
+            assert not overlap(one["box"], other["box"]), (tick, one, other)
+
+
+def test_fifty_robots_have_their_names_at_once(show: Opener) -> None:
+    viewer = show(crowd(50), "#tick=30", viewport={"width": 1600, "height": 1000})
+    named = {label["name"] for label in labels(viewer)}
+    assert (
+        len([name for name in named if name.startswith("Robot ")]) >= 40
+    )  # some stand one over another
+
+
+def test_robots_and_places_of_a_roadmap_have_their_names(show: Opener) -> None:
+    assert {label["name"] for label in labels(show(yard()))} == {
+        "porter", "runner", "dock", "gate", "press", "paint",
+    }  # fmt: skip
+
+
+def test_the_chosen_robot_has_its_name_in_any_crowd(show: Opener) -> None:
+    viewer = show(crowd(1000), "#tick=20&robot=Robot 7")
+    assert "Robot 7" in [label["name"] for label in labels(viewer)]
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_robots_can_be_seen_on_every_screen(show: Opener, width: int, height: int) -> None:
+    viewer = show(crowd(50), viewport={"width": width, "height": height})
+    assert viewer.ask("mapView.sizes.robot") >= 4.5
+    assert viewer.ask("mapView.sizes.home > mapView.sizes.robot")
+
+
+def test_a_small_grid_fills_the_height_of_its_pane(show: Opener) -> None:
+    viewer = show(door(), viewport={"width": 1600, "height": 1000})
+    shown = viewer.ask("3 * mapView.viewport.scale / mapView.canvas.clientHeight")
+    assert shown > 0.8
+
+
+def test_lanes_for_one_way_and_for_both_are_told_apart(show: Opener) -> None:
+    lanes = show(yard()).ask("plan.roadmap.lanes")
+    assert lanes == {"oneWay": [[1, 2], [2, 3], [3, 0]], "bothWays": [[0, 1]]}
+
+
+def test_routes_along_one_way_lie_side_by_side(show: Opener) -> None:
+    viewer = show(door(), "#decision=1")
+    first, second, line = viewer.ask(
+        "[mapView.route.aside(0), mapView.route.aside(1), mapView.sizes.route.line]"
+    )
+    assert second - first > line
+    assert 2 * first > line  # the way back is on the other side of the middle
+
+
+def test_the_scale_bar_is_a_round_length(show: Opener) -> None:
+    viewer = show(yard())
+    per_pixel = viewer.ask("plan.roadmap.unit / mapView.viewport.scale")
+    length = viewer.ask(f"roundLength({per_pixel})")
+    assert f"{length:e}"[0] in "125"
+    assert 50 < length / per_pixel <= 130
+    assert viewer.ask("[0.9, 4, 13].map((width) => roundLength(width / 130))") == [0.5, 2, 10]
+
+
+def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
+    viewer = show(yard(), "#tick=2")
+    box = viewer.page.locator("#map").bounding_box()
+    assert box
+    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
+    unit = viewer.ask("plan.roadmap.unit")
+    x, y = box["x"] + left + 4 / unit * scale, box["y"] + top + 3 / unit * scale  # the press
+    viewer.page.mouse.move(x, y)
+    tip = viewer.page.locator("#hover")
+    assert tip.inner_text().splitlines() == [
+        "press, stop of porter",
+        "next porter, at 11 s",
+        "x 4.00 m, y 3.00 m",
+    ]
+    at = tip.bounding_box()
+    assert at
+    near = min(abs(at["x"] - x), abs(at["x"] + at["width"] - x))
+    assert near < 40
+    viewer.page.mouse.move(box["x"] + left + 2 / unit * scale, box["y"] + top)
+    assert tip.inner_text().splitlines()[:2] == ["runner", "driving to dock, 0 s to 4 s"]
+    viewer.page.mouse.move(box["x"] + box["width"] + 30, 5)
+    assert not tip.is_visible()
+
+
+def test_coordinates_are_those_of_the_site(show: Opener) -> None:
+    viewer = show(yard())
+    assert viewer.ask("plan.roadmap.toSite(0, 0)") == [0, 0]
+    viewer.ask("plan.roadmap.frame = { x: 10, y: 5, yUp: true }")
+    unit = viewer.ask("plan.roadmap.unit")
+    assert viewer.ask(f"plan.roadmap.toSite(4 / {unit}, 3 / {unit})") == [14, 2]
+
+
+def test_a_heat_map_leaves_tools_and_map_where_they_are(show: Opener) -> None:
+    viewer = show(crowd(50), viewport={"width": 1280, "height": 720})
+    where = "[...document.querySelectorAll('.tools, #map')].map((it) => it.getBoundingClientRect().toJSON())"
+    before = viewer.ask(where)
+    viewer.page.keyboard.press("h")
+    assert viewer.page.locator("#heat-legend").is_visible()
+    assert viewer.ask(where) == before
