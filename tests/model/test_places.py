@@ -49,8 +49,8 @@ def test_a_point_of_a_drawn_roadmap_is_the_vertex_at_this_very_point() -> None:
             GRID,
             {"x": 0.2, "y": 0.6},
             (
-                "{x: 0.2, y: 0.6} lies in N3, row 1, column 0, which is blocked by a wall (the nearest"
-                " free cell is N0 at {x: 0.25, y: 0.25}, 0.35 m away)"
+                "{x: 0.2, y: 0.6} lies in N3, row 1, column 0, which is blocked by a wall (the"
+                " nearest free cell is N0 at {x: 0.25, y: 0.25}, 0.35 m away)"
             ),
         ),
         (
