@@ -21,9 +21,18 @@ from itertools import pairwise
 import numpy as np
 
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import Itinerary, Roadmap, Scenario, VertexId
+from rightofway.model import (
+    Itinerary,
+    Plan,
+    PlannerRun,
+    Roadmap,
+    Scenario,
+    Tick,
+    Track,
+    VertexId,
+)
 from rightofway.planners.task import Deadline
-from rightofway.search import Distances, untimed_lacam
+from rightofway.search import Distances, alone_completions, untimed_lacam
 
 EFFORT = 4_000_000
 """Steps of robots in all trials of the deletion filter."""
@@ -203,6 +212,27 @@ def blocking_set(scenario: Scenario, *, seed: int, deadline: Deadline) -> Blocka
             if _is_blocked(scenario, fewer, seed=seed, steps=steps, deadline=deadline):
                 left = fewer
     return _described(scenario, left)
+
+
+def fleet_at_home(scenario: Scenario) -> Plan:
+    """Return a fleet that stays at home, to draw where robots block each other.
+
+    Parameters
+    ----------
+    scenario
+        A fleet that has no plan.
+    """
+    alone = alone_completions(scenario)
+    assert alone is not None, "no time limit was given"
+    return Plan(
+        scenario=scenario,
+        tracks=tuple(Track.of([robot.home], [0]) for robot in scenario.robots),
+        run=PlannerRun(
+            name="none",
+            status="no plan exists",
+            alone=tuple(Tick(max(ticks, 0)) for ticks in alone.tolist()),
+        ),
+    )
 
 
 def _is_blocked(
