@@ -21,9 +21,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
 __all__ = [
+    "Blockage",
     "GaveUp",
     "InputError",
     "InputFault",
@@ -32,9 +33,13 @@ __all__ = [
     "RightOfWayError",
     "is_printable",
     "kernel_limits",
+    "listed",
     "nearest",
     "shown",
 ]
+
+MAX_REASONS = 50
+"""Reasons why no plan exists that a message lists."""
 
 FEW = 4
 """Items of a list that a message shows."""
@@ -112,8 +117,64 @@ def kernel_limits() -> Iterator[None]:
         raise InputError.at(place, message) from limit
 
 
+@dataclass(frozen=True, slots=True)
+class Blockage:
+    """A proven reason why a scenario has no plan.
+
+    Attributes
+    ----------
+    reason
+        Who is blocked, where and why, with a remedy in brackets.
+    robots
+        Names of the robots that it concerns.
+    vertices
+        Names of the vertices that it concerns.
+    """
+
+    reason: str
+    robots: tuple[str, ...]
+    vertices: tuple[str, ...]
+
+
 class NoPlanExists(RightOfWayError):
-    """It is proven that the scenario has no plan; the message says why."""
+    """It is proven that the scenario has no plan; the message says why.
+
+    Parameters
+    ----------
+    reasons
+        A sentence, or every blockage that was found.
+    """
+
+    def __init__(self, reasons: str | Iterable[Blockage]) -> None:
+        found = [Blockage(reasons, (), ())] if isinstance(reasons, str) else reasons
+        self.blockages = tuple(found)
+        super().__init__(self.blockages)
+
+    def __str__(self) -> str:
+        listed = [blockage.reason for blockage in self.blockages[:MAX_REASONS]]
+        more = len(self.blockages) - len(listed)
+        return "\n".join([*listed, *([f"and {more} more"] if more else [])])
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of all robots concerned, each once."""
+        return tuple(dict.fromkeys(name for one in self.blockages for name in one.robots))
+
+    @property
+    def vertices(self) -> tuple[str, ...]:
+        """Names of all vertices concerned, each once."""
+        return tuple(dict.fromkeys(name for one in self.blockages for name in one.vertices))
+
+    def as_dict(self) -> dict[str, object]:
+        """Return the blockages as plain data for JSON."""
+        return {
+            "reasons": [
+                {"reason": one.reason, "robots": list(one.robots), "vertices": list(one.vertices)}
+                for one in self.blockages
+            ],
+            "robots": list(self.robots),
+            "vertices": list(self.vertices),
+        }
 
 
 class GaveUp(RightOfWayError):
@@ -145,6 +206,13 @@ def shown(value: object) -> str:
 def _list_shown(items: list[object] | tuple[object, ...]) -> str:
     is_long = len(items) > FEW or any(isinstance(item, list | tuple) for item in items)
     return f"a list of {len(items)}" if is_long else f"[{', '.join(map(shown, items))}]"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as a sentence has them: ``R1, R2 and R3``, long lists cut."""
+    most = 2 * FEW
+    cut = [*names[: most - 1], f"{len(names) - most + 1} more"] if len(names) > most else names
+    return " and ".join([", ".join(cut[:-1]), cut[-1]] if len(cut) > 1 else cut)
 
 
 def is_printable(text: str) -> bool:

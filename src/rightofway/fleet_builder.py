@@ -25,8 +25,8 @@ from rightofway.model import (
     rounding_step,
     straight_length,
 )
-from rightofway.model.places import Place, as_place, vertex_at
-from rightofway.model.values import COORDINATE_DIGITS, Number, exact
+from rightofway.model.places import as_place, is_cell, vertex_at
+from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
 
 __all__ = ["FleetBuilder"]
@@ -292,11 +292,8 @@ class FleetBuilder:
         roadmap = self.roadmap()
         if roadmap.grid is None and not isinstance(place, str) and str(place) in self._positions:
             place = str(place)
-        found: Place | None = as_place(place)
-        if found is None:
-            kinds = "N<k> or (row, column)" if roadmap.grid else "the name of a vertex"
-            raise InputError.at(key, f"{shown(place)} is no place (give {kinds})")
-        vertex: VertexId = _within(key, vertex_at, roadmap, found)
+        found = _within(key, as_place, place, roadmap)
+        vertex: VertexId = _within(key, vertex_at, roadmap, found, units=self._units)
         return vertex
 
     def _refuse_fixed_map(self, place: str) -> None:
@@ -344,7 +341,7 @@ def _pair(place: str, given: Any) -> tuple[Any, Any]:
 
 def _point(place: str, x: Number, y: Number) -> Point:
     try:
-        return exact(x, digits=COORDINATE_DIGITS), exact(y, digits=COORDINATE_DIGITS)
+        return coordinate(x), coordinate(y)
     except ValueError as error:
         raise InputError.at(place, str(error)) from None
 
@@ -355,7 +352,7 @@ def _place_and_work(stop: Any) -> tuple[Any, Number]:
     A pair of whole numbers is (row, column).
     """
     is_pair = isinstance(stop, list | tuple) and len(stop) == 2  # noqa: PLR2004 (place and work)
-    return (stop[0], stop[1]) if is_pair and as_place(stop) is None else (stop, 0)
+    return (stop[0], stop[1]) if is_pair and not is_cell(stop) else (stop, 0)
 
 
 def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:

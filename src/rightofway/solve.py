@@ -8,6 +8,8 @@ from dataclasses import replace
 from numbers import Integral
 from typing import Any
 
+import numpy as np
+
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
 from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
@@ -162,7 +164,9 @@ def _settled(
 
 
 def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_visit: float) -> Plan:
-    from rightofway.search import alone_completions  # loads the native core: not for help
+    # These load the native core: not for help.
+    from rightofway.planners.impossible import refuse_stranded
+    from rightofway.search import alone_completions
 
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
@@ -174,6 +178,7 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
         alone = alone_completions(task.scenario, time_limit=deadline.seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
+        refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
         least_visits = _least_visits(task.scenario, alone.tolist())
         task = replace(
             task,

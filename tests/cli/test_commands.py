@@ -36,6 +36,23 @@ def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
     assert max(map(len, ended.out.splitlines())) <= 80
 
 
+def test_json_and_page_show_the_robots_that_block_each_other(cli: Cli) -> None:
+    Path("stuck.yaml").write_text(STUCK, encoding="utf-8")
+    ended = cli("plan", "stuck.yaml", "--json", "--show", "stuck.html")
+    reason = (
+        "R1 and R2 block each other: both have to pass N0, N1, N2 and N3 (give more room there)"
+    )
+    assert ended.code == 1
+    assert ended.err.splitlines() == [
+        "wrote stuck.html (it shows where robots are blocked)",
+        f"no plan exists: {reason}",
+    ]
+    found = json.loads(ended.out)["no_plan"]
+    assert found["robots"] == ["R1", "R2"]
+    assert found["vertices"] == ["N0", "N1", "N2", "N3"]
+    assert '"noPlan":{"reasons":' in Path("stuck.html").read_text(encoding="utf-8")
+
+
 def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: Path) -> None:
     ended = cli("plan", door, "--log")
     words = " ".join(ended.out.split())

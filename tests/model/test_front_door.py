@@ -161,7 +161,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a stop that is no place": (
         lambda: door().add_robot("R1", home="N0", stops=["N1", 2.5]),
-        r"robot 'R1': stops\[1\]: 2.5 is no place \(give N<k> or \(row, column\)\)",
+        r"robot 'R1': stops\[1\]: 2.5 is no place \(give N<k>, \[row, column\] or {x, y}\)",
     ),
     "nowhere to go": (
         lambda: door().add_robot("R1", home="N0"),

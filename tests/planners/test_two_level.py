@@ -126,7 +126,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
 def test_where_there_is_no_plan_that_is_proven(occupancy: Any) -> None:
     """A corridor without a bay: nobody can pass."""
     rules = Rules(occupancy=occupancy)
-    with pytest.raises(NoPlanExists, match="no order of moves"):
+    with pytest.raises(NoPlanExists, match="R1 and R2 block each other"):
         solve(grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")], rules=rules))
 
 

@@ -118,7 +118,7 @@ def run(args: Sequence[str] | None = None) -> int:
         return error.exit_code
     except tuple(ENDINGS) as error:
         code, words = next(end for kind, end in ENDINGS.items() if isinstance(error, kind))
-        say(words.format(error))
+        say("\n".join(words.format(line) for line in str(error).splitlines() or [""]))
         return code
     except SystemExit:  # so, and only so, click ends when nobody reads our results
         return UNREAD

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from rightofway.cli.terminal import (
     width,
     writable,
 )
+from rightofway.errors import NoPlanExists
 from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, registered
 
 if TYPE_CHECKING:
@@ -152,7 +154,7 @@ def _run(
     problem = read(source)
     if time_limit is not None:
         time_limit = max(time_limit - (time.monotonic() - began), time_limit / 2)
-    with progress() as report:
+    with no_plan_shown(problem, page, as_json=as_json), progress() as report:
         found = search(
             problem,
             planner,
@@ -181,6 +183,23 @@ def _run(
         return 0
     say(f"the plan still has {judged.summary}; swaps=resolve takes them out")
     return 1
+
+
+@contextmanager
+def no_plan_shown(problem: Any, page: str | None, *, as_json: bool) -> Iterator[None]:
+    """Write why there is no plan as JSON and as a page of the blocked map, where asked for."""
+    try:
+        yield
+    except NoPlanExists as error:
+        if as_json:
+            put_json({"no_plan": error.as_dict()})
+        if page:
+            from rightofway.planners.impossible import fleet_at_home
+            from rightofway.viz import write_page
+
+            write_page(fleet_at_home(problem), page, no_plan=error)
+            say(f"wrote {page} (it shows where robots are blocked)")
+        raise
 
 
 def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:

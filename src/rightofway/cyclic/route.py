@@ -10,13 +10,13 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, InputFault, NoPlanExists
+from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
 from rightofway.planners import planning_headway
+from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
     clear_routes,
     direct_routes,
-    refuse_unreachable,
     shortest_route,
     shortest_routes,
 )
@@ -234,9 +234,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
             continue
         homes = robot_at.keys() - {itinerary.home}
         distances = Distances(_without(scenario.roadmap, homes))
-        try:
-            refuse_unreachable(scenario.robots[robot].name, itinerary, distances)
-        except NoPlanExists:
+        if not reaches_its_places(itinerary, distances):
             continue
         found[robot] = shortest_route(itinerary, distances)
         passed[robot] = set(found[robot].vertices)

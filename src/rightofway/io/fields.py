@@ -26,7 +26,7 @@ from pydantic_core import CoreSchema, core_schema
 from rightofway.errors import is_printable, shown
 from rightofway.model import VertexId
 from rightofway.model.places import as_place
-from rightofway.model.values import COORDINATE_DIGITS, DIGITS, PATTERN, exact
+from rightofway.model.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
 
 MAX_TICK = 2**53 - 1
 """Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""
@@ -107,13 +107,6 @@ def _not_negative(value: object) -> Fraction:
     return number
 
 
-def _coordinate(value: object) -> Fraction:
-    number = exact(value, digits=COORDINATE_DIGITS)
-    if abs(number) > 10**DIGITS:
-        raise ValueError(f"{shown(value)} is out of range (give at most {DIGITS} digits)")
-    return number
-
-
 def _number_schema(**bounds: int) -> Schema:
     pattern = PATTERN.replace("[+-]?", "[+]?" if bounds else "[+-]?", 1)
     return {"anyOf": [{"type": "number", **bounds}, {"type": "string", "pattern": f"^{pattern}$"}]}
@@ -158,7 +151,7 @@ def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kin
 _Pair = tuple[Fraction, Fraction]
 _Four = tuple[Fraction, Fraction, Fraction, Fraction]
 
-Position = Annotated[_Pair, _list_of(2, "[x, y]", _coordinate)]
+Position = Annotated[_Pair, _list_of(2, "[x, y]", coordinate)]
 Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
 Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 
@@ -177,9 +170,7 @@ def _words(value: str) -> str:
 
 def _place(value: object, info: ValidationInfo) -> VertexId:
     """Return the vertex at a place of the map in the context; without one, any vertex."""
-    place = as_place(value)
-    if place is None:
-        raise ValueError(f"{shown(value)} is no place (give N<k>, [row, column] or a vertex name)")
+    place = as_place(value, info.context and info.context.roadmap)
     return info.context.find(place) if info.context else VertexId(0)
 
 
@@ -189,11 +180,19 @@ def _lines(value: object) -> object:
 
 _TEXT: Schema = {"type": "string", "minLength": 1}
 _CELL: Schema = {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2}
+_SPOT: Schema = {
+    "type": "object",
+    "properties": {"x": _ANY, "y": _ANY},
+    "required": ["x", "y"],
+    "additionalProperties": False,
+}
 _TEXTS: Schema = {"type": "array", "items": {"type": "string"}}
 
 Name = Annotated[str, AfterValidator(_name), WithJsonSchema(_TEXT)]
 Words = Annotated[str, AfterValidator(_words)]
-Place = Annotated[VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL]})]
+Place = Annotated[
+    VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL, _SPOT]})
+]
 Lines = Annotated[
     list[str], BeforeValidator(_lines), WithJsonSchema({"anyOf": [{"type": "string"}, _TEXTS]})
 ]

@@ -2,38 +2,125 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
 from numbers import Integral
+from typing import TypeGuard
 
 import numpy as np
 
-from rightofway.errors import InputError, is_printable, nearest, shown
+from rightofway.errors import InputError, InputFault, is_printable, nearest, shown
+from rightofway.model.geometry import Point, squared_distance
+from rightofway.model.quantities import Units, decimal
 from rightofway.model.roadmap import Grid, Roadmap
 from rightofway.model.units import VertexId
+from rightofway.model.values import coordinate, exact
 
-Place = str | tuple[int, int]
-"""``N<k>`` (row-major number) or a vertex name; or (row, column)."""
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A point of the site, ``{x: 1.2, y: 0.8}`` [length unit]."""
+
+    x: Fraction
+    y: Fraction
+
+    def __str__(self) -> str:
+        return f"{{x: {_written(self.x)}, y: {_written(self.y)}}}"
+
+
+Place = str | tuple[int, int] | Spot
+"""``N<k>`` (row-major number) or a vertex name; (row, column); or a point of the site."""
 
 LONGEST_NUMBER = 18
 """Digits that a cell's number may have."""
 
+DECIMALS = 20
+"""A coordinate with more decimals is written as a fraction."""
 
-def as_place(value: object) -> Place | None:
-    """Return a value of a document as a place, or None if it has not the shape of one."""
+
+def as_place(value: object, roadmap: Roadmap | None = None) -> Place:
+    """Return a value of a document as a place.
+
+    Parameters
+    ----------
+    value
+        The value: text, a pair of whole numbers, or a mapping with x and y.
+    roadmap
+        The map that it is for, so that the message knows what may be meant.
+
+    Raises
+    ------
+    InputError
+        If it has not the shape of a place.
+    """
     if isinstance(value, str) and is_printable(value):
         return value
-    if isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_whole, value)):  # noqa: PLR2004 - row and column
+    if is_cell(value):
         row, column = value
         return int(row), int(column)
-    return None
+    if isinstance(value, Mapping):
+        return _spot(value)
+    raise InputError.at("", f"{shown(value)} is no place ({_meant(value, roadmap)})")
+
+
+def is_cell(value: object) -> TypeGuard[tuple[int, int]]:
+    """Return whether a value is a pair of whole numbers: row and column."""
+    return isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_whole, value))  # noqa: PLR2004
 
 
 def _is_whole(value: object) -> bool:
     return isinstance(value, Integral) and not isinstance(value, bool)
 
 
+def _spot(value: Mapping[object, object]) -> Spot:
+    faults = [
+        InputFault("", f"{shown(key)} is no coordinate (give {{x: 1.2, y: 0.8}})")
+        for key in value
+        if key not in {"x", "y"}
+    ]
+    found = {"x": Fraction(0), "y": Fraction(0)}
+    for key in found:
+        if key not in value:
+            faults.append(InputFault(key, "is missing (give {x: 1.2, y: 0.8})"))
+            continue
+        try:
+            found[key] = coordinate(value[key])
+        except ValueError as error:
+            faults.append(InputFault(key, str(error)))
+    if faults:
+        raise InputError(faults)
+    return Spot(**found)
+
+
+def _meant(value: object, roadmap: Roadmap | None) -> str:
+    """Return what the user may have meant by a value that is no place."""
+    labels = roadmap.labels if roadmap else None
+    if _is_whole(value) and str(value) in (labels or ()):
+        return f"did you mean the vertex '{value}'? write it in quotes"
+    if _is_whole(value) and labels is None and not str(value).startswith("-"):
+        return f"did you mean N{value}?"
+    if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 - x and y
+        try:
+            return f"for a point write {Spot(*map(exact, value))}"
+        except ValueError:
+            pass
+    return f"give {kinds_of_places(roadmap)}"
+
+
+def kinds_of_places(roadmap: Roadmap | None) -> str:
+    """Return how places of a roadmap may be written; None for any roadmap."""
+    if roadmap is None:
+        return "N<k>, [row, column], {x, y} or a vertex name"
+    return "N<k>, [row, column] or {x, y}" if roadmap.grid else "the name of a vertex, or {x, y}"
+
+
 def vertex_at(
-    roadmap: Roadmap, place: Place, *, what_blocks: Callable[[int, int], str] | None = None
+    roadmap: Roadmap,
+    place: Place,
+    *,
+    units: Units | None = None,
+    what_blocks: Callable[[int, int], str] | None = None,
 ) -> VertexId:
     """Return the vertex at a place.
 
@@ -42,7 +129,9 @@ def vertex_at(
     roadmap
         The map.
     place
-        The place: ``N<k>`` or (row, column) on a grid, a vertex name on other roadmaps.
+        The place: ``N<k>`` or (row, column) on a grid, a vertex name on other roadmaps; or a point.
+    units
+        Units of lengths in messages.
     what_blocks
         Names what blocks the cell (row, column) of a grid, for the message.
 
@@ -50,26 +139,43 @@ def vertex_at(
     ------
     InputError
         If the place is outside the map, blocked, or not known; with the place and a remedy.
+
+    Notes
+    -----
+    On a grid, a point belongs to the cell that holds it. A point on the border of two cells belongs
+    to the right or, in the drawing, the lower one; one on the border of the map to the cell inside.
+    On a drawn roadmap, a point is the vertex at this very point.
     """
     grid = roadmap.grid
     if grid is None:
+        if isinstance(place, Spot):
+            return _vertex_at_point(place, roadmap, units or Units())
         return _named(place, roadmap)
-    row, column = place if isinstance(place, tuple) else _numbered(place, grid)
+    if isinstance(place, Spot):
+        row, column = _cell_that_holds(place, roadmap, grid)
+    else:
+        row, column = place if isinstance(place, tuple) else _numbered(place, grid)
     if not (0 <= row < grid.rows and 0 <= column < grid.columns):
-        limits = f"rows are 0 to {grid.rows - 1}, columns 0 to {grid.columns - 1}"
-        raise InputError.at("", f"{_written(place)} is outside the map ({limits})")
+        raise InputError.at(
+            "", f"{_named_as(place)} is outside the map ({_limits(place, roadmap, grid)})"
+        )
     vertex = int(grid.vertex_at[row * grid.columns + column])
-    if vertex < 0:
+    if vertex >= 0:
+        return VertexId(vertex)
+    what = what_blocks(row, column) if what_blocks else "a wall"
+    if isinstance(place, Spot):
+        near = _nearest(place, roadmap)
+        at = f" lies in N{row * grid.columns + column}, row {row}, column {column}, which"
+        free = f"the nearest free cell is {_with_distance(near, place, roadmap, units or Units())}"
+    else:
         at = "" if isinstance(place, tuple) else f", row {row}, column {column},"
-        what = what_blocks(row, column) if what_blocks else "a wall"
         free = f"{_free_cell(row, column, grid)} is free"
-        raise InputError.at("", f"{_written(place)}{at} is blocked by {what} ({free})")
-    return VertexId(vertex)
+    raise InputError.at("", f"{_named_as(place)}{at} is blocked by {what} ({free})")
 
 
-def _named(place: Place, roadmap: Roadmap) -> VertexId:
+def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
     if isinstance(place, tuple):
-        message = f"{_written(place)} needs a grid, and this is a roadmap (give a vertex name)"
+        message = f"{_named_as(place)} needs a grid, and this is a roadmap (give a vertex name)"
         raise InputError.at("", message)
     try:
         return roadmap.vertex(place)
@@ -82,16 +188,69 @@ def _named(place: Place, roadmap: Roadmap) -> VertexId:
 def _numbered(place: str, grid: Grid) -> tuple[int, int]:
     number = place[1:]
     if not (place.startswith("N") and number.isascii() and number.isdecimal()):
-        message = f"{shown(place)} is no place on a grid (give N<k> or [row, column])"
-        raise InputError.at("", message)
+        meant = f"N{place.lstrip('nN')}"
+        is_meant = meant[1:].isascii() and meant[1:].isdecimal()
+        hint = f"did you mean {meant}?" if is_meant else "give N<k>, [row, column] or {x, y}"
+        raise InputError.at("", f"{shown(place)} is no place on a grid ({hint})")
     if len(number) > LONGEST_NUMBER or int(number) >= grid.rows * grid.columns:
         last = grid.rows * grid.columns - 1
         raise InputError.at("", f"{shown(place)} is outside the map (cells are N0 to N{last})")
     return divmod(int(number), grid.columns)
 
 
-def _written(place: Place) -> str:
-    return place if isinstance(place, str) else f"[{shown(place[0])}, {shown(place[1])}]"
+def _cell_that_holds(spot: Spot, roadmap: Roadmap, grid: Grid) -> tuple[int, int]:
+    """Return row and column of the cell that holds a point; also of cells outside the map."""
+    x, y = roadmap.frame.to_plane((spot.x, spot.y))
+    half = Fraction(1, 2)  # the plane's (0, 0) is the centre of the first cell
+    right, down = x / grid.cell_size + half, y / grid.cell_size + half
+    return (
+        grid.rows - 1 if down == grid.rows else int(down // 1),
+        grid.columns - 1 if right == grid.columns else int(right // 1),
+    )
+
+
+def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
+    """Return which places a grid has."""
+    if not isinstance(place, Spot):
+        return f"rows are 0 to {grid.rows - 1}, columns 0 to {grid.columns - 1}"
+    size = grid.cell_size
+    first = roadmap.frame.to_site((-size / 2, -size / 2))
+    last = roadmap.frame.to_site(
+        ((grid.columns - Fraction(1, 2)) * size, (grid.rows - Fraction(1, 2)) * size)
+    )
+    (left, right), (low, high) = (sorted(pair) for pair in zip(first, last, strict=True))
+    return f"x is {_written(left)} to {_written(right)}, y {_written(low)} to {_written(high)}"
+
+
+def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
+    x, y = roadmap.frame.to_plane((spot.x, spot.y))
+    found = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
+    if len(found) == 1:
+        return VertexId(found[0])
+    if found:
+        names = ", ".join(repr(roadmap.name(vertex)) for vertex in found)
+        raise InputError.at("", f"{spot} is the point of {names} (give one of these names)")
+    near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
+    raise InputError.at("", f"no vertex is at {spot} (the nearest is {near})")
+
+
+def _nearest(spot: Spot, roadmap: Roadmap) -> int:
+    """Return the vertex nearest to a point."""
+    x, y = roadmap.frame.to_plane((spot.x, spot.y))
+    gaps = roadmap.positions - (float(x), float(y))
+    return int(np.argmin(np.hypot(gaps[:, 0], gaps[:, 1])))
+
+
+def _with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> str:
+    """Return a vertex with its point and its distance from a point."""
+    point: Point = roadmap.point(vertex)
+    away = float(squared_distance(point, (spot.x, spot.y))) ** 0.5
+    name = roadmap.name(vertex) if roadmap.grid else repr(roadmap.name(vertex))
+    return f"{name} at {Spot(*point)}, {units.written_length(away)} away"
+
+
+def _named_as(place: Place) -> str:
+    return f"[{shown(place[0])}, {shown(place[1])}]" if isinstance(place, tuple) else str(place)
 
 
 def _free_cell(row: int, column: int, grid: Grid) -> str:
@@ -99,3 +258,9 @@ def _free_cell(row: int, column: int, grid: Grid) -> str:
     rows, columns = np.divmod(grid.cells, grid.columns)
     nearest_vertex = int(np.argmin(np.abs(rows - row) + np.abs(columns - column)))
     return f"N{int(grid.cells[nearest_vertex])}"
+
+
+def _written(coordinate: Fraction) -> str:
+    """Return a coordinate exactly."""
+    text = decimal(coordinate, DECIMALS)
+    return text if Fraction(text) == coordinate else str(coordinate)

@@ -73,6 +73,10 @@ class Units:
         """Length of the length unit [m], or None where it is not known."""
         return None if self.length is None else METRES[self.length]
 
+    def written_length(self, value: Value) -> str:
+        """Return a length: ``0.45 m``, ``0.45 length units``."""
+        return f"{decimal(value)} {self.length}" if self.length else _counted(value, "length unit")
+
 
 def decimal(value: Value, digits: int = DIGITS) -> str:
     """Return a number as a person writes it.
@@ -170,8 +174,7 @@ class Quantities:
 
     def length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
-        unit = self.units.length
-        return f"{decimal(value)} {unit}" if unit else _counted(value, "length unit")
+        return self.units.written_length(value)
 
     def speed(self, value: Value) -> str:
         """Return a speed: ``1.2 m/s``; a bare number where the scenario names no units."""

@@ -60,6 +60,14 @@ def exact(value: object, *, digits: int = DIGITS) -> Fraction:
         raise ValueError(f"{shown(value)} divides by zero (give another denominator)") from None
 
 
+def coordinate(value: object) -> Fraction:
+    """Return a coordinate exactly, as `exact` does; its decimals may be as many as a float has."""
+    number = exact(value, digits=COORDINATE_DIGITS)
+    if abs(number) > 10**DIGITS:
+        raise ValueError(f"{shown(value)} is out of range (give at most {DIGITS} digits)")
+    return number
+
+
 def _in_range(number: Fraction, value: object, digits: int) -> Fraction:
     if max(abs(number.numerator), number.denominator) > 10**digits:
         raise _out_of_range(value, digits)

@@ -26,7 +26,11 @@ from numpy.typing import NDArray
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Track, VertexId, route_through
-from rightofway.planners.routing import refuse_shared_ends, refuse_the_impossible
+from rightofway.planners.impossible import (
+    blocking_set,
+    refuse_stranded,
+    refuse_the_impossible,
+)
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Distances, plan_by_lacam, untimed_lacam
@@ -49,7 +53,7 @@ def lacam(task: Task) -> Draft:
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads`` tells whether robots prefer paths spread before."""
     scenario = task.scenario
-    refuse_shared_ends(scenario)
+    refuse_stranded(scenario, ())
     robots, share = len(scenario.robots), SHARE_OF_TIME
     try:
         tracks = plan_by_lacam(
@@ -66,7 +70,12 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     if tracks is None:
         task.report("no end by instants: planning the order of moves without clocks")
         left = task.deadline.seconds_left()
-        steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+        try:
+            steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+        except NoPlanExists:
+            task.report("no plan exists: looking for the robots that block each other")
+            found = blocking_set(scenario, seed=task.seed, deadline=task.deadline)
+            raise NoPlanExists([found]) from None
         tracks, status = timetable_of(scenario, steps), "order of moves first"
     task.has_plan()
     return Draft(tracks=tuple(tracks), status=status)

@@ -20,10 +20,10 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway.model import Scenario, Stop, flowtime_of
+from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
-from rightofway.planners.routing import refuse_shared_ends, refuse_unreachable
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
-from rightofway.search import Distances, FleetSearch
+from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
@@ -58,11 +58,8 @@ def prioritized(task: Task) -> Draft:
 def fleet_search(task: Task) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
     scenario = task.scenario
-    refuse_shared_ends(scenario)
     search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
-    for robot in np.flatnonzero(search.alone() < 0).tolist():
-        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
-        refuse_unreachable(name, itinerary, Distances(scenario.roadmap))
+    refuse_stranded(scenario, np.flatnonzero(search.alone() < 0).tolist())
     return search
 
 

@@ -1,4 +1,4 @@
-"""Where each robot goes, chosen one robot at a time, and proofs that there can be no plan."""
+"""Where each robot goes, chosen one robot at a time."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import pairwise
 
-from rightofway.errors import NoPlanExists
 from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
+from rightofway.planners.impossible import refuse_the_impossible
 from rightofway.planners.task import Task
 from rightofway.search import Congestion, Distances
 
@@ -96,39 +96,3 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
     """Yield the place before each stage and the place of the stage."""
     return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
-
-
-def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
-    """Raise if no plan exists for one of two simple reasons.
-
-    Raises
-    ------
-    NoPlanExists
-        If a robot cannot get to a place, or two would have to stay at one for ever.
-    """
-    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
-        refuse_unreachable(robot.name, itinerary, distances)
-    refuse_shared_ends(scenario)
-
-
-def refuse_shared_ends(scenario: Scenario) -> None:
-    """Raise `NoPlanExists` if two robots would have to stay at one vertex for ever."""
-    holders: dict[VertexId, str] = {}
-    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
-        holder = holders.setdefault(itinerary.last, robot.name)
-        if holder != robot.name:
-            place = scenario.roadmap.name(itinerary.last)
-            raise NoPlanExists(
-                f"{holder} and {robot.name} would both have to stay at {place} for ever"
-                " (let one of them end elsewhere)"
-            )
-
-
-def refuse_unreachable(name: str, itinerary: Itinerary, distances: Distances) -> None:
-    """Raise `NoPlanExists` if a robot has no way from one place of its trip to the next."""
-    place, roadmap = itinerary.home, distances.roadmap
-    for stage in itinerary.stages:
-        if distances.to(stage.vertex, itinerary.edge_ticks)[place] < 0:
-            ends = f"from {roadmap.name(place)} to {roadmap.name(stage.vertex)}"
-            raise NoPlanExists(f"{name} has no way {ends} (join the two parts of the map)")
-        place = stage.vertex

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ from rightofway.model import (
     Obstacle,
     Point,
     Roadmap,
+    Units,
     VertexId,
     cluster,
     decimal,
@@ -49,16 +50,20 @@ class LoadedMap:
     floor: Floor | None = None  # that the grid was cut from
     file: Path | None = None  # that the grid was read from
     rounding: str | None = None  # how many lengths are rounded up, and to which step
+    units: Units = field(default_factory=Units)
 
     def find(self, place: Place) -> VertexId:
         """Return the vertex at a place, or raise an InputError that says what is there."""
 
         def what_blocks(row: int, column: int) -> str:
             grid, floor = self.roadmap.grid, self.floor
-            obstacle = _obstacle(row, column, floor, grid) if floor and grid else ""
-            return obstacle or repr(self.lines[row][column])
+            if floor is None or grid is None:
+                return repr(self.lines[row][column])
+            if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
+                row = grid.rows - 1 - row
+            return _obstacle(row, column, floor, grid)
 
-        return vertex_at(self.roadmap, place, what_blocks=what_blocks)
+        return vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
 
 
 def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
@@ -72,7 +77,7 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
             and row * size < it.y + it.height
         ):
             return it.name or f"obstacles[{index}]"
-    return ""
+    raise AssertionError("an obstacle blocked the cell")
 
 
 def map_of(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import cycle
 from pathlib import Path
@@ -122,7 +122,8 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
-        return map_of(checked(MapDocument, data), speeds, base)
+        found = map_of(checked(MapDocument, data), speeds, base)
+        return found and replace(found, units=units)
 
     document = checked_format(document, SCENARIO_FORMAT)
     faults = Faults()

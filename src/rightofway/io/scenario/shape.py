@@ -28,9 +28,10 @@ from rightofway.io.fields import (
     optional,
 )
 from rightofway.model import Occupancy, TripEnd, VertexId
+from rightofway.model.places import kinds_of_places
 from rightofway.model.quantities import LengthUnit, TimeUnit
 
-PLACES = "N<k>, [row, column] or a vertex name"
+PLACES = kinds_of_places(None)
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
 RETURN = "home, or none"
 WORK = "work time there [time unit], 0 by default"

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 
+from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.payload import payload_of
@@ -41,7 +42,11 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 
 
 def page_of(
-    plan: Plan, *, steady: Sequence[SteadyState] = (), actual: ExecutionTrace | None = None
+    plan: Plan,
+    *,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
+    no_plan: NoPlanExists | None = None,
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
 
@@ -54,6 +59,8 @@ def page_of(
         repeats one endlessly.
     actual
         An execution of the plan: the page shows it beside the plan.
+    no_plan
+        Why the fleet has no plan; ``plan`` then holds every robot at its home.
 
     Returns
     -------
@@ -74,7 +81,7 @@ def page_of(
     count = len(plan.scenario.robots)
     title = html.escape(f"{count} robot{'s' * (count != 1)}, planned by {plan.run.name}")
     allowed = " ".join(map(_hash, scripts))
-    payload = payload_of(plan, steady=steady, actual=actual)
+    payload = payload_of(plan, steady=steady, actual=actual, no_plan=no_plan)
     parts = {
         "title": title.encode("ascii", "xmlcharrefreplace").decode(),
         "policy": "default-src 'none'; img-src data:; "
@@ -93,12 +100,13 @@ def write_page(
     *,
     steady: Sequence[SteadyState] = (),
     actual: ExecutionTrace | None = None,
+    no_plan: NoPlanExists | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
     ----------
-    plan, steady, actual
+    plan, steady, actual, no_plan
         As for `page_of`.
     path
         Where, usually ``….html``.
@@ -108,7 +116,7 @@ def write_page(
     InputError
         As for `page_of`, or if the file cannot be written.
     """
-    write_whole(path, page_of(plan, steady=steady, actual=actual))
+    write_whole(path, page_of(plan, steady=steady, actual=actual, no_plan=no_plan))
 
 
 def frame_of(

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, NoPlanExists
 from rightofway.metrics import Metrics, measure, waits
 from rightofway.metrics.waits import waits_in
 from rightofway.model import (
@@ -22,6 +22,7 @@ from rightofway.model import (
     ExecutionTrace,
     Plan,
     Roadmap,
+    Scenario,
     Stays,
     SteadyState,
     Tick,
@@ -41,13 +42,17 @@ DECIMALS = 3
 
 
 def payload_of(
-    plan: Plan, *, steady: Sequence[SteadyState] = (), actual: ExecutionTrace | None = None
+    plan: Plan,
+    *,
+    steady: Sequence[SteadyState] = (),
+    actual: ExecutionTrace | None = None,
+    no_plan: NoPlanExists | None = None,
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
-    plan, steady, actual
+    plan, steady, actual, no_plan
         As for `page_of`; times in the result are ticks.
 
     Raises
@@ -84,7 +89,19 @@ def payload_of(
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
     if actual is not None:
         payload["floor"] = _execution(plan, actual, trips)
+    if no_plan is not None:
+        payload["noPlan"] = _no_plan(scenario, no_plan)
     return payload
+
+
+def _no_plan(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
+    """Return why there is no plan, with the robots and vertices that block each other."""
+    robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
+    return {
+        "reasons": [blockage.reason for blockage in no_plan.blockages],
+        "robots": [robot_of[name] for name in no_plan.robots],
+        "vertices": [int(scenario.roadmap.vertex(name)) for name in no_plan.vertices],
+    }
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:

@@ -1,0 +1,284 @@
+"""Proofs that a fleet has no plan: who is blocked, where and why.
+
+A robot may have no way to a place; two may have to stay at one vertex for ever; or robots block
+each other whatever they do. The last is proven by the search of LaCAM for an order of moves, and a
+deletion filter then takes out every robot without which the proof still holds.
+
+References
+----------
+Chinneck & Dravnieks, *Locating minimal infeasible constraint sets in linear programs*, ORSA Journal
+on Computing 3, 1991 (the deletion filter).
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
+from rightofway.model import (
+    Itinerary,
+    Plan,
+    PlannerRun,
+    Roadmap,
+    Scenario,
+    Tick,
+    Track,
+    VertexId,
+)
+from rightofway.planners.task import Deadline
+from rightofway.search import Distances, alone_completions, untimed_lacam
+
+EFFORT = 4_000_000
+"""Steps of robots in all trials of the deletion filter."""
+
+MOST_TRIALS = 200
+"""Trials that the effort is divided by, at most."""
+
+LARGEST_SET, LARGEST_MAP = 6, 20_000
+"""Narrow places are looked for only for so few robots, on maps of so few vertices."""
+
+
+def refuse_the_impossible(scenario: Scenario, distances: Distances) -> None:
+    """Raise if no plan exists for one of two simple reasons.
+
+    Raises
+    ------
+    NoPlanExists
+        If robots cannot get to a place, or would have to stay at one vertex for ever; with all.
+    """
+    stranded = [
+        robot
+        for robot, itinerary in enumerate(scenario.problem.itineraries)
+        if not reaches_its_places(itinerary, distances)
+    ]
+    refuse_stranded(scenario, stranded)
+
+
+def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
+    """Raise `NoPlanExists` if some robots have no way to a place, or robots share an end.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    stranded
+        The robots that have no way to a place.
+    """
+    found = [*_missing_ways(scenario, stranded), *_shared_ends(scenario)]
+    if found:
+        raise NoPlanExists(found)
+
+
+def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
+    """Return whether a robot has a way from each place of its trip to the next."""
+    return next(_legs_without_a_way(itinerary, distances), None) is None
+
+
+def _legs_without_a_way(
+    itinerary: Itinerary, distances: Distances
+) -> Iterator[tuple[VertexId, VertexId]]:
+    places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
+    for tail, head in dict.fromkeys(pairwise(places)):
+        if distances.to(head, itinerary.edge_ticks)[tail] < 0:
+            yield tail, head
+
+
+def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
+    """Yield where several robots would have to stay at one vertex for ever."""
+    holders: defaultdict[VertexId, list[str]] = defaultdict(list)
+    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
+        holders[itinerary.last].append(robot.name)
+    for vertex, names in holders.items():
+        if len(names) > 1:
+            place = scenario.roadmap.name(vertex)
+            all_of_them, others = ("both", "one of them") if len(names) == 2 else ("all", "others")  # noqa: PLR2004
+            yield Blockage(
+                f"{listed(names)} would {all_of_them} have to stay at {place} for ever"
+                f" (let {others} end elsewhere)",
+                tuple(names),
+                (place,),
+            )
+
+
+class _Parts:
+    """The parts of a map that no edge joins, and its edges in both directions."""
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self.roadmap = roadmap
+        self.searches = 0
+        self._of: dict[int, frozenset[int]] = {}
+
+    def of(self, vertex: int) -> frozenset[int]:
+        """Return the part that holds a vertex."""
+        if vertex not in self._of:
+            ends = [*self.ends, *((head, tail) for tail, head in self.ends)]
+            part = frozenset(_reached(vertex, ends))
+            self._of.update(dict.fromkeys(part, part))
+        return self._of[vertex]
+
+    @cached_property
+    def ends(self) -> list[tuple[int, int]]:
+        """Tail and head of each edge."""
+        roadmap = self.roadmap
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        return list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
+
+    def opening(self, tail: int, head: int) -> tuple[int, int] | None:
+        """Return a one-way edge that, driven both ways, would lead from ``tail`` to ``head``.
+
+        None if there is none, or after as many searches as a message has lines.
+        """
+        self.searches += 1
+        if self.searches > MAX_REASONS:
+            return None
+        ends = self.ends
+        before = _reached(tail, ends)
+        after = _reached(head, [(end, begin) for begin, end in ends])
+        return next((edge for edge in ends if edge[0] in after and edge[1] in before), None)
+
+
+def _reached(start: int, ends: Iterable[tuple[int, int]], closed: Collection[int] = ()) -> set[int]:
+    """Return the vertices that can be reached along edges, none of them closed."""
+    heads: defaultdict[int, list[int]] = defaultdict(list)
+    for tail, head in ends:
+        heads[tail].append(head)
+    found, waiting = {start}, [start]
+    while waiting:
+        for head in heads[waiting.pop()]:
+            if head not in found and head not in closed:
+                found.add(head)
+                waiting.append(head)
+    return found
+
+
+def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
+    """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
+    place, parts, distances = scenario.roadmap.name, _Parts(scenario.roadmap), None
+    for robot in stranded:
+        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
+        home_part = parts.of(itinerary.home)
+        stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
+        elsewhere = [place(vertex) for vertex in stages if vertex not in home_part]
+        if elsewhere:
+            reason = (
+                f"{name} has no way from {place(itinerary.home)} to {listed(elsewhere)}: the map is"
+                " in parts that no edge joins (join them, or give the robot other places)"
+            )
+            yield Blockage(reason, (name,), (place(itinerary.home), *elsewhere))
+            continue
+        distances = distances or Distances(scenario.roadmap)
+        for tail, head in _legs_without_a_way(itinerary, distances):
+            opening = parts.opening(tail, head)
+            if opening:
+                first, last = map(place, opening)
+                why = f"the edge from {first} to {last} is one way (let robots drive it both ways"
+            else:
+                why = "one-way edges are the reason (let robots drive more of them both ways"
+            reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
+            reason += " or give the robot other places)"
+            yield Blockage(reason, (name,), (place(tail), place(head)))
+
+
+def blocking_set(scenario: Scenario, *, seed: int, deadline: Deadline) -> Blockage:
+    """Return a small set of robots that have no plan, given that the whole fleet has none.
+
+    Parameters
+    ----------
+    scenario
+        A fleet that is proven to have no plan.
+    seed
+        For the search.
+    deadline
+        When to stop taking robots out.
+
+    Notes
+    -----
+    Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
+    no trial without one of its robots ended undecided.
+    """
+    left = list(range(len(scenario.robots)))
+    steps = max(EFFORT // (len(left) * min(len(left), MOST_TRIALS)), 1)
+    size = len(left)
+    while size > 1:
+        size = -(-size // 2)
+        for begin in range(0, len(left), size)[::-1]:
+            fewer = left[:begin] + left[begin + size :]
+            if _is_blocked(scenario, fewer, seed=seed, steps=steps, deadline=deadline):
+                left = fewer
+    return _described(scenario, left)
+
+
+def fleet_at_home(scenario: Scenario) -> Plan:
+    """Return a fleet that stays at home, to draw where robots block each other.
+
+    Parameters
+    ----------
+    scenario
+        A fleet that has no plan.
+    """
+    alone = alone_completions(scenario)
+    assert alone is not None, "no time limit was given"
+    return Plan(
+        scenario=scenario,
+        tracks=tuple(Track.of([robot.home], [0]) for robot in scenario.robots),
+        run=PlannerRun(
+            name="none",
+            status="no plan exists",
+            alone=tuple(Tick(max(ticks, 0)) for ticks in alone.tolist()),
+        ),
+    )
+
+
+def _is_blocked(
+    scenario: Scenario, robots: Sequence[int], *, seed: int, steps: int, deadline: Deadline
+) -> bool:
+    """Return whether it is proven that some robots of a fleet have no plan."""
+    if not robots:
+        return False
+    left = deadline.seconds_left()
+    fleet = replace(scenario, robots=tuple(scenario.robots[robot] for robot in robots))
+    try:
+        untimed_lacam(fleet.problem, seed=seed, time_limit=left, most_steps=steps)
+    except NoPlanExists:
+        return True
+    except GaveUp:
+        return False
+    return False
+
+
+def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
+    roadmap, names = scenario.roadmap, tuple(scenario.robots[robot].name for robot in robots)
+    blocked = f"{listed(names)} block each other"
+    if len(names) < len(scenario.robots):
+        blocked += ", whatever the other robots do"
+    narrow = [roadmap.name(vertex) for vertex in _narrow_places(scenario, robots)]
+    if narrow:
+        passing = f"{'both' if len(names) == 2 else 'all of them'} have to pass {listed(narrow)}"  # noqa: PLR2004
+        return Blockage(f"{blocked}: {passing} (give more room there)", names, tuple(narrow))
+    itineraries = [scenario.problem.itineraries[robot] for robot in robots]
+    ends = dict.fromkeys(roadmap.name(end) for one in itineraries for end in (one.home, one.last))
+    return Blockage(f"{blocked} (give more room, or other places)", names, tuple(ends))
+
+
+def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
+    """Return the vertices that each of some robots has to pass or to go to, in their order."""
+    if len(robots) > LARGEST_SET or scenario.roadmap.n_vertices > LARGEST_MAP:
+        return []
+    distances, ends = Distances(scenario.roadmap), _Parts(scenario.roadmap).ends
+    common: dict[VertexId, None] | None = None
+    for robot in robots:
+        itinerary = scenario.problem.itineraries[robot]
+        places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
+        passed = dict.fromkeys(places)
+        for tail, head in dict.fromkeys(pairwise(places)):
+            for vertex in distances.path(tail, head, itinerary.edge_ticks):
+                if vertex not in passed and head not in _reached(tail, ends, {vertex}):
+                    passed[vertex] = None
+        common = passed if common is None else dict.fromkeys(v for v in common if v in passed)
+    return sorted(common or ())

@@ -1,0 +1,80 @@
+"""Points, frames and floors of scenario documents."""
+
+from typing import Any
+
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.io import Loaded, dump_scenario, scenario_of
+from rightofway.io.scenario.reader import read_scenario
+
+TABLE = {"name": "table", "rect": [1, 0, 1, 1]}
+
+
+def loaded(shape: dict[str, Any], **robot: Any) -> Loaded:
+    robots = [{"name": "R1", "speed": 1, **robot}]
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    return read_scenario({**document, "units": {"length": "m"}}, None)
+
+
+def floor(**keys: Any) -> dict[str, Any]:
+    return {"floor": {"size": [3, 2.5], "obstacles": [TABLE]}, **keys}
+
+
+@pytest.mark.parametrize("speed", [1, 2, 3, "7/3"])
+def test_a_home_on_a_floor_does_not_depend_on_the_speed(speed: Any) -> None:
+    home = {"x": 2.6, "y": 1.4}
+    scenario = loaded(floor(), home=home, target={"x": 0, "y": 0}, speed=speed).scenario
+    x, y = scenario.roadmap.point(scenario.robots[0].home)
+    size = scenario.roadmap.lengths[0]
+    assert abs(float(x) - 2.6) <= size / 2
+    assert abs(float(y) - 1.4) <= size / 2
+
+
+def test_a_floor_is_cut_from_the_corner_that_coordinates_begin_at() -> None:
+    """2.5 m hold two cells of 1 m: what is left lies below, and above where y grows upwards."""
+    trip = {"home": {"x": 0, "y": 0}, "target": {"x": 2, "y": 1}}
+    downwards = loaded(floor(), **trip).scenario.roadmap
+    upwards = loaded(floor(y="up"), **trip).scenario.roadmap
+    assert downwards.grid is not None
+    assert upwards.grid is not None
+    assert downwards.grid.lines() == (".@.", "...")
+    assert upwards.grid.lines() == ("...", ".@.")
+    assert downwards.point(0) == upwards.point(upwards.vertex("N3"))
+
+
+@pytest.mark.parametrize("y", ["up", "down"])
+def test_an_origin_moves_places_and_obstacles_alike(y: str) -> None:
+    """The lower left corner of the floor is at (-10, 5); its least y is 2.5 where y points down."""
+    low = 5 if y == "up" else 2.5
+    table = {**TABLE, "rect": [-9, low, 1, 1]}
+    shape = {"floor": {"size": [3, 2.5], "obstacles": [table]}, "y": y, "origin": [-10, 5]}
+    there = {"home": {"x": -9.9, "y": low + 0.1}, "target": {"x": -7.1, "y": low + 1.9}}
+    here = {"home": {"x": 0.1, "y": 0.1}, "target": {"x": 2.9, "y": 1.9}}
+    moved, plain = loaded(shape, **there).scenario, loaded(floor(y=y), **here).scenario
+    assert moved.robots == plain.robots
+    assert moved.roadmap != plain.roadmap
+    assert scenario_of(dump_scenario(moved)) == moved
+
+
+def test_what_blocks_a_point_on_a_floor_is_named() -> None:
+    with pytest.raises(InputError) as caught:
+        loaded(floor(y="up"), home={"x": 1.5, "y": 0.5}, target="N0")
+    assert str(caught.value) == (
+        "robots[0].home: {x: 1.5, y: 0.5} lies in N4, row 1, column 1, which is blocked by table"
+        " (the nearest free cell is N1 at {x: 1.5, y: 1.5}, 1 m away)"
+    )
+
+
+def test_a_roadmap_has_no_origin() -> None:
+    shape = {"roadmap": {"vertices": {"a": [0, 0]}, "edges": []}, "origin": [1, 1]}
+    with pytest.raises(InputError, match="origin is given with a roadmap, whose vertices have"):
+        loaded(shape, home="a", target="a")
+
+
+def test_lengths_that_are_no_fractions_are_rounded_up_with_a_note() -> None:
+    vertices = {"a": [0, 0], "b": [1.1, 1.3], "c": [3, 4]}
+    edges = [["a", "b"], ["a", "c"], ["b", "c", 7]]
+    found = loaded({"roadmap": {"vertices": vertices, "edges": edges}}, home="a", target="c")
+    assert found.notes[0] == "1 of 3 lengths rounded up to 0.001 m"
+    assert [str(length) for length in found.scenario.roadmap.lengths] == ["1703/1000", "5", "7"]
