@@ -7,17 +7,17 @@ from fractions import Fraction
 
 import click
 
-from rightofway.cli.planning import refuse_outputs, write
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     progress,
     put_json,
+    put_report,
     read_scenario,
     say,
     seed_option,
     time_limit_option,
-    writable,
 )
 
 EXAMPLES = """\b
@@ -61,10 +61,8 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
               help="With --rule timetable: share of the laps it makes alone that each robot must"
               " make, 0 to 1.")  # fmt: skip
 @seed_option
-@click.option("-o", "--output", metavar="PLAN", callback=writable(),
-              help="Write whole laps as a plan; - for standard output.")  # fmt: skip
-@click.option("--page", metavar="FILE", callback=writable(".html"),
-              help="Write a page that plays the laps.")  # fmt: skip
+@plan_output_option("whole laps as a plan")
+@page_option("the laps")
 @as_json_option("result")
 def laps(
     *,
@@ -97,7 +95,7 @@ def laps(
     if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
     problem = read_scenario(scenario)
-    with progress() as report:
+    with progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(
                 problem,
@@ -112,7 +110,7 @@ def laps(
     if as_json:
         put_json(laps_data(run))
     elif output != "-":
-        click.echo(laps_report(run))
+        put_report(laps_report(run))
     if page:
         from rightofway.viz import write_page
 

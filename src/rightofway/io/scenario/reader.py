@@ -51,7 +51,7 @@ class Loaded:
     notes: tuple[str, ...] = ()
 
 
-def load(path: Path | str) -> Scenario:
+def load(path: Path | str, count: int | None = None) -> Scenario:
     """Return the scenario of a file.
 
     Parameters
@@ -59,28 +59,41 @@ def load(path: Path | str) -> Scenario:
     path
         A scenario as YAML or JSON; or a `.scen` file, which is classic MAPF: unit speeds, no work,
         no turning, no way back, the map beside it or in ``../maps``.
+    count
+        Number of robots: the first rows of a `.scen` file; None for all. Other files say
+        themselves how many robots they have.
 
     Raises
     ------
     InputError
         With every independent fault, its place, value and remedy.
     """
-    return load_with_notes(path).scenario
+    return load_with_notes(path, count).scenario
 
 
-def load_with_notes(path: Path | str) -> Loaded:
+def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """Return the scenario of a file with the notes of its reader; otherwise as `load`.
 
     Parameters
     ----------
     path
         A scenario as YAML or JSON, or a `.scen` file.
+    count
+        As for `load`.
     """
     path = Path(path)
     with blaming(str(path)):
         if path.suffix.lower() == ".scen":
-            return _classic(path)
+            return _classic(path, count)
+        refuse_count(count)
         return read_scenario(read_document(path), path.parent)
+
+
+def refuse_count(count: int | None) -> None:
+    """Refuse a number of robots for a file that is no list of starts and goals."""
+    if count is not None:
+        message = f"the count {count} is for a .scen file, and this is none (leave it out)"
+        raise InputError.at("", message)
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -145,8 +158,8 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
 
 
-def _classic(path: Path) -> Loaded:
-    """Return the scenario of all rows of a `.scen` file."""
+def _classic(path: Path, count: int | None) -> Loaded:
+    """Return the scenario of the first rows of a `.scen` file, or of all."""
     map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
     beside = [Path(map_name), Path("..", "maps", map_name)]
     found = next((each for each in beside if (path.parent / each).is_file()), None)
@@ -156,7 +169,7 @@ def _classic(path: Path) -> Loaded:
     document = {
         "format": SCENARIO_FORMAT,
         "map": {"file": str(found)},
-        "robots": {"scen": path.name},
+        "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
         "rules": {"turn": 0, "return": "none"},
     }
     try:
