@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.completion import files
 from rightofway.cli.terminal import as_json_option, put_json, say, writable
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("suite", type=click.Path())
+@click.argument("suite", type=click.Path(), shell_complete=files(".toml"))
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
               callback=writable(".csv", ".parquet"),
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip

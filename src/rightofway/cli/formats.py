@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
+from rightofway.cli.completion import SCENARIOS, files
 from rightofway.cli.terminal import count_option, put_json, read_scenario, say, writable
 from rightofway.errors import InputError
 
@@ -24,7 +25,7 @@ SUFFIXES = (".yaml", ".yml", ".json", ".scen")
 
 
 @click.command(epilog=EXAMPLES, short_help="Write a scenario in another format.")
-@click.argument("source", type=click.Path())
+@click.argument("source", type=click.Path(), shell_complete=files(*SCENARIOS))
 @click.argument("target", type=click.Path(), required=False, callback=writable(*SUFFIXES))
 @count_option
 @click.option("-o", "--output", metavar="TARGET", callback=writable(*SUFFIXES),

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import click
 
+from rightofway.cli.completion import SCENARIOS, files
 from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     ListingCommand,
@@ -50,7 +51,7 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
     epilog=EXAMPLES,
     short_help="Find the cycle time of a fleet that repeats its work.",
 )
-@click.argument("scenario", type=click.Path())
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @click.option("--rule", metavar="RULE", default="first-come", show_default=True,
               help="Rule that gives the right of way; see below.")  # fmt: skip
 @click.option("--routes", metavar="ROUTES",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.completion import PLANS, SCENARIOS, files, planner_options, planners
 from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     ListingCommand,
@@ -82,8 +83,10 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
     options: list[Callable[[Callable[..., Any]], Callable[..., Any]]] = [
         plan_output_option("the plan"),
         click.option("--planner", default=planner, show_default=True, metavar="NAME",
+                     shell_complete=planners(improving=planner == IMPROVER),
                      help="Planner to use; see below."),
         click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
+                     shell_complete=planner_options,
                      help="Set an option of the planner; may be repeated."),
         time_limit_option,
         seed_option,
@@ -103,7 +106,7 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 
 
 @click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
-@click.argument("scenario", type=click.Path())
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @count_option
 @_planning_options(DEFAULT)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
@@ -118,7 +121,7 @@ def plan(*, scenario: str, count: int | None, **given: Any) -> int:
 
 
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @_planning_options(IMPROVER)
 def improve(*, plan: str, **given: Any) -> int:
     """Improve a PLAN of any planner, and check the result.
@@ -139,7 +142,7 @@ Examples:
 
 
 @click.command(epilog=BOUND_EXAMPLES, short_help="Print the lower bounds of all plans.")
-@click.argument("scenario", type=click.Path())
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @count_option
 @as_json_option("bounds")
 def bound(*, scenario: str, count: int | None, as_json: bool) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.completion import PLANS, files
 from rightofway.cli.outputs import page_option
 from rightofway.cli.terminal import (
     COLUMNS,
@@ -60,7 +61,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
     epilog=EXAMPLES,
     short_help="Execute a PLAN many times with robots that are late.",
 )
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @click.option("--delays", multiple=True, metavar="DELAYS",
               help="Kinds of delays, see below; or a file with a list of them. May be repeated."
               "  [default: exponential:0.2]")  # fmt: skip

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.completion import PLANS, SCENARIOS, files
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import (
     as_json_option,
@@ -50,7 +51,8 @@ Examples:
 
 
 @click.command(epilog=CHECK_EXAMPLES)
-@click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...")
+@click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...",
+                shell_complete=files(*PLANS))  # fmt: skip
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
               help="Faults to list for each plan; all are counted.")  # fmt: skip
 @as_json_option("report")
@@ -100,7 +102,8 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 
 
 @click.command(epilog=SHOW_EXAMPLES, short_help="Show a plan as a page, a picture or a film.")
-@click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO")
+@click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
 @count_option
 @click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
               help="File to write: a page (.html), a picture (.png) or a film (.gif); - prints the"
