@@ -29,12 +29,12 @@ SUFFIXES = (".yaml", ".yml", ".json", ".scen")
 @click.argument("target", type=click.Path(), required=False, callback=writable(*SUFFIXES))
 @count_option
 @click.option("-o", "--output", metavar="TARGET", callback=writable(*SUFFIXES),
-              help="File to write, instead of the argument TARGET; - prints YAML.")  # fmt: skip
+              help="File to write, the same as the argument TARGET; - prints YAML.")  # fmt: skip
 def convert(source: str, target: str | None, count: int | None, output: str | None) -> None:
-    """Write the scenario SOURCE as TARGET: .yaml, .json, or .scen with its .map beside it.
+    """Write the scenario SOURCE as .yaml, .json, or .scen with its .map beside it.
 
-    A .yaml or .json holds its map, so that it needs no other file. A .scen holds no speeds, work,
-    turning and ways home; the command reports which of these it left out.
+    A .yaml or .json file contains the map. A .scen file has no speeds, work times, turning times
+    and ways home; the command reports which of these it left out.
     """
     from rightofway.io import scenario_text, write_scenario
 

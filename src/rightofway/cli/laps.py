@@ -59,8 +59,8 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
 @click.option("--least-fairness", metavar="SHARE", default="0", show_default=True, callback=_share,
-              help="With --rule timetable: share of the laps it makes alone that each robot must"
-              " make, 0 to 1.")  # fmt: skip
+              help="With --rule timetable: least laps of each robot, as a share (0 to 1) of the"
+              " laps that it makes without the others.")  # fmt: skip
 @seed_option
 @plan_output_option("whole laps as a plan")
 @page_option("the laps")

@@ -56,7 +56,7 @@ def _list_planners(specs: Iterable[PlannerSpec], formatter: click.HelpFormatter)
     for spec in specs:
         lines.append((spec.name, spec.summary))
         lines += [(f"  {option.name}={option.accepts}", option.summary) for option in spec.options]
-    with formatter.section("Planners and their options"):
+    with formatter.section("Planners and their options, with the defaults first"):
         formatter.write_dl(lines)
 
 

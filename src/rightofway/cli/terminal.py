@@ -224,6 +224,14 @@ def _seconds(_context: click.Context, _parameter: click.Parameter, given: float)
     return None if given == math.inf else given
 
 
+def _seed(_context: click.Context, _parameter: click.Parameter, given: int) -> int:
+    from rightofway.solve import LARGEST_SEED
+
+    if not 0 <= given <= LARGEST_SEED:
+        raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")
+    return given
+
+
 time_limit_option = click.option(
     "--time-limit",
     type=float,
@@ -231,7 +239,7 @@ time_limit_option = click.option(
     show_default=True,
     callback=_seconds,
     metavar="SECONDS",
-    help="Limit of the whole computation; inf for none.",
+    help="Time limit of the whole command; inf for none.",
 )
 
 count_option = click.option(
@@ -239,16 +247,17 @@ count_option = click.option(
     "--count",
     type=click.IntRange(1),
     metavar="K",
-    help="Of a .scen file, take the first K robots; all by default.",
+    help="Take the first K robots of a .scen file; all by default.",
 )
 
 seed_option = click.option(
     "--seed",
-    type=click.IntRange(0, 2**32 - 1),
+    type=int,
     default=0,
     show_default=True,
+    callback=_seed,
     metavar="N",
-    help="Seed of all random choices.",
+    help="Seed of all random choices; the same seed gives the same result.",
 )
 
 

@@ -106,14 +106,14 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
                 shell_complete=files(*SCENARIOS))  # fmt: skip
 @count_option
 @click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
-              help="File to write: a page (.html), a picture (.png) or a film (.gif); - prints the"
-              " page.")  # fmt: skip
+              help="Write a page (.html), picture (.png) or film (.gif); - prints the page.",
+              )  # fmt: skip
 @click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
-              help="Write a page that plays the plan (.html), also beside a picture or a film.",
+              help="Write a page that plays the plan (.html).",
               )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0), metavar="TICK",
-              help="Tick that a picture shows; the start by default.")  # fmt: skip
-@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under a picture.")
+              help="Tick that the picture shows; the start by default.")  # fmt: skip
+@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 def show(
     *,
     plan: str,
