@@ -34,6 +34,9 @@ MAX_TICKS = 2**40
 
 DEFAULT_SPEED = Fraction(1)
 
+CLASSIC = Rules(turn=Fraction(0), ends="none")
+"""The rules of the classic benchmark: robots need not turn, and stay at their targets."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loaded:
@@ -128,6 +131,11 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     )
 
     def rules_of(data: Any) -> Rules:
+        if data == "classic":
+            return CLASSIC
+        if isinstance(data, str):
+            remedy = "give classic, or a mapping like {headway: 1}"
+            raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
 
@@ -170,7 +178,7 @@ def _classic(path: Path, count: int | None) -> Loaded:
         "format": SCENARIO_FORMAT,
         "map": {"file": str(found)},
         "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
-        "rules": {"turn": 0, "return": "none"},
+        "rules": "classic",
     }
     try:
         return read_scenario(document, path.parent)
