@@ -210,13 +210,14 @@ def _run(
         raise click.UsageError(f"{words} is for people, --json for programs: choose one")
     refuse_outputs(source, output, as_json=as_json)
     problem = read(source)
+    left = time_limit  # for planning [s]
     if time_limit is not None:
-        time_limit = max(time_limit - (time.monotonic() - began), time_limit / 2)
-    with progress(time_limit) as report:
+        left = max(time_limit - (time.monotonic() - began), time_limit / 2)
+    with progress(time_limit, began) as report:
         found = search(
             problem,
             planner,
-            time_limit,
+            left,
             seed,
             options=options,
             report=report,

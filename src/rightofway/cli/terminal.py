@@ -93,16 +93,17 @@ def json_text(value: Any) -> str:
 
 
 @contextmanager
-def progress(limit: float | None = None) -> Iterator[Callable[[str], None]]:
+def progress(limit: float | None = None, since: float | None = None) -> Iterator[Callable[[str], None]]:
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
 
-    The line begins with the time since the start, and the time limit [s] if there is one:
+    The line begins with the time since the command began, and the time limit [s] if there is one:
     ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second.
     """
     if quiet() or not sys.stderr.isatty():
         yield lambda _: None
         return
-    began, latest, ended = time.monotonic(), [""], threading.Event()
+    began = time.monotonic() if since is None else since
+    latest, ended = [""], threading.Event()
     of = "" if limit is None else f" of {decimal(limit)}"
 
     def show(message: str) -> None:
