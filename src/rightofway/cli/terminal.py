@@ -93,7 +93,9 @@ def json_text(value: Any) -> str:
 
 
 @contextmanager
-def progress(limit: float | None = None, since: float | None = None) -> Iterator[Callable[[str], None]]:
+def progress(
+    limit: float | None = None, since: float | None = None
+) -> Iterator[Callable[[str], None]]:
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
 
     The line begins with the time since the command began, and the time limit [s] if there is one:
