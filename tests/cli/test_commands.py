@@ -114,7 +114,7 @@ def test_a_plan_goes_to_a_file_or_to_standard_output_and_only_there(cli: Cli, do
 )
 def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> None:
     path = EXAMPLES / f"{example}.yaml"
-    assert cli("plan", path, "-o", "plan.json", "--show", "page.html").code == 0
+    assert cli("plan", path, "-o", "plan.json", "--page", "page.html").code == 0
     ended = cli("check", "plan.json")
     assert (ended.code, "no fault" in ended.out) == (0, True)
     assert Path("page.html").read_text(encoding="utf-8").startswith("<!doctype html>")
@@ -123,7 +123,7 @@ def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> N
 @pytest.mark.parametrize("more", [["--planner", "two-level"], ["--option", "iterations=500"]])
 def test_the_same_input_gives_the_same_bytes(cli: Cli, more: list[str]) -> None:
     for name in ("a", "b"):
-        written = ["-o", f"{name}.json", "--show", f"{name}.html"]
+        written = ["-o", f"{name}.json", "--page", f"{name}.html"]
         cli("plan", EXAMPLES / "warehouse.yaml", *written, *more)
     for suffix in (".json", ".html"):
         assert Path(f"a{suffix}").read_bytes() == Path(f"b{suffix}").read_bytes()
@@ -172,13 +172,13 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", EXAMPLES / "door.yaml", "--time-limit", "nan"], "nan is not positive (give"),
         (["plan", "nowhere.yaml", "-o", "no/plan.json"], "there is no directory 'no'"),
         (["plan", "nowhere.yaml", "-o", "."], "'.' is a directory"),
-        (["plan", "nowhere.yaml", "-o", "./nowhere.yaml"], "would replace nowhere.yaml"),
-        (["plan", "nowhere.yaml", "--show", "page.png"], "'page.png' does not end in .html or"),
+        (["improve", "nowhere.json", "-o", "./nowhere.json"], "would replace nowhere.json"),
+        (["plan", "nowhere.yaml", "--page", "page.png"], "'page.png' does not end in .html or"),
         (["plan", "nowhere.yaml", "-o", "-", "--log"], "--log and -o - both go to standard output"),
         (["plan", "nowhere.yaml", "-o", "-", "--json"], "--json and -o - both go to"),
         (["plan", "nowhere.yaml", "--json", "--table"], "--table is for people, --json for"),
         (["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"], "--tick and --diagram are for"),
-        (["plan", EXAMPLES / "door.yaml", "--show", "no/page.html"], "no/page.html"),
+        (["plan", EXAMPLES / "door.yaml", "--page", "no/page.html"], "no/page.html"),
         (["show", EXAMPLES / "door.yaml", "-o", "door.jpg"], "'door.jpg' does not end in .html,"),
         (["table", EXAMPLES / "door.yaml"], "is a scenario, not a plan (plan it first)"),
         (["schema", "robot"], "'robot' is not one of"),

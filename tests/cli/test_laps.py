@@ -106,7 +106,7 @@ def test_time_that_runs_out_ends_with_3_and_says_what_was_seen(cli: Cli) -> None
         (["--rule", "last-come"], "'last-come' is not one of"),
         (["--time-limit", "0"], "0 is not positive"),
         (["-o", "-", "--json"], "both go to standard output"),
-        (["--page", "l.json"], "'l.json' does not end in .html (give a name that does)"),
+        (["--page", "l.json"], "'l.json' does not end in .html or .htm (give a name that does)"),
     ],
 )
 def test_bad_use_ends_with_2(cli: Cli, door: Path, args: list[str], message: str) -> None:

@@ -3,21 +3,34 @@
 from __future__ import annotations
 
 import sys
+import time
 
 import pytest
 
 from rightofway.cli.terminal import CLEAR, progress
 
 
-def test_a_terminal_shows_the_latest_sentence_in_one_line(
+def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     monkeypatch.setenv("COLUMNS", "20")
-    with progress() as report:
+    times = iter([100, 100, 103.14])
+    monkeypatch.setattr(time, "monotonic", lambda: next(times))
+    with progress(10) as report:
         report("flowtime 19")
         report("flowtime 18 and more than fits")
-    assert capsys.readouterr().err == f"{CLEAR}flowtime 19{CLEAR}flowtime 18 and mor{CLEAR}"
+    shown = capsys.readouterr().err
+    assert shown == f"{CLEAR}0.0 of 10 s, flowti{CLEAR}3.1 of 10 s, flowti{CLEAR}"
+
+
+def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with progress(10):
+        time.sleep(0.7)
+    assert capsys.readouterr().err == f"{CLEAR}0.5 of 10 s{CLEAR}"
 
 
 def test_a_file_gets_none_of_it(capsys: pytest.CaptureFixture[str]) -> None:

@@ -167,7 +167,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         "type octile\nheight 2\nwidth 3\nmap\n..@\n...\n"
     )
     assert (tmp_path / "a.scen").read_text(encoding="utf-8") == (
-        "version 1\n0\ta.map\t3\t2\t0\t0\t2\t1\t0\n0\ta.map\t3\t2\t1\t1\t1\t0\t0\n"
+        "version 1\n0\ta.map\t3\t2\t0\t0\t2\t1\t3\n0\ta.map\t3\t2\t1\t1\t1\t0\t1\n"
     )
     assert load(tmp_path / "a.scen") == scenario
 
@@ -179,6 +179,18 @@ def test_what_a_scen_cannot_say_is_told(tmp_path: Path) -> None:
         "work times are left out",
         "ways back and laps are left out; .scen robots stay at their goals",
     )
+
+
+def test_the_optimal_length_counts_moves_whatever_the_cells_and_speeds(tmp_path: Path) -> None:
+    """Two robots with one target, 3 moves away for the first and 1 for the second."""
+    fleet = grid_fleet(["....", "...."], [("N0", "N3"), ("N7", "N3")], speeds=[Fraction(1, 3)] * 2)
+    write_scen(fleet, tmp_path / "a.scen", map_name="a.map")
+    assert [
+        line.split("\t")[-1] for line in (tmp_path / "a.scen").read_text().splitlines()[1:]
+    ] == [
+        "3",
+        "1",
+    ]
 
 
 def test_several_stops_and_roadmaps_fit_in_no_movingai_file(tmp_path: Path) -> None:

@@ -66,6 +66,14 @@ def test_decimals_of_files_are_exact(tmp_path: Path) -> None:
         assert load(tmp_path / name).robots[0].speed == Fraction(1, 10)
 
 
+def test_classic_rules_are_those_of_the_benchmark() -> None:
+    assert scenario_of(one_robot() | {"rules": "classic"}).rules == Rules(
+        turn=Fraction(0), ends="none"
+    )
+    with pytest.raises(InputError, match=r"rules: 'clasic' is no name of rules \(give classic, or"):
+        scenario_of(one_robot() | {"rules": "clasic"})
+
+
 def test_rules_and_what_a_robot_decides_for_itself() -> None:
     rules = {"occupancy": "both", "headway": "1/2", "turn": "cell", "return": "none"}
     own = {"turn": 0, "return": "home", "laps": 2}

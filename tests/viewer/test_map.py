@@ -167,7 +167,8 @@ def test_coordinates_are_those_of_the_site(show: Opener) -> None:
 
 def test_a_heat_map_leaves_tools_and_map_where_they_are(show: Opener) -> None:
     viewer = show(crowd(50), viewport={"width": 1280, "height": 720})
-    where = "[...document.querySelectorAll('.tools, #map')].map((it) => it.getBoundingClientRect().toJSON())"
+    box = "[...document.querySelectorAll('.tools, #map')].map((it) =>"
+    where = f"{box} it.getBoundingClientRect().toJSON())"
     before = viewer.ask(where)
     viewer.page.keyboard.press("h")
     assert viewer.page.locator("#heat-legend").is_visible()

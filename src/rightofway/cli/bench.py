@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.completion import files
 from rightofway.cli.terminal import as_json_option, put_json, say, writable
 
 if TYPE_CHECKING:
@@ -22,14 +23,14 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("suite", type=click.Path())
+@click.argument("suite", type=click.Path(), shell_complete=files(".toml"))
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
               callback=writable(".csv", ".parquet"),
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
 @click.option("--report", metavar="REPORT", callback=writable(".html", ".md"),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), metavar="N",
-              help="Cases that run at a time; all cores by default.")  # fmt: skip
+              help="Number of cases that run at a time; by default one for each core.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS",
               help="Run on a cluster: the address of a Dask scheduler.")  # fmt: skip
 @as_json_option("summary")
@@ -44,8 +45,8 @@ def bench(
 ) -> int:
     """Run every case of a SUITE (TOML), each in a process of its own.
 
-    Prints for each planner how many cases it solves, how well and how fast. An interrupted run goes
-    on when the same command is given again. Exit code 1 if a plan was wrong.
+    Prints for each planner the number of solved cases, the cost and the time. The same command
+    continues an interrupted run. Exit code 1 if a plan has faults.
     """
     from rightofway.bench import Results, need, read_suite, write_report
 

@@ -7,6 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import click
+from click.shell_completion import CompletionItem
 
 import rightofway
 from rightofway.cli.terminal import say, writable
@@ -52,8 +53,15 @@ def new(file: str) -> None:
     say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
 
 
+def _complete_name(
+    _context: click.Context, _parameter: click.Parameter, incomplete: str
+) -> list[CompletionItem[str]]:
+    names = example_names()
+    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+
+
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=_complete_name)
 @click.option("-o", "--output", metavar="FILE", callback=writable(),
               help="Write the example NAME to this file, and the maps that it needs beside it.",
               )  # fmt: skip

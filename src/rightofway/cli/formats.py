@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from rightofway.cli.terminal import put_json, read_scenario, say, writable
+from rightofway.cli.completion import SCENARIOS, files
+from rightofway.cli.terminal import count_option, put_json, read_scenario, say, writable
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:
@@ -15,29 +16,39 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\b
 Examples:
-  rightofway convert examples/warehouse.yaml warehouse.json
-  rightofway convert maze.scen maze.yaml
-  rightofway convert hall.yaml hall.scen
+  rightofway convert examples/warehouse.yaml -o warehouse.json
+  rightofway convert maze.scen -k 50 -o maze.yaml
+  rightofway convert hall.yaml -o hall.scen
 """
+
+SUFFIXES = (".yaml", ".yml", ".json", ".scen")
 
 
 @click.command(epilog=EXAMPLES, short_help="Write a scenario in another format.")
-@click.argument("source", type=click.Path())
-@click.argument("target", type=click.Path(), callback=writable(".yaml", ".yml", ".json", ".scen"))
-def convert(source: str, target: str) -> None:
-    """Write the scenario SOURCE as TARGET: .yaml, .json, or .scen with its .map beside it.
+@click.argument("source", type=click.Path(), shell_complete=files(*SCENARIOS))
+@click.argument("target", type=click.Path(), required=False, callback=writable(*SUFFIXES))
+@count_option
+@click.option("-o", "--output", metavar="TARGET", callback=writable(*SUFFIXES),
+              help="File to write, the same as the argument TARGET; - prints YAML.")  # fmt: skip
+def convert(source: str, target: str | None, count: int | None, output: str | None) -> None:
+    """Write the scenario SOURCE as .yaml, .json, or .scen with its .map beside it.
 
-    A .yaml or .json holds its map, so that it needs no other file. A .scen holds no speeds, work,
-    turning and ways home; the command reports which of these it left out.
+    A .yaml or .json file contains the map. A .scen file has no speeds, work times, turning times
+    and ways home; the command reports which of these it left out.
     """
-    from rightofway.io import write_scenario
+    from rightofway.io import scenario_text, write_scenario
 
-    scenario = read_scenario(source)
-    if Path(target).suffix.lower() == ".scen":
-        _write_pair(scenario, Path(target))
+    if (target is None) == (output is None):
+        raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
+    path = target or output or ""
+    scenario = read_scenario(source, count)
+    if path == "-":
+        click.echo(scenario_text(scenario), nl=False)
+    elif Path(path).suffix.lower() == ".scen":
+        _write_pair(scenario, Path(path))
     else:
-        write_scenario(scenario, target)
-        say(f"wrote {target}")
+        write_scenario(scenario, path)
+        say(f"wrote {path}")
 
 
 def _write_pair(scenario: Scenario, path: Path) -> None:

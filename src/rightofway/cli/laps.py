@@ -7,17 +7,18 @@ from fractions import Fraction
 
 import click
 
-from rightofway.cli.planning import refuse_outputs, write
+from rightofway.cli.completion import SCENARIOS, files
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     progress,
     put_json,
+    put_report,
     read_scenario,
     say,
     seed_option,
     time_limit_option,
-    writable,
 )
 
 EXAMPLES = """\b
@@ -50,7 +51,7 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
     epilog=EXAMPLES,
     short_help="Find the cycle time of a fleet that repeats its work.",
 )
-@click.argument("scenario", type=click.Path())
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @click.option("--rule", metavar="RULE", default="first-come", show_default=True,
               help="Rule that gives the right of way; see below.")  # fmt: skip
 @click.option("--routes", metavar="ROUTES",
@@ -58,13 +59,11 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
 @click.option("--least-fairness", metavar="SHARE", default="0", show_default=True, callback=_share,
-              help="With --rule timetable: share of the laps it makes alone that each robot must"
-              " make, 0 to 1.")  # fmt: skip
+              help="With --rule timetable: least laps of each robot, as a share (0 to 1) of the"
+              " laps that it makes without the others.")  # fmt: skip
 @seed_option
-@click.option("-o", "--output", metavar="PLAN", callback=writable(),
-              help="Write whole laps as a plan; - for standard output.")  # fmt: skip
-@click.option("--page", metavar="FILE", callback=writable(".html"),
-              help="Write a page that plays the laps.")  # fmt: skip
+@plan_output_option("whole laps as a plan")
+@page_option("the laps")
 @as_json_option("result")
 def laps(
     *,
@@ -97,7 +96,7 @@ def laps(
     if rule == TIMETABLE and routes:
         raise click.UsageError("--rule timetable chooses routes itself (leave out --routes)")
     problem = read_scenario(scenario)
-    with progress() as report:
+    with progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(
                 problem,
@@ -112,7 +111,7 @@ def laps(
     if as_json:
         put_json(laps_data(run))
     elif output != "-":
-        click.echo(laps_report(run))
+        put_report(laps_report(run))
     if page:
         from rightofway.viz import write_page
 

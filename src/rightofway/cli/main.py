@@ -18,6 +18,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import NoReturn
 
 import click
@@ -27,11 +28,14 @@ from rightofway.cli.bench import bench
 from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
-from rightofway.cli.planning import improve, plan
+from rightofway.cli.planning import bound, improve, plan
 from rightofway.cli.simulate import simulate
-from rightofway.cli.terminal import say, speak_utf8
+from rightofway.cli.terminal import complain, quiet_option, speak_utf8
 from rightofway.cli.views import check, show, table
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
+
+MANY = 1000
+"""Characters of the longest sentence of help, which is not cut."""
 
 DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
 
@@ -41,12 +45,41 @@ class _Session:
     debug: bool = False
 
 
+GROUPS: dict[str, tuple[click.Command, ...]] = {
+    "Begin": (new, examples),
+    "Plan": (plan, improve, bound),
+    "Look at plans": (check, show, table),
+    "Repeated work and delays": (laps, simulate),
+    "Compare planners": (bench,),
+    "Formats": (convert, schema),
+}
+"""The commands, by what they are for, in the order of help."""
+
+
+class _Commands(click.Group):
+    """The commands, listed by what they are for."""
+
+    def format_commands(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write a section for each group; no sentence is cut."""
+        width = max(map(len, self.commands))
+        for title, group in GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl(
+                    [
+                        (f"{command.name:{width}}", command.get_short_help_str(MANY))
+                        for command in group
+                    ]
+                )
+
+
 @click.group(
     name="rightofway",
+    cls=_Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Start with:  rightofway plan examples/door.yaml --show door.html",
+    epilog="Start with:  rightofway plan examples/door.yaml --page door.html",
 )
-@click.version_option(__version__, prog_name="rightofway")
+@click.version_option(__version__, "-V", "--version", prog_name="rightofway")
+@quiet_option
 @click.option("--debug", is_flag=True, help="Show where an unexpected error comes from.")
 @click.pass_context
 def commands(context: click.Context, *, debug: bool) -> None:
@@ -59,21 +92,8 @@ def commands(context: click.Context, *, debug: bool) -> None:
     context.ensure_object(_Session).debug = debug
 
 
-for command in (
-    new,
-    examples,
-    plan,
-    improve,
-    check,
-    laps,
-    simulate,
-    show,
-    table,
-    convert,
-    bench,
-    schema,
-):
-    commands.add_command(command)
+for command in chain.from_iterable(GROUPS.values()):
+    commands.add_command(quiet_option(command))
 
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
@@ -118,12 +138,14 @@ def run(args: Sequence[str] | None = None) -> int:
         return error.exit_code
     except tuple(ENDINGS) as error:
         code, words = next(end for kind, end in ENDINGS.items() if isinstance(error, kind))
-        say("\n".join(words.format(line) for line in str(error).splitlines() or [""]))
+        complain("\n".join(words.format(line) for line in str(error).splitlines() or [""]))
         return code
-    except SystemExit:  # so, and only so, click ends when nobody reads our results
-        return UNREAD
+    except SystemExit as end:  # click ends so when no program reads our results, or to complete
+        return UNREAD if end.code else DONE
     except OSError as error:
-        say(f"{error.filename or 'standard output'}: {error.strerror or error} (check the path)")
+        complain(
+            f"{error.filename or 'standard output'}: {error.strerror or error} (check the path)"
+        )
         return BAD_INPUT
     except Exception as error:  # noqa: BLE001 (whatever else goes wrong is a defect of ours)
         _confess(error, debug=session.debug)
@@ -132,6 +154,6 @@ def run(args: Sequence[str] | None = None) -> int:
 
 def _confess(error: Exception, *, debug: bool) -> None:
     if debug:
-        say("".join(traceback.format_exception(error)).rstrip("\n"))
+        complain("".join(traceback.format_exception(error)).rstrip("\n"))
     what = " ".join([f"{type(error).__name__}:", *str(error).split()])
-    say(f"unexpected {what} (please report it; `rightofway --debug …` says more)")
+    complain(f"unexpected {what} (please report it; `rightofway --debug …` says more)")

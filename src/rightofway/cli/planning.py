@@ -1,26 +1,33 @@
-"""``rightofway plan`` and ``rightofway improve``: a checked plan out."""
+"""``rightofway plan`` and ``improve``: a checked plan out; ``bound``: what no plan can beat."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
+from dataclasses import asdict
+from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.completion import PLANS, SCENARIOS, files, planner_options, planners
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
 from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
+    complain,
+    count_option,
     progress,
     put_json,
+    put_report,
     read_scenario,
     say,
     seed_option,
+    short,
     time_limit_option,
     width,
-    writable,
 )
 from rightofway.errors import NoPlanExists
 from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, registered
@@ -34,7 +41,7 @@ Planning ends so much earlier, so that the time limit holds for the whole comman
 
 PLAN_EXAMPLES = """\b
 Examples:
-  rightofway plan examples/door.yaml --show door.html
+  rightofway plan examples/door.yaml --page door.html
   rightofway plan examples/warehouse.yaml -o plan.json --log
   rightofway plan examples/door.yaml --planner two-level --option swaps=leave
 """
@@ -51,7 +58,7 @@ def _list_planners(specs: Iterable[PlannerSpec], formatter: click.HelpFormatter)
     for spec in specs:
         lines.append((spec.name, spec.summary))
         lines += [(f"  {option.name}={option.accepts}", option.summary) for option in spec.options]
-    with formatter.section("Planners and their options"):
+    with formatter.section("Planners and their options, with the defaults first"):
         formatter.write_dl(lines)
 
 
@@ -76,16 +83,16 @@ def _options(
 def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return a decorator that adds the options of `_run` to a command."""
     options: list[Callable[[Callable[..., Any]], Callable[..., Any]]] = [
-        click.option("-o", "--output", metavar="PLAN", callback=writable(),
-                     help="Write the plan to this file (JSON); - for standard output."),
+        plan_output_option("the plan"),
         click.option("--planner", default=planner, show_default=True, metavar="NAME",
+                     shell_complete=planners(improving=planner == IMPROVER),
                      help="Planner to use; see below."),
         click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
+                     shell_complete=planner_options,
                      help="Set an option of the planner; may be repeated."),
         time_limit_option,
         seed_option,
-        click.option("--show", "page", metavar="PAGE", callback=writable(".html", ".htm"),
-                     help="Write a page that plays the plan (HTML)."),
+        page_option("the plan"),
         click.option("--log", is_flag=True,
                      help="Print every decision: which robot waits, where and why."),
         click.option("--table", is_flag=True, help="Print the time/space table."),
@@ -101,9 +108,10 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 
 
 @click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
-@click.argument("scenario", type=click.Path())
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
+@count_option
 @_planning_options(DEFAULT)
-def plan(*, scenario: str, **given: Any) -> int:
+def plan(*, scenario: str, count: int | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
 
     Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
@@ -111,11 +119,11 @@ def plan(*, scenario: str, **given: Any) -> int:
     """
     from rightofway.solve import solve
 
-    return _run(scenario, read_scenario, solve, **given)
+    return _run(scenario, partial(read_scenario, count=count), solve, **given)
 
 
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @_planning_options(IMPROVER)
 def improve(*, plan: str, **given: Any) -> int:
     """Improve a PLAN of any planner, and check the result.
@@ -126,6 +134,58 @@ def improve(*, plan: str, **given: Any) -> int:
     from rightofway.solve import improve as improved
 
     return _run(plan, load_plan, improved, **given)
+
+
+BOUND_EXAMPLES = """\b
+Examples:
+  rightofway bound examples/door.yaml
+  rightofway bound maze.scen -k 100 --json
+"""
+
+
+@click.command(epilog=BOUND_EXAMPLES, short_help="Print the lower bounds of all plans.")
+@click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
+@count_option
+@as_json_option("bounds")
+def bound(*, scenario: str, count: int | None, as_json: bool) -> None:
+    """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
+
+    They follow from the time at which each robot would be done if it were alone. A SCENARIO of - is
+    standard input.
+    """
+    from rightofway.cli.plan_report import MAX_LINES
+    from rightofway.metrics import alone_completions
+
+    problem = read_scenario(scenario, count)
+    alone, names = alone_completions(problem), [robot.name for robot in problem.robots]
+    if as_json:
+        robots = [{"name": name, "alone": ticks} for name, ticks in zip(names, alone, strict=True)]
+        flowtime, makespan = sum(alone), max(alone)
+        units = {key: value for key, value in asdict(problem.units).items() if value}
+        put_json(
+            {
+                "tick": str(problem.problem.clock.tick),
+                "units": units,
+                "lower_bound": {"flowtime": flowtime, "makespan": makespan},
+                "robots": robots,
+            }
+        )
+        return
+    q = problem.quantities
+    column = max(len("robot"), *(len(short(name)) for name in names[:MAX_LINES]))
+    lines = [
+        f"flowtime  at least {q.duration(sum(alone))}",
+        f"makespan  at least {q.duration(max(alone))}",
+        "",
+        f"{'robot':{column}}  {q.heading('alone')}",
+    ]
+    times = [q.cell(ticks) for ticks in alone]
+    width = max(map(len, [q.heading("alone"), *times]))
+    rows = zip(names, times, strict=True)
+    lines += [f"{short(name):{column}}  {text:>{width}}" for name, text in islice(rows, MAX_LINES)]
+    if len(names) > MAX_LINES:
+        lines.append(f"… and {len(names) - MAX_LINES} more robots (--json lists all)")
+    put_report("\n".join(lines))
 
 
 def _run(
@@ -152,13 +212,14 @@ def _run(
         raise click.UsageError(f"{words} is for people, --json for programs: choose one")
     refuse_outputs(source, output, as_json=as_json)
     problem = read(source)
+    left = time_limit  # for planning [s]
     if time_limit is not None:
-        time_limit = max(time_limit - (time.monotonic() - began), time_limit / 2)
-    with no_plan_shown(problem, page, as_json=as_json), progress() as report:
+        left = max(time_limit - (time.monotonic() - began), time_limit / 2)
+    with no_plan_shown(problem, page, as_json=as_json), progress(time_limit, began) as report:
         found = search(
             problem,
             planner,
-            time_limit,
+            left,
             seed,
             options=options,
             report=report,
@@ -181,7 +242,7 @@ def _run(
     judged = check(found)
     if judged.ok:
         return 0
-    say(f"the plan still has {judged.summary}; swaps=resolve takes them out")
+    complain(f"the plan still has {judged.summary}; swaps=resolve takes them out")
     return 1
 
 
@@ -202,35 +263,16 @@ def no_plan_shown(problem: Any, page: str | None, *, as_json: bool) -> Iterator[
         raise
 
 
-def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:
-    """Refuse two documents on standard output, and an output that would replace the source."""
-    if output == "-" and as_json:
-        raise click.UsageError("--json and -o - both go to standard output")
-    if output and output != "-" and Path(output).resolve() == Path(source).resolve():
-        raise click.UsageError(f"-o {output} would replace {source} (give another name)")
-
-
-def write(found: Plan, output: str | None) -> None:
-    """Write a plan to a file, to standard output, or nowhere."""
-    from rightofway.io import plan_text, write_plan
-
-    if output == "-":
-        click.echo(plan_text(found).rstrip("\n"))
-    elif output:
-        write_plan(found, output)
-        say(f"wrote {output}")
-
-
 def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
     from rightofway.cli.plan_report import decision_log, summary, summary_data
 
     if as_json:
         put_json(summary_data(found))
         return
-    click.echo(summary(found))
+    put_report(summary(found))
     if log:
-        click.echo("\n" + decision_log(found))
+        put_report("\n" + decision_log(found))
     if table:
         from rightofway.viz.table import as_text, table_of
 
-        click.echo("\n" + as_text(table_of(found), width()))
+        put_report("\n" + as_text(table_of(found), width()))

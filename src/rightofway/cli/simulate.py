@@ -7,18 +7,23 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.completion import PLANS, files
+from rightofway.cli.outputs import page_option
 from rightofway.cli.terminal import (
     COLUMNS,
     ListingCommand,
     as_json_option,
+    json_text,
     progress,
     put_json,
+    put_report,
     row,
     say,
     seed_option,
     short,
     writable,
 )
+from rightofway.files import write_whole
 
 if TYPE_CHECKING:
     from rightofway.execution import Outcome, Quantiles
@@ -56,7 +61,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
     epilog=EXAMPLES,
     short_help="Execute a PLAN many times with robots that are late.",
 )
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @click.option("--delays", multiple=True, metavar="DELAYS",
               help="Kinds of delays, see below; or a file with a list of them. May be repeated."
               "  [default: exponential:0.2]")  # fmt: skip
@@ -69,8 +74,9 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
 @click.option("--replan", is_flag=True,
               help="Replan the rest of the work where this is expected to save time, and when a"
               " robot breaks down for ever.")  # fmt: skip
-@click.option("--page", metavar="FILE", callback=writable(".html"),
-              help="Write a page that plays one run beside the plan.")  # fmt: skip
+@click.option("-o", "--output", metavar="FILE", callback=writable(".json"),
+              help="Write the outcome to this file (.json); - for standard output.")  # fmt: skip
+@page_option("one run beside the plan")
 @click.option("--run", type=click.IntRange(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",
               )  # fmt: skip
@@ -83,6 +89,7 @@ def simulate(
     seed: int,
     switch: bool,
     replan: bool,
+    output: str | None,
     page: str | None,
     run: int | None,
     as_json: bool,
@@ -105,10 +112,13 @@ def simulate(
     found = load_plan(plan)
     with progress() as reported:
         outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
-    if as_json:
+    if as_json or output == "-":
         put_json(outcome.as_dict())
     else:
-        click.echo(report(outcome))
+        put_report(report(outcome))
+    if output not in {None, "-"}:
+        write_whole(str(output), json_text(outcome.as_dict()) + "\n")
+        say(f"wrote {output}")
     if page:
         from rightofway.viz import write_page
 

@@ -7,16 +7,31 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import as_json_option, put_json, read_either, say, width, writable
+from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.outputs import PAGE_SUFFIXES
+from rightofway.cli.terminal import (
+    as_json_option,
+    count_option,
+    progress,
+    put_json,
+    put_report,
+    read_either,
+    say,
+    width,
+    writable,
+)
 
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
     from rightofway.viz.table import TimeSpaceTable
 
+LIMIT = 10
+"""Time limit of planning a scenario that is to be shown [s]."""
+
 SHOW_EXAMPLES = """\b
 Examples:
-  rightofway show plan.json -o plan.html
+  rightofway show plan.json --page plan.html
   rightofway show plan.json -o moment.png --tick 12
   rightofway show examples/door.yaml -o door.gif
 """
@@ -28,31 +43,45 @@ Examples:
 """
 
 
-@click.command(epilog="Example:  rightofway check plan.json")
-@click.argument("plan", type=click.Path())
+CHECK_EXAMPLES = """\b
+Examples:
+  rightofway check plan.json
+  rightofway check runs/*.json --limit 3
+"""
+
+
+@click.command(epilog=CHECK_EXAMPLES)
+@click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...",
+                shell_complete=files(*PLANS))  # fmt: skip
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
-              help="Faults to list; all are counted.")  # fmt: skip
+              help="Faults to list for each plan; all are counted.")  # fmt: skip
 @as_json_option("report")
-def check(plan: str, limit: int, as_json: bool) -> int:
-    """Check a PLAN; exit code 1 if it breaks a rule.
+def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
+    """Check plans; exit code 1 if one breaks a rule.
 
     The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
     short, missed stops, wrong homes and ends, vertex and swap conflicts, headways that are too
-    short and, where they are forbidden, rotations. A PLAN of - is standard input.
+    short and, where they are forbidden, rotations. A PLAN of - is standard input. With several
+    plans, --json prints a list.
     """
     from rightofway.check import check as judge
     from rightofway.io import load_plan
 
-    found = load_plan(plan)
-    report = judge(found, limit=limit)
+    faulty, reports = False, []
+    for path in plans:
+        found = load_plan(path)
+        report = judge(found, limit=limit)
+        faulty |= not report.ok
+        if as_json:
+            reports.append({"plan": path, **_report_data(found, report)})
+        elif report.ok:
+            robots, visits = len(found.tracks), sum(map(len, found.tracks))
+            put_report(f"{path}: no fault in {robots} robots and {visits} visits")
+        else:
+            put_report(f"{path}: {report}")
     if as_json:
-        put_json(_report_data(found, report))
-    elif report.ok:
-        robots, visits = len(found.tracks), sum(map(len, found.tracks))
-        click.echo(f"{plan}: no fault in {robots} robots and {visits} visits")
-    else:
-        click.echo(f"{plan}: {report}")
-    return 0 if report.ok else 1
+        put_json(reports if len(plans) > 1 else reports[0])
+    return 1 if faulty else 0
 
 
 def _report_data(found: Plan, report: Report) -> dict[str, Any]:
@@ -72,15 +101,28 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
     }
 
 
-@click.command(epilog=SHOW_EXAMPLES)
-@click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO")
-@click.option("-o", "--output", required=True, metavar="FILE",
-              callback=writable(".html", ".png", ".gif"),
-              help="File to write: a page (.html), a picture (.png) or a film (.gif).")  # fmt: skip
+@click.command(epilog=SHOW_EXAMPLES, short_help="Show a plan as a page, a picture or a film.")
+@click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
+@count_option
+@click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
+              help="Write a page (.html), picture (.png) or film (.gif); - prints the page.",
+              )  # fmt: skip
+@click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
+              help="Write a page that plays the plan (.html).",
+              )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0), metavar="TICK",
-              help="Tick that a picture shows; the start by default.")  # fmt: skip
-@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under a picture.")
-def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
+              help="Tick that the picture shows; the start by default.")  # fmt: skip
+@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
+def show(
+    *,
+    plan: str,
+    count: int | None,
+    output: str | None,
+    page: str | None,
+    tick: int | None,
+    diagram: bool,
+) -> None:
     """Show a plan as a page that plays it, a picture or a film.
 
     A scenario is planned first, as by `rightofway plan`.
@@ -88,27 +130,41 @@ def show(plan: str, output: str, tick: int | None, diagram: bool) -> None:
     from rightofway.model import Scenario
     from rightofway.solve import solve
 
-    suffix = Path(output).suffix.lower()
-    if suffix != ".png" and (diagram or tick is not None):
+    if not (output or page):
+        raise click.UsageError("nothing to write (give --page FILE, or -o FILE for a picture)")
+    is_picture = Path(output or "").suffix.lower() == ".png"
+    if not is_picture and (diagram or tick is not None):
         raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
-    found = read_either(plan)
+    found = read_either(plan, count)
     if isinstance(found, Scenario):
-        found = solve(found, report=say)
+        with progress(LIMIT) as report:
+            found = solve(found, time_limit=LIMIT, report=report)
         say(f"{plan}: planned with {found.run.name}: {found.run.status}")
-    if suffix == ".html":
-        from rightofway.viz import write_page
+    if page:
+        _write(found, page)
+    if output == "-":
+        from rightofway.viz import page_of
 
-        write_page(found, output)
-    elif suffix == ".png":
+        click.echo(page_of(found), nl=False)
+    elif is_picture:
         from rightofway.viz import write_png
 
-        write_png(found, output, tick, diagram=diagram)
-    else:
-        from rightofway.viz import write_gif
+        write_png(found, output or "", tick, diagram=diagram)
+        say(f"wrote {output}")
+    elif output:
+        _write(found, output)
 
-        film = write_gif(found, output)
+
+def _write(found: Plan, path: str) -> None:
+    """Write a film or a page."""
+    from rightofway.viz import write_gif, write_page
+
+    if path.lower().endswith(".gif"):
+        film = write_gif(found, path)
         say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
-    say(f"wrote {output}")
+    else:
+        write_page(found, path)
+    say(f"wrote {path}")
 
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print the vertex of each robot at each tick.")

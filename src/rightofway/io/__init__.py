@@ -10,7 +10,7 @@ from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
 from rightofway.io.scenario.reader import Loaded, load, load_with_notes, scenario_of
-from rightofway.io.scenario.writer import dump_scenario, write_scenario
+from rightofway.io.scenario.writer import dump_scenario, scenario_text, write_scenario
 from rightofway.io.text import DELAY_FILES, load_delays
 
 __all__ = [
@@ -28,6 +28,7 @@ __all__ = [
     "plan_of",
     "plan_text",
     "scenario_of",
+    "scenario_text",
     "schema",
     "write_map",
     "write_plan",

@@ -12,13 +12,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
 from rightofway.io.text import read_text
-from rightofway.model import Grid, Roadmap, Scenario
+from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Stop
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -175,11 +176,13 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     ------
     InputError
         If the roadmap is no grid, a robot has several stops, or the file cannot be written.
+    NoPlanExists
+        If no way leads from a home to its target.
 
     Notes
     -----
-    Bucket and optimal length are written as 0, for "not known"; the benchmark's own are lengths
-    with diagonal moves.
+    The optimal length is the number of moves on a shortest path without diagonal moves, as in
+    multi-agent path finding; the benchmark's own files count diagonal moves. The bucket is 0.
     """
     grid = _grid_of(scenario.roadmap)
     faults = [
@@ -193,12 +196,24 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     if faults:
         raise InputError(faults)
     lines = ["version 1"]
-    for robot in scenario.robots:
+    for robot, moves in zip(scenario.robots, _optimal_lengths(scenario), strict=True):
         (start_y, start_x), (goal_y, goal_x) = map(grid.cell, (robot.home, robot.stops[0].at))
-        columns = (0, map_name, grid.columns, grid.rows, start_x, start_y, goal_x, goal_y, 0)
+        columns = (0, map_name, grid.columns, grid.rows, start_x, start_y, goal_x, goal_y, moves)
         lines.append("\t".join(map(str, columns)))
     write_whole(path, "\n".join(lines) + "\n")
     return tuple(_left_out(scenario, grid))
+
+
+def _optimal_lengths(scenario: Scenario) -> Iterator[int]:
+    """Yield for each robot the moves on a shortest path from its home to its target."""
+    from rightofway.metrics import alone_completions
+
+    robots = [Robot(name=each.name, home=each.home, stops=(Stop(at=each.stops[0].at),))
+              for each in scenario.robots]  # fmt: skip
+    there_and_back = Scenario(
+        roadmap=scenario.roadmap, robots=tuple(robots), rules=Rules(turn=Fraction(0))
+    )
+    return (moves // 2 for moves in alone_completions(there_and_back))
 
 
 def _grid_of(roadmap: Roadmap) -> Grid:

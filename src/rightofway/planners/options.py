@@ -136,15 +136,15 @@ def unknown(name: str, owner: str, known: list[str]) -> str:
 
 Swaps = Annotated[
     Literal["resolve", "leave"],
-    "Keep robots that meet head-on apart, or do as published (on shortest routes).",
+    "Keep robots that meet head-on apart; or leave their swaps, as published, on shortest routes.",
 ]
 Routes = Annotated[
     Literal["clear", "shortest"],
-    "Keep clear of others where that is no long way round, or take shortest routes.",
+    "Avoid other robots where the detour is short; or take shortest routes.",
 ]
 Iterations = Annotated[
     int,
-    "How many neighbourhoods are replanned at most; 0: as time and gains allow.",
+    "Number of neighbourhoods to replan; 0: until time is up or nothing improves any more.",
 ]
 
 
@@ -170,7 +170,7 @@ class LacamOptions(PlannerOptions):
 
     paths: Annotated[
         Literal["spread", "shortest"],
-        "Spread the preferred paths first, or leave every robot its shortest way.",
+        "Distribute the paths over the map first; or keep each robot on its shortest path.",
     ] = "spread"
 
 
@@ -179,7 +179,7 @@ class LocalSearchOptions(PlannerOptions):
     """Options of ``local-search``."""
 
     routes: Routes = "clear"
-    rounds: Annotated[int, "How often to favour some robots and descend again."] = 100
+    rounds: Annotated[int, "Number of restarts, each with some robots favoured."] = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -193,7 +193,7 @@ class PriorityOptions(PlannerOptions):
 class RandomPriorityOptions(PlannerOptions):
     """Options of ``random-priority``."""
 
-    restarts: Annotated[int, Least(1), "How many orders to try."] = 20
+    restarts: Annotated[int, Least(1), "Number of random orders to try."] = 20
     routes: Routes = "clear"
 
 
@@ -201,8 +201,8 @@ class RandomPriorityOptions(PlannerOptions):
 class PrioritySearchOptions(PlannerOptions):
     """Options of ``priority-search``."""
 
-    rounds: Annotated[int, Least(1), "How many orders to try in a climb."] = 10
-    restarts: Annotated[int, Least(1), "How many climbs, each from another order."] = 2
+    rounds: Annotated[int, Least(1), "Number of orders to try in each climb."] = 10
+    restarts: Annotated[int, Least(1), "Number of climbs, each from another order."] = 2
     routes: Routes = "clear"
 
 
@@ -212,7 +212,7 @@ class PrioritizedOptions(PlannerOptions):
 
     order: Annotated[
         Literal["shortest", "longest", "slowest", "file", "random"],
-        "Which robot is planned first: shortest or longest trip, slowest, as in the file.",
+        "Which robot is planned first: by its trip, by its speed, by the file, or at random.",
     ] = "shortest"
 
 

@@ -12,7 +12,7 @@ from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
 from rightofway.io.scenario.maps import LoadedMap
-from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario
+from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario, refuse_count
 from rightofway.io.text import read_document
 from rightofway.model import (
     Decision,
@@ -58,13 +58,15 @@ def load_plan(path: Path | str) -> Plan:
         return plan_of(read_document(path))
 
 
-def load_either(path: Path | str) -> Plan | Loaded:
+def load_either(path: Path | str, count: int | None = None) -> Plan | Loaded:
     """Return the plan of a file, or the scenario if its ``format`` says that it is one.
 
     Parameters
     ----------
     path
         A plan or scenario as JSON, or a scenario as YAML or `.scen`.
+    count
+        As for `load`.
 
     Raises
     ------
@@ -73,8 +75,9 @@ def load_either(path: Path | str) -> Plan | Loaded:
     """
     path = Path(path)
     if path.suffix.lower() == ".scen":
-        return load_with_notes(path)
+        return load_with_notes(path, count)
     with blaming(str(path)):
+        refuse_count(count)
         document = read_document(path)
         kind = document.get("format") if isinstance(document, dict) else None
         is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")

@@ -34,6 +34,9 @@ MAX_TICKS = 2**40
 
 DEFAULT_SPEED = Fraction(1)
 
+CLASSIC = Rules(turn=Fraction(0), ends="none")
+"""The rules of the classic benchmark: robots need not turn, and stay at their targets."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loaded:
@@ -51,7 +54,7 @@ class Loaded:
     notes: tuple[str, ...] = ()
 
 
-def load(path: Path | str) -> Scenario:
+def load(path: Path | str, count: int | None = None) -> Scenario:
     """Return the scenario of a file.
 
     Parameters
@@ -59,28 +62,41 @@ def load(path: Path | str) -> Scenario:
     path
         A scenario as YAML or JSON; or a `.scen` file, which is classic MAPF: unit speeds, no work,
         no turning, no way back, the map beside it or in ``../maps``.
+    count
+        Number of robots: the first rows of a `.scen` file; None for all. Other files say
+        themselves how many robots they have.
 
     Raises
     ------
     InputError
         With every independent fault, its place, value and remedy.
     """
-    return load_with_notes(path).scenario
+    return load_with_notes(path, count).scenario
 
 
-def load_with_notes(path: Path | str) -> Loaded:
+def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """Return the scenario of a file with the notes of its reader; otherwise as `load`.
 
     Parameters
     ----------
     path
         A scenario as YAML or JSON, or a `.scen` file.
+    count
+        As for `load`.
     """
     path = Path(path)
     with blaming(str(path)):
         if path.suffix.lower() == ".scen":
-            return _classic(path)
+            return _classic(path, count)
+        refuse_count(count)
         return read_scenario(read_document(path), path.parent)
+
+
+def refuse_count(count: int | None) -> None:
+    """Refuse a number of robots for a file that is no list of starts and goals."""
+    if count is not None:
+        message = f"the count {count} is for a .scen file, and this is none (leave it out)"
+        raise InputError.at("", message)
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -115,6 +131,11 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     )
 
     def rules_of(data: Any) -> Rules:
+        if data == "classic":
+            return CLASSIC
+        if isinstance(data, str):
+            remedy = "give classic, or a mapping like {headway: 1}"
+            raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
 
@@ -146,8 +167,8 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
 
 
-def _classic(path: Path) -> Loaded:
-    """Return the scenario of all rows of a `.scen` file."""
+def _classic(path: Path, count: int | None) -> Loaded:
+    """Return the scenario of the first rows of a `.scen` file, or of all."""
     map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
     beside = [Path(map_name), Path("..", "maps", map_name)]
     found = next((each for each in beside if (path.parent / each).is_file()), None)
@@ -157,8 +178,8 @@ def _classic(path: Path) -> Loaded:
     document = {
         "format": SCENARIO_FORMAT,
         "map": {"file": str(found)},
-        "robots": {"scen": path.name},
-        "rules": {"turn": 0, "return": "none"},
+        "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
+        "rules": "classic",
     }
     try:
         return read_scenario(document, path.parent)

@@ -234,7 +234,7 @@ class ScenarioFrame(Document):
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     units: Any = optional("{length, time}: how reports write quantities")
     robots: Any = Field(description="a list of robots, or {scen: file}")
-    rules: Any = optional("rules for the whole fleet")
+    rules: Any = optional("classic, or rules for the whole fleet")
 
 
 class ScenarioDocument(ScenarioFrame):
@@ -243,4 +243,6 @@ class ScenarioDocument(ScenarioFrame):
     map: MapDocument = Field(description="where the fleet drives")
     units: UnitsDocument = optional("how reports write quantities")
     robots: list[RobotDocument] | FleetDocument = Field(description="the fleet")
-    rules: RulesDocument = optional("rules for the whole fleet")
+    rules: Literal["classic"] | RulesDocument = optional(
+        "classic (no turning, no way back), or rules for the whole fleet"
+    )

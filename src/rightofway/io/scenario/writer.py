@@ -57,13 +57,24 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
     if path.suffix.lower() == ".json":
         write_whole(path, json_text(document))
     elif path.suffix.lower() in {".yaml", ".yml"}:
-        write_whole(path, _yaml_text(document))
+        write_whole(path, _yaml_of(document))
     else:
         message = f"the suffix {path.suffix!r} is no scenario's (end the name in .yaml or .json)"
         raise InputError.at("", message, str(path))
 
 
-def _yaml_text(document: dict[str, Any]) -> str:
+def scenario_text(scenario: Scenario) -> str:
+    """Return a scenario as YAML, as `write_scenario` writes it.
+
+    Parameters
+    ----------
+    scenario
+        The scenario.
+    """
+    return _yaml_of(dump_scenario(scenario))
+
+
+def _yaml_of(document: dict[str, Any]) -> str:
     import yaml
 
     class Dumper(yaml.SafeDumper):

@@ -1,0 +1,86 @@
+"""Where results go: ``-o FILE`` by its ending, ``-`` for standard output, ``--page FILE``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.terminal import say, writable
+
+if TYPE_CHECKING:
+    from rightofway.model import Plan
+
+PAGE_SUFFIXES = (".html", ".htm")
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+
+def _write_json(plan: Plan, path: str) -> None:
+    from rightofway.io import write_plan
+
+    write_plan(plan, path)
+
+
+PLAN_WRITERS: dict[str, Callable[[Plan, str], None]] = {".json": _write_json}
+"""For each ending of -o, where the result is a plan, the function that writes it.
+
+The functions import what they need when they are called: help and completion read this table.
+"""
+
+INSTEAD = {
+    ".html": "for a page give --page {}",
+    ".htm": "for a page give --page {}",
+    ".png": "for a picture: rightofway show PLAN -o {}",
+    ".gif": "for a film: rightofway show PLAN -o {}",
+    ".csv": "for a table: rightofway table PLAN -o {}",
+    ".xlsx": "for a table: rightofway table PLAN -o {}",
+}
+"""What to do for an ending that -o does not take where the result is a plan."""
+
+
+def plan_output_option(what: str) -> Decorator:
+    """Return the option -o of a command whose result is a plan."""
+    endings = ", ".join(PLAN_WRITERS)
+    return click.option(
+        "-o", "--output", metavar="FILE", callback=writable(*PLAN_WRITERS, instead=INSTEAD),
+        help=f"Write {what} to this file ({endings}); - for standard output.",
+    )  # fmt: skip
+
+
+class _PageOption(click.Option):
+    """The option --page; its earlier name --show still works, and no help names it."""
+
+    def add_to_parser(self, parser: Any, ctx: click.Context) -> None:
+        super().add_to_parser(parser, ctx)
+        parser.add_option(self, ["--show"], self.name, nargs=1)
+
+
+def page_option(what: str) -> Decorator:
+    """Return the option --page of a command; ``what`` is what the page plays."""
+    return click.option(
+        "--page", cls=_PageOption, metavar="FILE",
+        callback=writable(*PAGE_SUFFIXES, stdout=False),
+        help=f"Write a page that plays {what} (.html).",
+    )  # fmt: skip
+
+
+def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:
+    """Refuse two documents on standard output, and an output that would replace the source."""
+    if output == "-" and as_json:
+        raise click.UsageError("--json and -o - both go to standard output")
+    if output and output != "-" and Path(output).resolve() == Path(source).resolve():
+        raise click.UsageError(f"-o {output} would replace {source} (give another name)")
+
+
+def write(found: Plan, output: str | None) -> None:
+    """Write a plan to a file, to standard output, or nowhere."""
+    from rightofway.io import plan_text
+
+    if output == "-":
+        click.echo(plan_text(found), nl=False)
+    elif output:
+        PLAN_WRITERS.get(Path(output).suffix.lower(), _write_json)(found, output)
+        say(f"wrote {output}")
