@@ -29,8 +29,9 @@ from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
 from rightofway.cli.planning import improve, plan
 from rightofway.cli.simulate import simulate
+from rightofway.cli.tables import collisions, table
 from rightofway.cli.terminal import say, speak_utf8
-from rightofway.cli.views import check, show, table
+from rightofway.cli.views import check, show
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
@@ -69,6 +70,7 @@ for command in (
     simulate,
     show,
     table,
+    collisions,
     convert,
     bench,
     schema,
