@@ -7,11 +7,13 @@ are made.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from rightofway.metrics.waits import waits
-from rightofway.model import Plan, Scenario, Stays, Tick, VertexId, Wait, stays_of
+from rightofway.errors import NoPlanExists
+from rightofway.metrics.lost_time import joined_waits, lost_time
+from rightofway.model import Loss, Plan, Scenario, Stays, Tick, VertexId, stays_of
 
 
 class Event(NamedTuple):
@@ -27,7 +29,7 @@ class Event(NamedTuple):
         Where it is.
     purpose
         What the robot does there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
-        ``drive through``, or ``wait`` where it only waits.
+        ``drive through``, ``make room``, or ``wait`` where it only waits.
     enter
         When the visit begins [ticks].
     leave
@@ -35,9 +37,10 @@ class Event(NamedTuple):
     waits
         How long it stands still with nothing to do [ticks].
     waits_for
-        The robot that it waits for, by index; None if there is none, or none alone is the reason.
+        The robot that it waits for, by index; None if no robot is the cause.
     to_leave
-        The vertex that this robot has to leave first.
+        The vertex that this robot has to leave first: the next one, or one further on the route;
+        for waits that follow one another behind one robot, that of the last wait.
     """
 
     robot: int
@@ -60,35 +63,47 @@ def events(plan: Plan) -> tuple[Event, ...]:
         A plan that keeps the rules; of others, what the tracks claim.
     """
     stays = stays_of(plan.scenario, plan.tracks)
-    reasons = {(wait.robot, wait.tick): wait for wait in waits(plan)}
+    try:
+        losses = [loss for lost in lost_time(plan) for loss in lost.losses]
+    except NoPlanExists:  # a robot has no way, so nothing is known but its waits
+        losses = list(joined_waits(plan.scenario, plan.tracks, stays))
+    of_robot: list[list[Loss]] = [[] for _ in stays]
+    for loss in losses:
+        of_robot[loss.robot].append(loss)
     return tuple(
         event
         for robot, stay in enumerate(stays)
-        for event in _events_of(plan, robot, stay, reasons)
+        for event in _events_of(plan, robot, stay, of_robot[robot])
     )
 
 
-def _events_of(
-    plan: Plan, robot: int, stay: Stays, reasons: Mapping[tuple[int, Tick], Wait]
-) -> Iterator[Event]:
+def _events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> Iterator[Event]:
     track = plan.tracks[robot]
     purposes = _purposes(plan.scenario, robot, stay, len(track))
     enters = track.enter.tolist()
+    waited = [loss for loss in losses if loss.kind != "makes room"]
+    room = [loss for loss in losses if loss.kind == "makes room"]
     columns = (track.vertices.tolist(), stay.dwell.tolist(), stay.waits.tolist())
     for visit, (vertex, dwell, waiting) in enumerate(zip(*columns, strict=True)):
-        reason = reasons.get((robot, Tick(enters[visit] + dwell))) if waiting else None
-        for_robot = None if reason is None else reason.for_robot
+        reason = _holding(waited, enters[visit] + dwell) if waiting else None
+        idle = "make room" if _holding(room, enters[visit]) else "drive through"
         yield Event(
             robot=robot,
             visit=visit,
             vertex=VertexId(vertex),
-            purpose=purposes.get(visit) or ("wait" if waiting else "drive through"),
+            purpose=purposes.get(visit) or ("wait" if waiting else idle),
             enter=Tick(enters[visit]),
             leave=Tick(enters[visit + 1]) if visit + 1 < len(enters) else None,
             waits=Tick(waiting),
-            waits_for=for_robot,
-            to_leave=None if reason is None or for_robot is None else reason.towards,
+            waits_for=None if reason is None else reason.for_robot,
+            to_leave=None if reason is None else reason.freed,
         )
+
+
+def _holding(losses: Sequence[Loss], tick: int) -> Loss | None:
+    """Return the loss that a tick is in; they are in order of time and do not overlap."""
+    index = bisect_right(losses, tick, key=lambda loss: loss.tick) - 1
+    return losses[index] if index >= 0 and tick < losses[index].end else None
 
 
 def _purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
