@@ -219,7 +219,7 @@ def test_a_table_goes_to_csv_and_xlsx(cli: Cli, door: Path) -> None:
     assert cli("table", "plan.json", "-o", "t.csv", "--robots", "R2", "--to", "3").code == 0
     with Path("t.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))
-    assert [row[-4:] for row in rows[1:]] == [["2", "1", "4", "7"]] * 2
+    assert [row[2:] for row in rows[1:] if "marks" not in row[1]] == [["2", "1", "4", "7"]] * 2
     assert cli("table", "plan.json", "-o", "t.xlsx").code == 0
     assert Path("t.xlsx").read_bytes().startswith(b"PK")
 

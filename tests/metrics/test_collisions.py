@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from rightofway.metrics import Collision, collisions, free_running
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
+from rightofway.metrics import Collision, Swap, collisions, free_running, swaps
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track, VertexId
 from tests.builders.fleets import grid_fleet
 
 DOOR = ["...", "@.@", "..."]
@@ -104,3 +104,16 @@ def test_approach_and_headway_are_booked_too() -> None:
 
 def test_a_robot_does_not_collide_with_itself() -> None:
     assert met(([3, 4, 3, 0], [0, 1, 2, 3]), headway=Fraction(4)) == []
+
+
+def test_a_swap_names_the_vertices_that_the_robots_leave() -> None:
+    tracks = (Track.of([3, 4, 5], [0, 2, 4]), Track.of([5, 4, 3], [0, 1, 2]))
+    assert swaps(tracks) == (
+        Swap(robots=(0, 1), vertices=(VertexId(3), VertexId(4)), tick=Tick(2)),
+    )
+
+
+def test_robots_that_follow_or_come_later_do_not_swap() -> None:
+    ahead, behind = Track.of([3, 4, 5], [0, 2, 4]), Track.of([3, 4], [1, 2])
+    later = Track.of([5, 4, 3], [0, 1, 3])
+    assert swaps((ahead, behind, later)) == ()

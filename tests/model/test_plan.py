@@ -66,14 +66,17 @@ def test_values_of_the_model_are_shown_on_one_short_line() -> None:
 
 
 ROWS = [
-    ("R1", 0, "N1", 0, 1),
-    ("R1", 1, "N4", 1, 2),
-    ("R1", 2, "N7", 2, None),
-    ("R2", 0, "N5", 0, 2),
-    ("R2", 1, "N4", 2, 3),
-    ("R2", 2, "N3", 3, None),
+    ("R1", 0, "N1", "home", 0, 1, 0, None, None, 0, 1, 0),
+    ("R1", 1, "N4", "drive through", 1, 2, 0, None, None, 1, 2, 0),
+    ("R1", 2, "N7", "stop 1", 2, None, 0, None, None, 2, None, 0),
+    ("R2", 0, "N5", "home", 0, 2, 1, "R1", "N4", 0, 2, 1),
+    ("R2", 1, "N4", "drive through", 2, 3, 0, None, None, 2, 3, 0),
+    ("R2", 2, "N3", "work at stop 1", 3, None, 0, None, None, 3, None, 0),
 ]
-COLUMNS = ["robot", "visit", "vertex", "enter", "leave"]
+COLUMNS = [
+    "robot", "visit", "vertex", "purpose", "enter", "leave", "waits", "waits_for", "to_leave",
+    "enter_tick", "leave_tick", "wait_ticks",
+]  # fmt: skip
 
 
 def test_a_data_frame_has_a_row_for_each_visit() -> None:

@@ -22,7 +22,8 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
 )
-from rightofway.viz.table import Row, TimeSpaceTable, as_text, table_of
+from rightofway.solve import solve
+from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, table_of
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
@@ -126,9 +127,13 @@ def test_a_window_after_the_end_has_empty_rows() -> None:
     assert [row.places for row in table.rows] == [[], [0], [], []]
 
 
-def test_a_window_that_begins_after_the_end_has_one_tick() -> None:
-    table = table_of(published("door-1"), first_tick=50)
-    assert (list(table.ticks), [row.places for row in table.rows]) == ([50], [[]] * 4)
+def test_a_swap_is_marked_at_both_robots_before_and_after_it() -> None:
+    """Door-5 as published: R1 goes from N7 to N4 and R2 from N4 to N7 at tick 7."""
+    plan = solve(paper_scenario(CASES["door-5"]), "two-level", swaps="leave")
+    final = rows(table_of(plan), "final")
+    assert [marked(final[name], "swap") for name in ("R1", "R2")] == [[6, 7], [6, 7]]
+    assert "7!  4!" in as_text(table_of(plan))
+    assert "R1,final marks,,,,,,,swap,swap,,\n" in as_csv(table_of(plan))
 
 
 def test_a_table_just_fits_where_there_is_room_for_its_ticks() -> None:
@@ -152,6 +157,10 @@ def test_chosen_robots_come_in_the_scenarios_order_with_all_their_collisions() -
         ({"robots": ["R22"]}, "robots: no robot is named 'R22' (did you mean 'R2'?)"),
         ({"first_tick": -1}, "first_tick: -1 is negative (give 0 or more)"),
         (
+            {"first_tick": 50},
+            "first_tick: 50 is after the end: all robots are done at tick 10 (give less)",
+        ),
+        (
             {"first_tick": 5, "last_tick": 4},
             "last_tick: 4 is before the first tick, 5 (give 5 or more)",
         ),
@@ -164,7 +173,7 @@ def test_what_cannot_be_shown_is_refused(window: dict[str, Any], message: str) -
 
 
 TABLE_4 = """\
-tick         0   1   2   3   4   5   6   7   8   9  10
+time         0   1   2   3   4   5   6   7   8   9  10
 R1 planned   0   1*  4*  7*  6   6   7*  4*  1*  0
 R1 final     0=  0   1   4   7   6   6   7   4   1   0
 R2 planned   2   1*  4*  7*  8   8   7*  4*  1*  2
@@ -178,13 +187,13 @@ def test_the_text_of_table_4() -> None:
 
 
 IN_BLOCKS = """\
-tick         8   9
+time         8   9
 R1 planned   1*  0
 R1 final     4   1
 R2 planned   1*  2
 R2 final     1   2
 
-tick        10
+time        10
 R1 final     0
 
 * two robots in one place"""
@@ -193,7 +202,7 @@ R1 final     0
 def test_text_comes_in_blocks_that_fit_without_rows_that_have_ended() -> None:
     text = as_text(table_of(published("door-1"), first_tick=8), width=19)
     assert text == IN_BLOCKS
-    assert "tick         8\n" in as_text(table_of(published("door-1"), first_tick=8), width=18)
+    assert "time         8\n" in as_text(table_of(published("door-1"), first_tick=8), width=18)
 
 
 def test_a_terminal_too_narrow_for_a_tick_still_gets_one() -> None:
@@ -222,14 +231,14 @@ def test_vertices_with_names_are_shown_by_name() -> None:
     assert table_of(named()).rows[0].places == ["dock", "dock", "棚", "棚", "棚", "dock"]
 
 
-def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_told() -> None:
+def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_reported() -> None:
     """Drives 2 and 3 ticks; the plan waits one tick in between."""
     assert as_text(table_of(named())) == (
-        "tick            0     1     2     3     4     5     6\n"
+        "time            0   0.5     1   1.5     2   2.5     3\n"
         "Zoë planned  dock  dock    棚    棚    棚  dock\n"
         "Zoë final    dock  dock    棚=   棚    棚    棚  dock\n"
         "\n"
-        "= waits   a tick lasts 1/2"
+        "= waits   a column lasts 0.5 time units"
     )
 
 
@@ -237,19 +246,30 @@ def test_a_table_of_a_thousand_years_is_made_but_not_written_out() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     table = table_of(plan_of(scenario, ([0, 1], [0, 10**11])))
     assert table.last_tick == 10**11
-    with pytest.raises(InputError, match=r"choose fewer: first_tick, last_tick"):
-        as_text(table)
-    assert as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2)).startswith(
-        "tick"
-    )
+    with pytest.raises(InputError, match=r"choose fewer with --from and --to"):
+        as_text(table, max_lines=None)
+    short = as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2))
+    assert "left out" not in short
+
+
+def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
+    scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
+    text = as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**6]))), max_lines=8)
+    # Columns of "1000000" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
+    assert text.splitlines()[-3:] == [
+        "… columns after 13, up to 1000000 are left out",
+        "  (choose with --from, --to and --robots; -o FILE.txt writes all;",
+        "  --events lists each visit in one line)",
+    ]
+    assert len(text.splitlines()) < 15
 
 
 def test_a_table_of_too_many_robots_is_not_written_out() -> None:
     scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
     table = table_of(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
     with pytest.raises(InputError) as raised:
-        as_text(table)
+        as_text(table, max_lines=None)
     assert str(raised.value) == (
-        "table: 120 rows of 20001 ticks are more than 2000000 cells"
-        " (choose fewer robots, or fewer ticks: robots, first_tick, last_tick)"
+        "table: 120 rows of 20001 columns are more than 2000000 cells"
+        " (choose fewer with --robots, or with --from and --to)"
     )

@@ -38,10 +38,15 @@ def crossing() -> Plan:
     return plan_of(scenario, ([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 2, 3]))
 
 
-def test_comma_separated_values_are_bare_places(tmp_path: Path) -> None:
+def test_comma_separated_values_are_bare_places_and_marks_in_rows_of_their_own(
+    tmp_path: Path,
+) -> None:
     write_csv(table_of(crossing()), tmp_path / "table.csv")
     assert (tmp_path / "table.csv").read_bytes() == (
-        b"robot,row,0,1,2,3\nR1,planned,3,4,5\nR1,final,3,4,5\nR2,planned,1,4,7\nR2,final,1,1,4,7\n"
+        b"robot,row,0,1,2,3\n"
+        b"R1,planned,3,4,5\nR1,planned marks,,collision,\nR1,final,3,4,5\n"
+        b"R2,planned,1,4,7\nR2,planned marks,,collision,\n"
+        b"R2,final,1,1,4,7\nR2,final marks,wait,,,\n"
     )
 
 
@@ -118,7 +123,8 @@ def test_a_plan_longer_than_a_sheet_is_refused_and_nothing_written(tmp_path: Pat
     with pytest.raises(InputError) as raised:
         write_xlsx(table_of(plan), tmp_path / "table.xlsx")
     assert str(raised.value) == (
-        "table: 16383 columns, room is for 16382 (choose fewer: first_tick, last_tick)"
+        "table: 16383 columns, room is for 16382 (choose fewer with --from and --to,"
+        " in Python with first_tick and last_tick; --events has no such limit)"
     )
     assert list(tmp_path.iterdir()) == []
 

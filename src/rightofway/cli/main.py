@@ -30,8 +30,9 @@ from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
 from rightofway.cli.planning import bound, improve, plan
 from rightofway.cli.simulate import simulate
+from rightofway.cli.tables import collisions, table
 from rightofway.cli.terminal import complain, quiet_option, speak_utf8
-from rightofway.cli.views import check, show, table
+from rightofway.cli.views import check, show
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 
 MANY = 1000
@@ -48,7 +49,7 @@ class _Session:
 GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Begin": (new, examples),
     "Plan": (plan, improve, bound),
-    "Look at plans": (check, show, table),
+    "Look at plans": (check, show, table, collisions),
     "Repeated work and delays": (laps, simulate),
     "Compare planners": (bench,),
     "Formats": (convert, schema),

@@ -1,9 +1,11 @@
-"""Bookings of vertices, and collisions of the paper's planned rows, in which no robot waits."""
+"""Bookings of vertices, and where robots meet: collisions and swaps, of free-running robots too."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations, groupby
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,3 +111,53 @@ def collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, 
                 found.append(collision)
         open_bookings.append((vertex, end, robot))
     return tuple(sorted(found, key=lambda each: (each.start, each.robots, each.vertex)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Swap:
+    """Two robots exchange two vertices at one instant.
+
+    Attributes
+    ----------
+    robots
+        The two, by index, the smaller first.
+    vertices
+        The vertex that the first one leaves, and the vertex that the other one leaves.
+    tick
+        When [ticks]; each is in its new vertex from this tick on.
+    """
+
+    robots: tuple[int, int]
+    vertices: tuple[VertexId, VertexId]
+    tick: Tick
+
+
+def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
+    """Return where two robots of any tracks exchange vertices, by tick, then by robots.
+
+    Parameters
+    ----------
+    tracks
+        One track for each robot.
+    """
+    tail = np.concatenate([track.vertices[:-1] for track in tracks])
+    head = np.concatenate([track.vertices[1:] for track in tracks])
+    tick = np.concatenate([track.enter[1:] for track in tracks])
+    robot = np.repeat(np.arange(len(tracks)), [len(track) - 1 for track in tracks])
+    low, high = np.minimum(tail, head), np.maximum(tail, head)
+    order = order_by(low, high, tick)
+    as_before = np.zeros(len(order) + 1, bool)  # nearly all moves are alone at their instant
+    as_before[1:-1] = np.logical_and.reduce(
+        [np.diff(column[order]) == 0 for column in (low, high, tick)]
+    )
+    order = order[as_before[:-1] | as_before[1:]]
+    moves = sorted(zip(*(each[order].tolist() for each in (tick, robot, tail, head)), strict=True))
+    found = [
+        Swap(robots=(one, other), vertices=(VertexId(start), VertexId(end)), tick=Tick(when))
+        for when, together in groupby(moves, key=itemgetter(0))
+        for (_, one, start, end), (_, other, tail_of_other, head_of_other) in combinations(
+            together, 2
+        )
+        if one != other and (start, end) == (head_of_other, tail_of_other) and start != end
+    ]
+    return tuple(found)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from itertools import chain
 from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
@@ -316,8 +315,10 @@ class Plan:
         Returns
         -------
         pandas.DataFrame, polars.DataFrame or pyarrow.Table
-            A row for each visit, by robot and in order: ``robot`` and ``vertex`` (names), ``visit``
-            (its number, from 0), ``enter`` and ``leave`` [ticks]; no ``leave`` for a last visit.
+            A row for each visit, by robot and in order: ``robot``, ``visit`` (its number, from 0),
+            ``vertex``, ``purpose``, ``enter``, ``leave`` and ``waits`` [time unit], ``waits_for``
+            (a robot) ``to_leave`` (a vertex), and exactly ``enter_tick``, ``leave_tick`` and
+            ``wait_ticks`` [ticks]. A last visit has no ``leave``.
 
         Raises
         ------
@@ -333,22 +334,10 @@ class Plan:
                 module = import_module(name)
             except ImportError:
                 continue
-            return getattr(module, "table" if name == "pyarrow" else "DataFrame")(self._columns())
+            columns = _from_above("event_columns")(self)
+            return getattr(module, "table" if name == "pyarrow" else "DataFrame")(columns)
         which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")
-
-    def _columns(self) -> dict[str, list[Any]]:
-        scenario, tracks = self.scenario, self.tracks
-        pairs = zip(scenario.robots, tracks, strict=True)
-        enters = [track.enter.tolist() for track in tracks]
-        vertices = chain.from_iterable(track.vertices.tolist() for track in tracks)
-        return {
-            "robot": [robot.name for robot, track in pairs for _ in range(len(track))],
-            "visit": [visit for track in tracks for visit in range(len(track))],
-            "vertex": list(map(scenario.roadmap.name, vertices)),
-            "enter": list(chain.from_iterable(enters)),
-            "leave": [tick for enter in enters for tick in (*enter[1:], None)],
-        }
 
 
 FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
@@ -356,6 +345,7 @@ FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
 
 ROOMS_ABOVE = {
     "alone_completions": "rightofway.metrics",
+    "event_columns": "rightofway.metrics",
     "frame_of": "rightofway.viz",
     "lost_time": "rightofway.metrics",
     "waits": "rightofway.metrics",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
-from rightofway.model import Itinerary, Route, Scenario, VertexId, route_along
+from rightofway.model import Itinerary, Route, Scenario, Track, VertexId, route_along
 from rightofway.planners.impossible import refuse_the_impossible
 from rightofway.planners.task import Task
 from rightofway.search import Congestion, Distances
@@ -31,6 +31,28 @@ def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """
     refuse_the_impossible(scenario, distances)
     return [shortest_route(itinerary, distances) for itinerary in scenario.problem.itineraries]
+
+
+def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
+    """Return the tracks of robots that drive their shortest routes and never wait.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+
+    Raises
+    ------
+    NoPlanExists
+        As `refuse_the_impossible`.
+    """
+    routes = shortest_routes(scenario, Distances(scenario.roadmap))
+    return tuple(
+        Track.of(
+            route.vertices, list(accumulate(map(route.least, range(len(route) - 1)), initial=0))
+        )
+        for route in routes
+    )
 
 
 def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:

@@ -27,7 +27,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from rightofway.model import Decision, Tick
+from rightofway.errors import InputError
+from rightofway.model import Decision, Plan, Tick, Track
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
     Resolution,
@@ -37,7 +38,7 @@ from rightofway.planners.conflict_resolution import (
     rights_if_waits,
 )
 from rightofway.planners.routing import chosen_routes
-from rightofway.planners.task import Draft, Task
+from rightofway.planners.task import Deadline, Draft, Task
 from rightofway.precedence import Meeting, Segment
 
 
@@ -90,6 +91,81 @@ def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
         for each in winner.resolution.decisions
     )
     return replace(winner.resolution, decisions=tuple(decisions))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MovementGroup:
+    """One of the two temporary movement groups of a decision (the paper's List1 and List2).
+
+    Attributes
+    ----------
+    tracks
+        The whole fleet, with all conflicts of the two robots resolved.
+    completions
+        When each of the two has achieved its work: W(i) and W(j) [ticks].
+    """
+
+    tracks: tuple[Track, ...]
+    completions: tuple[Tick, Tick]
+
+
+def movement_groups(
+    plan: Plan, decision: Decision, time_limit: float | None = None
+) -> tuple[MovementGroup | None, MovementGroup | None]:
+    """Return both movement groups of a decision; the planner is run again to find them.
+
+    Parameters
+    ----------
+    plan
+        A plan of this planner, or of `auto` where that kept its decisions.
+    decision
+        One of ``plan.run.decisions``.
+    time_limit
+        When to stop [s]; None for no limit.
+
+    Returns
+    -------
+    tuple
+        Group one, in which the first robot waits on ties, and group two; None for a group that
+        found no way. Without a tie both groups are equal.
+
+    Raises
+    ------
+    InputError
+        If no decision of this planner is like that.
+    GaveUp
+        When time ran out.
+    """
+    options = {"routes": "clear", "swaps": "resolve", **plan.run.options}
+    task = Task(scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit))
+    groups: list[MovementGroup | None] = []
+
+    def by_two_levels_again(partial: PartialPlan, meeting: Meeting) -> Resolution | None:
+        resolution = by_two_levels(partial, meeting)
+        if resolution is not None and decision in resolution.decisions:
+            groups.extend(_temporary_group(partial, meeting, on_tie) for on_tie in (0, 1))
+        return resolution
+
+    _, routes = chosen_routes(task)
+    replayed = PartialPlan(task, routes, sees_swaps=options["swaps"] != "leave")
+    replayed.resolve_all(by_two_levels_again)
+    if not groups:
+        message = f"{plan.run.name} has no movement groups (plan with two-level, or auto)"
+        raise InputError.at("planner", message)
+    return groups[0], groups[1]
+
+
+def _temporary_group(plan: PartialPlan, meeting: Meeting, on_tie: int) -> MovementGroup | None:
+    i, j = meeting.robots
+    found = _follow(plan, i, j, on_tie=on_tie)
+    if found is None:
+        return None
+    mark = plan.graph.checkpoint()
+    plan.graph.give_all(found.resolution.rights)
+    completions = plan.graph.completion(i), plan.graph.completion(j)
+    group = MovementGroup(tracks=tuple(plan.graph.tracks()), completions=completions)
+    plan.graph.rollback(mark)
+    return group
 
 
 def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup | None:

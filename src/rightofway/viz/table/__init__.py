@@ -1,6 +1,50 @@
-"""The paper's table: a row for a robot, a column for a tick, in the cell the place it holds."""
+"""The paper's table, a row for a robot and a column for a tick; lists of events and meetings."""
 
-from rightofway.viz.table.timespace import Cell, Row, Run, TimeSpaceTable, table_of
-from rightofway.viz.table.writing import as_text, write_csv, write_xlsx
+from rightofway.viz.table.listing import Column, Listing, parquet_of
+from rightofway.viz.table.lists import (
+    Meeting,
+    chosen_events,
+    collision_list,
+    collision_ticks,
+    conflicts_before,
+    decision_list,
+    event_list,
+    meetings,
+)
+from rightofway.viz.table.timespace import (
+    Cell,
+    Row,
+    Run,
+    TimeSpaceTable,
+    chosen_robots,
+    end_of,
+    table_of,
+    table_of_groups,
+)
+from rightofway.viz.table.writing import as_csv, as_text, write_csv, write_xlsx
 
-__all__ = ["Cell", "Row", "Run", "TimeSpaceTable", "as_text", "table_of", "write_csv", "write_xlsx"]
+__all__ = [
+    "Cell",
+    "Column",
+    "Listing",
+    "Meeting",
+    "Row",
+    "Run",
+    "TimeSpaceTable",
+    "as_csv",
+    "as_text",
+    "chosen_events",
+    "chosen_robots",
+    "collision_list",
+    "collision_ticks",
+    "conflicts_before",
+    "decision_list",
+    "end_of",
+    "event_list",
+    "meetings",
+    "parquet_of",
+    "table_of",
+    "table_of_groups",
+    "write_csv",
+    "write_xlsx",
+]

@@ -5,30 +5,49 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from fractions import Fraction
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from rightofway.errors import InputError, InputFault
-from rightofway.metrics import collisions, free_running, waits
-from rightofway.model import NEVER, Plan, Roadmap, Scenario, Tick, Track, completions_of
+from rightofway.metrics import collisions, free_running, swaps
+from rightofway.metrics.waits import waits_in
+from rightofway.model import (
+    NEVER,
+    Plan,
+    Roadmap,
+    Scenario,
+    Stays,
+    Tick,
+    Track,
+    completions_of,
+    stays_of,
+)
+from rightofway.model.quantities import DIGITS, Quantities, decimal
 
 MAX_CELLS = 2_000_000
 """Larger tables than this are not written out."""
 
-Mark = Literal["collision", "wait"]
-"""``collision``: another robot books the place too. ``wait``: nothing but waiting to do."""
+Mark = Literal["collision", "swap", "wait"]
+"""``collision``: another robot books the place too. ``swap``: last tick before, or first tick
+after, two robots exchange their places. ``wait``: nothing but waiting to do."""
+
+MARKS: tuple[Mark, ...] = get_args(Mark)
+"""Where a tick has several, the first of these is shown."""
 
 Place = int | str
 """On a grid the number of the cell, else the name of the vertex."""
 
-RowKind = Literal["planned", "final"]
-"""``planned``: no robot waits for another. ``final``: the plan."""
+RowKind = Literal["planned", "final", "list 1", "list 2"]
+"""``planned``: no robot waits for another. ``final``: the plan. ``list 1``, ``list 2``: the two
+movement groups of a decision, in which the first, or the second, of two robots waits."""
 
 Spans = list[tuple[int, int]]
 """Each from a tick to before another [ticks]."""
+
+Fleets = tuple[tuple[RowKind, Sequence[Track]], ...]
+"""Tracks of all robots, for each kind of row."""
 
 
 class Cell(NamedTuple):
@@ -86,15 +105,15 @@ class TimeSpaceTable:
     ----------
     first_tick, last_tick
         Its columns, both included [ticks].
-    tick
-        How long a tick is [time unit].
+    quantities
+        How times are written.
     rows
-        Planned and final row of each robot in turn.
+        Planned and final row of each robot in turn; or one kind of rows after another.
     """
 
     first_tick: Tick
     last_tick: Tick
-    tick: Fraction
+    quantities: Quantities
     rows: tuple[Row, ...]
 
     @property
@@ -102,18 +121,33 @@ class TimeSpaceTable:
         """The ticks of its columns."""
         return range(self.first_tick, self.last_tick + 1)
 
+    @property
+    def heading(self) -> str:
+        """What stands before the times of the columns: ``time [s]``."""
+        return "tick" if self.quantities.in_ticks else self.quantities.heading("time")
+
+    def time(self, tick: int) -> str:
+        """Return the time of a column, with as many decimals as tell two columns apart."""
+        length, digits = self.quantities.tick, DIGITS
+        if self.quantities.in_ticks:
+            return str(tick)
+        while (length * 10**digits).denominator > 1 and length * 10**digits < 10:  # noqa: PLR2004
+            digits += 1
+        return decimal(tick * length, digits)
+
     def refuse_more_than(self, columns: int) -> None:
         """Raise an InputError for more ticks than ``columns``, or more than `MAX_CELLS` cells."""
         ticks, rows = len(self.ticks), len(self.rows)
         if ticks > columns:
             message = (
-                f"{ticks} columns, room is for {columns} (choose fewer: first_tick, last_tick)"
+                f"{ticks} columns, room is for {columns} (choose fewer with --from and --to,"
+                " in Python with first_tick and last_tick; --events has no such limit)"
             )
             raise InputError.at("table", message)
         if ticks * rows > MAX_CELLS:
             message = (
-                f"{rows} rows of {ticks} ticks are more than {MAX_CELLS} cells"
-                " (choose fewer robots, or fewer ticks: robots, first_tick, last_tick)"
+                f"{rows} rows of {ticks} columns are more than {MAX_CELLS} cells"
+                " (choose fewer with --robots, or with --from and --to)"
             )
             raise InputError.at("table", message)
 
@@ -124,6 +158,7 @@ def table_of(
     first_tick: int = 0,
     last_tick: int | None = None,
     robots: Sequence[str] | None = None,
+    quantities: Quantities | None = None,
 ) -> TimeSpaceTable:
     """Make the time/space table of a plan.
 
@@ -136,38 +171,109 @@ def table_of(
     robots
         Names of the robots to show, in the order of the scenario; all by default. Their collisions
         with robots that are not shown are marked all the same.
+    quantities
+        How times are written; by default as the scenario does.
 
     Raises
     ------
     InputError
-        For ticks in the wrong order, or a robot that is not in the plan.
+        For ticks in the wrong order or after the end, or a robot that is not in the plan.
     """
-    scenario = plan.scenario
-    shown = _indices(scenario, robots)
-    alone, nowhere = free_running(plan), [Spans() for _ in plan.tracks]
-    waiting = [Spans() for _ in plan.tracks]
-    for wait in waits(plan):
-        waiting[wait.robot].append((wait.tick, wait.tick + wait.ticks))
-    kinds: tuple[tuple[RowKind, Sequence[Track], list[Spans]], ...] = (
-        ("planned", alone, nowhere),
-        ("final", plan.tracks, waiting),
+    shown = chosen_robots(plan.scenario, robots)
+    fleets: Fleets = (("planned", free_running(plan)), ("final", plan.tracks))
+    order = [(robot, fleet) for robot in shown for fleet in fleets]
+    return _table(plan.scenario, order, (first_tick, last_tick), quantities)
+
+
+def table_of_groups(
+    plan: Plan,
+    robots: Sequence[int],
+    groups: Sequence[Sequence[Track] | None],
+    *,
+    first_tick: int = 0,
+    last_tick: int | None = None,
+    quantities: Quantities | None = None,
+) -> TimeSpaceTable:
+    """Make one table of the two movement groups of a decision: planned rows, list one, list two.
+
+    Parameters
+    ----------
+    plan
+        The plan that the decision led to.
+    robots
+        The robots to show, by index.
+    groups
+        The tracks of the fleet in both groups; None for a group that found no way.
+    first_tick, last_tick, quantities
+        As for `table_of`.
+
+    Raises
+    ------
+    InputError
+        For ticks in the wrong order or after the end.
+    """
+    kinds: tuple[RowKind, RowKind] = ("list 1", "list 2")
+    fleets: list[tuple[RowKind, Sequence[Track]]] = [("planned", free_running(plan))]
+    fleets += [(kind, each) for kind, each in zip(kinds, groups, strict=True) if each is not None]
+    order = [(robot, fleet) for fleet in fleets for robot in robots]
+    return _table(plan.scenario, order, (first_tick, last_tick), quantities)
+
+
+def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:
+    """Return the last tick of a whole table.
+
+    Parameters
+    ----------
+    plan, robots
+        As for `table_of`.
+    """
+    shown = chosen_robots(plan.scenario, robots)
+    fleets = (free_running(plan), plan.tracks)
+    ends = [completions_of(plan.scenario, tracks) for tracks in fleets]
+    return max(end[robot] for end in ends for robot in shown)
+
+
+def _table(
+    scenario: Scenario,
+    order: Sequence[tuple[int, tuple[RowKind, Sequence[Track]]]],
+    window: tuple[int, int | None],
+    quantities: Quantities | None,
+) -> TimeSpaceTable:
+    """Make a table of rows in an order: a robot in a fleet of tracks."""
+    fleets = dict(fleet for _, fleet in order)
+    stays = {kind: stays_of(scenario, tracks) for kind, tracks in fleets.items()}
+    marked = {kind: _marks(scenario, tracks, stays[kind]) for kind, tracks in fleets.items()}
+    ends = [stays[kind][robot].completion for robot, (kind, _) in order]
+    first, last = _window(*window, max(ends))
+    rows = []
+    for (robot, (kind, tracks)), end in zip(order, ends, strict=True):
+        spans = [marked[kind][mark].get(robot, []) for mark in MARKS]
+        shown = first, min(last, end) + 1
+        runs = tuple(_runs(scenario.roadmap, tracks[robot], shown, spans))
+        rows.append(Row(robot=scenario.robots[robot].name, kind=kind, runs=runs))
+    return TimeSpaceTable(
+        first_tick=first,
+        last_tick=last,
+        quantities=quantities or scenario.quantities,
+        rows=tuple(rows),
     )
-    ends = {kind: completions_of(scenario, tracks) for kind, tracks, _ in kinds}
-    colliding = {kind: _colliding(scenario, tracks) for kind, tracks, _ in kinds}
-    latest = max(ends[kind][robot] for kind in ends for robot in shown)
-    first, last = _window(first_tick, last_tick, latest)
-    rows: list[Row] = []
-    for robot in shown:
-        for kind, tracks, waits_of in kinds:
-            window = first, min(last, ends[kind][robot]) + 1
-            marked = colliding[kind][robot], waits_of[robot]
-            runs = tuple(_runs(scenario.roadmap, tracks[robot], window, *marked))
-            rows.append(Row(robot=scenario.robots[robot].name, kind=kind, runs=runs))
-    tick = scenario.problem.clock.tick
-    return TimeSpaceTable(first_tick=first, last_tick=last, tick=tick, rows=tuple(rows))
 
 
-def _indices(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
+def chosen_robots(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
+    """Return the robots of these names, by index and in the order of the scenario.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    names
+        Names of robots; None for all.
+
+    Raises
+    ------
+    InputError
+        For each name that no robot has.
+    """
     all_names = [robot.name for robot in scenario.robots]
     faults = []
     for name in names or ():
@@ -180,46 +286,53 @@ def _indices(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
     return [index for index, name in enumerate(all_names) if not names or name in names]
 
 
-def _window(first: int, last: int | None, latest: int) -> tuple[Tick, Tick]:
+def _window(first: int, last: int | None, end: Tick) -> tuple[Tick, Tick]:
     if first < 0:
         raise InputError.at("first_tick", f"{first} is negative (give 0 or more)")
     if last is not None and last < first:
         message = f"{last} is before the first tick, {first} (give {first} or more)"
         raise InputError.at("last_tick", message)
-    return Tick(first), Tick(max(first, latest) if last is None else last)
+    if first > end:
+        message = f"{first} is after the end: all robots are done at tick {end} (give less)"
+        raise InputError.at("first_tick", message)
+    return Tick(first), end if last is None else Tick(last)
 
 
-def _colliding(scenario: Scenario, tracks: Sequence[Track]) -> list[Spans]:
-    spans: list[Spans] = [[] for _ in tracks]
+def _marks(
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+) -> dict[Mark, dict[int, Spans]]:
+    """Return when robots collide, swap or wait, by mark and robot."""
+    spans: dict[Mark, dict[int, Spans]] = {mark: {} for mark in MARKS}
     for collision in collisions(scenario, tracks):
         end = NEVER if collision.end is None else collision.end
         for robot in collision.robots:
-            spans[robot].append((collision.start, end))
+            spans["collision"].setdefault(robot, []).append((collision.start, end))
+    for swap in swaps(tracks):
+        for robot in swap.robots:
+            spans["swap"].setdefault(robot, []).append((swap.tick - 1, swap.tick + 1))
+    for wait in waits_in(scenario, tracks, stays):
+        span = wait.tick, wait.tick + wait.ticks
+        spans["wait"].setdefault(wait.robot, []).append(span)
     return spans
 
 
 def _runs(
-    roadmap: Roadmap, track: Track, window: tuple[int, int], colliding: Spans, waiting: Spans
+    roadmap: Roadmap, track: Track, window: tuple[int, int], spans_by_mark: Sequence[Spans]
 ) -> Iterator[Run]:
-    """Yield the runs of a track in a window; a collision is marked rather than a wait."""
+    """Yield the runs of a track in a window; of several marks, the first of `MARKS` is shown."""
     if window[0] >= window[1]:
         return
-    spans = [
-        np.clip(np.array(each, np.int64).reshape(-1, 2), *window) for each in (colliding, waiting)
-    ]
+    spans = [np.clip(np.array(each, np.int64).reshape(-1, 2), *window) for each in spans_by_mark]
     cuts = np.unique(np.concatenate([window, np.clip(track.enter, *window), *map(np.ravel, spans)]))
     visits = np.searchsorted(track.enter, cuts[:-1], side="right") - 1
     begun, ended = (
         [np.searchsorted(np.sort(span[:, side]), cuts[:-1], side="right") for span in spans]
         for side in (0, 1)
     )
-    collides, waits_here = np.array(begun) > np.array(ended)
+    is_marked = [*(np.array(begun) > np.array(ended)), np.ones(len(visits), bool)]
+    marks = np.argmax(is_marked, axis=0).tolist()  # the first that holds; none is the last
     vertices = track.vertices[visits].tolist()
     cells = roadmap.grid.cells if roadmap.grid is not None and roadmap.labels is None else None
-    for index, (start, end) in enumerate(pairwise(cuts.tolist())):
-        mark: Mark | None = (
-            "collision" if collides[index] else "wait" if waits_here[index] else None
-        )
-        vertex = vertices[index]
+    for vertex, mark, (start, end) in zip(vertices, marks, pairwise(cuts.tolist()), strict=True):
         place: Place = roadmap.name(vertex) if cells is None else int(cells[vertex])
-        yield Run(Tick(start), Tick(end), Cell(place, mark))
+        yield Run(Tick(start), Tick(end), Cell(place, (*MARKS, None)[mark]))

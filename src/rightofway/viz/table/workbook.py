@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
 
+from rightofway.errors import InputError
+from rightofway.viz.table.listing import Listing
 from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
 Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
@@ -15,18 +19,23 @@ Font, PatternFill = openpyxl.styles.Font, openpyxl.styles.PatternFill
 FILLS: dict[Mark | None, Any] = {
     # Orange and light blue: apart for colour-blind eyes too.
     "collision": PatternFill("solid", fgColor="F4B183"),
+    "swap": PatternFill("solid", fgColor="D9A6E8"),
     "wait": PatternFill("solid", fgColor="BDD7EE"),
     None: None,
 }
 BOLD, GREY = Font(bold=True), Font(color="7F7F7F")
-FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None}
+FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None, "list 1": None, "list 2": None}
 
 LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
     ("planned", "where the robot would be if nobody waited for anybody", GREY, None),
     ("final", "where it is in the plan", None, None),
     ("", "another robot has the same place", None, "collision"),
+    ("", "two robots exchange their places", None, "swap"),
     ("", "the robot waits", None, "wait"),
 )
+
+MAX_ROWS_OF_SHEET = 2**20 - 1
+"""A sheet has 2**20 rows; the first is the heading."""
 
 UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 """Characters that no workbook may hold."""
@@ -42,13 +51,56 @@ def workbook_of(table: TimeSpaceTable) -> bytes:
     return content.getvalue()
 
 
+def sheets_of(lists: Sequence[Listing]) -> bytes:
+    """Return a workbook with a sheet for each list, named by its title.
+
+    Parameters
+    ----------
+    lists
+        The lists.
+
+    Raises
+    ------
+    InputError
+        If a list has more rows than a sheet.
+    """
+    workbook = openpyxl.Workbook(write_only=True)
+    for each in lists:
+        write_list(workbook.create_sheet(each.title), each)
+    content = io.BytesIO()
+    workbook.save(content)
+    return content.getvalue()
+
+
+def write_list(sheet: Any, listing: Listing) -> None:
+    """Write a list into an empty sheet: bold headings that stay in sight, filters, numbers."""
+    if len(listing) > MAX_ROWS_OF_SHEET:
+        message = (
+            f"{len(listing)} rows, a sheet has room for {MAX_ROWS_OF_SHEET}"
+            " (choose fewer with --from, --to and --robots, or write .csv)"
+        )
+        raise InputError.at(listing.title, message)
+    headings = listing.headings()
+    sheet.freeze_panes = "A2"
+    sheet.auto_filter.ref = (
+        f"A1:{openpyxl.utils.get_column_letter(len(headings))}{len(listing) + 1}"
+    )
+    for number, (heading, column) in enumerate(zip(headings, listing.columns, strict=True), 1):
+        texts = {str(value) for value in column.values if isinstance(value, str)}
+        _widen(sheet, number, number, {heading, *texts})
+    sheet.append([_cell(sheet, heading, font=BOLD) for heading in headings])
+    for row in listing.rows():
+        sheet.append([None if value is None else _cell(sheet, value) for value in row])
+
+
 def _write_table(sheet: Any, table: TimeSpaceTable) -> None:
     sheet.freeze_panes = "C2"  # robots, kinds of row and ticks stay in sight
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
     _widen(sheet, 1, 1, {"robot", *(row.robot for row in table.rows)})
     _widen(sheet, 2, 2, set(FONTS))
-    _widen(sheet, 3, len(table.ticks) + 2, {str(table.last_tick), *places})
-    sheet.append([_cell(sheet, title, font=BOLD) for title in ("robot", "row", *table.ticks)])
+    _widen(sheet, 3, len(table.ticks) + 2, {table.time(table.last_tick), *places})
+    times = (_number(table.time(tick)) for tick in table.ticks)
+    sheet.append([_cell(sheet, title, font=BOLD) for title in ("robot", "row", *times)])
     for row in table.rows:
         font = FONTS[row.kind]
         names = [_cell(sheet, row.robot, font=BOLD), _cell(sheet, row.kind, font=font)]
@@ -64,10 +116,15 @@ def _write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     _widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     for name, meaning, font, mark in LEGEND:
         sheet.append([_cell(sheet, name, font=font, mark=mark), meaning])
-    sheet.append(["tick", f"lasts {table.tick} in the scenario's time unit"])
+    lasts = replace(table.quantities, in_ticks=False).duration(1)
+    sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
 
 
-def _cell(sheet: Any, value: Place, *, font: Any = None, mark: Mark | None = None) -> Any:
+def _number(text: str) -> int | float:
+    return float(text) if "." in text else int(text)
+
+
+def _cell(sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | None = None) -> Any:
     text = UNPRINTABLE.sub("\ufffd", value) if isinstance(value, str) else value
     cell = openpyxl.cell.WriteOnlyCell(sheet, text)
     if isinstance(text, str):

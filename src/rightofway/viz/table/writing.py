@@ -6,6 +6,7 @@ import csv
 import io
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from unicodedata import combining, east_asian_width
 
 from rightofway.files import write_whole
@@ -14,14 +15,21 @@ from rightofway.viz.table.timespace import MAX_CELLS, Cell, Mark, TimeSpaceTable
 MAX_TICKS_OF_SHEET = 16_384 - 2
 """A sheet has 16384 columns; the first two are robot and kind of row."""
 
-SIGNS: dict[Mark | None, str] = {"collision": "*", "wait": "=", None: " "}
-MEANINGS: dict[Mark, str] = {"collision": "two robots in one place", "wait": "waits"}
+MAX_LINES = 120
+"""Lines of a text that people read; a longer one ends with how to see the rest."""
+
+SIGNS: dict[Mark | None, str] = {"collision": "*", "swap": "!", "wait": "=", None: " "}
+MEANINGS: dict[Mark, str] = {
+    "collision": "two robots in one place",
+    "swap": "two robots swap their places",
+    "wait": "waits",
+}
 
 GAP = "  "
 """Between the names and the first column; a column ends in a sign and a blank itself."""
 
 
-def as_text(table: TimeSpaceTable, width: int = 80) -> str:
+def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_LINES) -> str:
     """Return a table as text.
 
     Parameters
@@ -30,35 +38,45 @@ def as_text(table: TimeSpaceTable, width: int = 80) -> str:
         The table.
     width
         Columns of the terminal. A block shows at least one tick, however narrow it is.
+    max_lines
+        About how many lines to write before the table is cut, with a last line that says so; None
+        for all.
 
     Returns
     -------
     str
         Blocks of ticks one below the other, each row with its robot's name, without those that have
-        ended. After a place, ``*`` marks a collision and ``=`` a wait.
+        ended. After a place, ``*`` marks a collision, ``!`` a swap and ``=`` a wait.
 
     Raises
     ------
     InputError
-        If the table is too large.
+        If the table is too large to be written in full.
     """
-    table.refuse_more_than(MAX_CELLS)
+    if max_lines is None:
+        table.refuse_more_than(MAX_CELLS)
     labels = [f"{row.robot} {row.kind}" for row in table.rows]
-    names = max(map(_width, ("tick", *labels)))
+    names = max(map(text_width, (table.heading, *labels)))
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
-    size = max(map(_width, (*places, str(table.last_tick))))
+    times = table.time(table.last_tick), table.time(max(table.last_tick - 1, 0))
+    size = max(map(text_width, (*places, *times)))
     columns = max((width - names - len(GAP) + 1) // (size + len("* ")), 1)
-    blocks = (
-        "\n".join(_block(table, labels, table.ticks[begin : begin + columns], names, size))
-        for begin in range(0, len(table.ticks), columns)
-    )
-    return "\n\n".join((*blocks, *_legend(table)))
+    blocks: list[str] = []
+    lines = 0
+    for begin in range(0, len(table.ticks), columns):
+        if max_lines is not None and blocks and lines + len(labels) + 2 > max_lines:
+            break
+        block = list(_block(table, labels, table.ticks[begin : begin + columns], names, size))
+        blocks.append("\n".join(block[:max_lines]))
+        lines += len(block) + 1
+    hints = _hints(table, min(len(blocks) * columns, len(table.ticks)), lines, max_lines)
+    return "\n\n".join((*blocks, *_legend(table), *hints))
 
 
 def _block(
     table: TimeSpaceTable, labels: list[str], ticks: range, names: int, size: int
 ) -> Iterator[str]:
-    yield _line("tick", [Cell(tick, None) for tick in ticks], names, size)
+    yield _line(table.heading, [Cell(table.time(tick), None) for tick in ticks], names, size)
     for label, row in zip(labels, table.rows, strict=True):
         cells = row.cells(ticks[0], ticks[-1])
         if cells:
@@ -67,20 +85,38 @@ def _block(
 
 def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
     texts = ((str(cell.place), SIGNS[cell.mark]) for cell in cells)
-    columns = " ".join(" " * (size - _width(place)) + place + sign for place, sign in texts)
-    return f"{label}{' ' * (names - _width(label))}{GAP}{columns}".rstrip()
+    columns = " ".join(" " * (size - text_width(place)) + place + sign for place, sign in texts)
+    return f"{label}{' ' * (names - text_width(label))}{GAP}{columns}".rstrip()
 
 
 def _legend(table: TimeSpaceTable) -> Iterator[str]:
     marks = {run.cell.mark for row in table.rows for run in row.runs}
     notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
-    if table.tick != 1:
-        notes.append(f"a tick lasts {table.tick}")
+    quantities = table.quantities
+    if quantities.tick != 1:
+        column = "a tick" if quantities.in_ticks else "a column"
+        notes.append(f"{column} lasts {replace(quantities, in_ticks=False).duration(1)}")
     if notes:
         yield "   ".join(notes)
 
 
-def _width(text: str) -> int:
+def _hints(table: TimeSpaceTable, ticks: int, lines: int, max_lines: int | None) -> Iterator[str]:
+    """Yield what a cut text leaves out, and how to see it."""
+    missing = []
+    if max_lines is not None and lines > max(max_lines, len(table.rows) + 2):
+        missing.append("rows")
+    if ticks < len(table.ticks):
+        shown, last = table.time(table.first_tick + ticks - 1), table.time(table.last_tick)
+        missing.append(f"columns after {shown}, up to {last}")
+    if missing:
+        yield (
+            f"… {' and '.join(missing)} are left out"
+            "\n  (choose with --from, --to and --robots; -o FILE.txt writes all;"
+            "\n  --events lists each visit in one line)"
+        )
+
+
+def text_width(text: str) -> int:
     """Return how many columns of a terminal a text takes."""
     return sum(
         0 if combining(character) else 2 if east_asian_width(character) in "WF" else 1
@@ -88,15 +124,47 @@ def _width(text: str) -> int:
     )
 
 
+def as_csv(table: TimeSpaceTable) -> str:
+    """Return a table as comma-separated values.
+
+    Parameters
+    ----------
+    table
+        The table.
+
+    Returns
+    -------
+    str
+        A header of ``robot``, ``row`` and the times, then a line of bare places for each row. A row
+        with collisions, swaps or waits is followed by a line with these, named for example
+        ``final marks``.
+
+    Raises
+    ------
+    InputError
+        If the table is too large.
+    """
+    table.refuse_more_than(MAX_CELLS)
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["robot", "row", *map(table.time, table.ticks)])
+    for row in table.rows:
+        writer.writerow([row.robot, row.kind, *row.places])
+        marks = [run.cell.mark or "" for run in row.runs for _ in range(run.start, run.end)]
+        if any(marks):
+            writer.writerow([row.robot, f"{row.kind} marks", *marks])
+    return text.getvalue()
+
+
 def write_csv(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
-    """Write a table as comma-separated values (UTF-8): bare places, no marks.
+    """Write a table as comma-separated values (UTF-8), as `as_csv` returns them.
 
     Parameters
     ----------
     table
         The table.
     path
-        Where. A header of ``robot``, ``row`` and the ticks, then a line for each row.
+        Where.
 
     Raises
     ------
@@ -104,12 +172,7 @@ def write_csv(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:
         If the table is too large, or the file cannot be written; one that was there before is
         untouched.
     """
-    table.refuse_more_than(MAX_CELLS)
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["robot", "row", *table.ticks])
-    writer.writerows([row.robot, row.kind, *row.places] for row in table.rows)
-    write_whole(path, text.getvalue())
+    write_whole(path, as_csv(table))
 
 
 def write_xlsx(table: TimeSpaceTable, path: str | os.PathLike[str]) -> None:

@@ -1,0 +1,418 @@
+"""``rightofway table`` and ``collisions``: a plan as tables that other programs read too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.terminal import as_json_option, put_json, read_either, say, width, writable
+from rightofway.errors import InputError
+
+if TYPE_CHECKING:
+    from rightofway.model import Decision, Plan
+    from rightofway.model.quantities import Quantities
+    from rightofway.viz.table import Listing, Meeting, TimeSpaceTable
+
+TABLE_EXAMPLES = """\b
+Examples:
+  rightofway table plan.json --to 20
+  rightofway table plan.json -o plan.xlsx --robots R1,R2
+  rightofway table plan.json --events -o events.csv
+  rightofway table plan.json --decision 1
+"""
+
+COLLISIONS_EXAMPLES = """\b
+Examples:
+  rightofway collisions door.yaml
+  rightofway collisions door.yaml --each-tick -o collisions.csv
+  rightofway collisions plan.json
+"""
+
+
+class _Time(click.ParamType[Fraction]):
+    """A time that is given as a number of time units, or of ticks."""
+
+    name = "time"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Fraction:
+        """Return the number, exactly."""
+        try:
+            number = Fraction(value)
+        except (ValueError, ZeroDivisionError):
+            self.fail(f"{value!r} is not a number (write it like 3, 0.5 or 1/3)", param, ctx)
+        if number < 0:
+            self.fail(f"{value} is negative (give 0 or more)", param, ctx)
+        return number
+
+
+def _file(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], Any]:
+    """Return the callback of ``-o``: a file with one of these endings, or ``-``."""
+    check = writable(*suffixes)
+
+    def callback(context: click.Context, parameter: click.Parameter, path: str | None) -> Any:
+        return path if path == "-" else check(context, parameter, path)
+
+    return callback
+
+
+def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that choose what is shown."""
+    for option in (
+        click.option("--ticks", "in_ticks", is_flag=True,
+                     help="Write and read times in ticks, the program's unit of time."),
+        click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
+        click.option("--to", "last", type=_Time(), metavar="TIME", help="Last time shown."),
+        click.option("--from", "first", type=_Time(), default="0", metavar="TIME",
+                     help="First time shown, in the scenario's unit."),
+    ):  # fmt: skip
+        command = option(command)
+    return command
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Shown:
+    """What of a plan is shown, and how times are written."""
+
+    first_tick: int
+    last_tick: int | None
+    robots: list[str] | None
+    quantities: Quantities
+
+
+def _shown(
+    plan: Plan, *, first: Fraction, last: Fraction | None, robots: str | None, in_ticks: bool
+) -> _Shown:
+    from rightofway.viz.table import end_of
+
+    quantities = replace(plan.scenario.quantities, in_ticks=in_ticks)
+    names = [name.strip() for name in robots.split(",")] if robots else None
+    tick = Fraction(1) if in_ticks else quantities.tick
+    end = end_of(plan, names)
+    if first > end * tick:
+        message = f"everything has ended at {quantities.moment(end)} (give less)"
+        raise InputError.at("--from", f"{first} is too late: {message}")
+    if last is not None and last < first:
+        raise InputError.at("--to", f"{last} is before --from, {first} (give {first} or more)")
+    return _Shown(
+        first_tick=math.ceil(first / tick),
+        last_tick=None if last is None else max(math.floor(last / tick), math.ceil(first / tick)),
+        robots=names,
+        quantities=quantities,
+    )
+
+
+@click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is, when.")
+@click.argument("plan", type=click.Path())
+@click.option("-o", "--output", metavar="FILE",
+              callback=_file(".txt", ".csv", ".xlsx", ".parquet"),
+              help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
+                   " output.")  # fmt: skip
+@click.option("--events", is_flag=True,
+              help="List each visit instead: robot, place, purpose, enter, leave,"
+                   " waits for.")  # fmt: skip
+@click.option("--decision", type=click.IntRange(1), metavar="N",
+              help="Show both movement groups of the planner's N-th decision.")  # fmt: skip
+@_shown_options
+@as_json_option("table")
+def table(
+    *,
+    plan: str,
+    output: str | None,
+    events: bool,
+    decision: int | None,
+    as_json: bool,
+    **given: Any,
+) -> None:
+    """Print the time/space table of a PLAN: the vertex of each robot at each time.
+
+    Planned rows are those of robots that never wait, with their collisions marked; final rows are
+    those of the plan. A long table is cut. A PLAN of - is standard input.
+    """
+    from rightofway.io import load_plan
+
+    if events and decision is not None:
+        raise click.UsageError("--events and --decision are two tables: choose one")
+    if Path(output or "").suffix.lower() == ".parquet" and not events:
+        raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
+    if as_json and output == "-":
+        raise click.UsageError("--json and -o - both go to standard output")
+    found = load_plan(plan)
+    if events:
+        _events(found, _shown(found, **given), output, as_json=as_json)
+        return
+    words: list[str] = []
+    if decision is None:
+        made = _time_space_table(found, _shown(found, **given))
+    else:
+        made, words = _groups(found, decision, given)
+    _put_table(made, output, as_json=as_json, words=words)
+
+
+def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
+    from rightofway.viz.table import table_of
+
+    return table_of(
+        found,
+        first_tick=shown.first_tick,
+        last_tick=shown.last_tick,
+        robots=shown.robots,
+        quantities=shown.quantities,
+    )
+
+
+def _put_table(
+    made: TimeSpaceTable, output: str | None, *, as_json: bool, words: list[str]
+) -> None:
+    from rightofway.viz.table import as_csv, as_text, write_xlsx
+
+    suffix = Path(output or "").suffix.lower()
+    if output == "-":
+        click.echo(as_csv(made), nl=False)
+    elif output and suffix == ".xlsx":
+        write_xlsx(made, output)
+    elif output:
+        _write(output, as_csv(made) if suffix == ".csv" else f"{as_text(made, width(), None)}\n")
+    if output and output != "-":
+        say(f"wrote {output}")
+    if as_json:
+        put_json(_table_data(made))
+    elif not output:
+        click.echo("\n\n".join([*words[:1], as_text(made, width()), *words[1:]]))
+
+
+def _write(path: str, content: str | bytes) -> None:
+    from rightofway.files import write_whole
+
+    write_whole(path, content)
+
+
+def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
+    """Return the table for programs: for each row its runs of equal cells."""
+    return {
+        "first_tick": found.first_tick,
+        "last_tick": found.last_tick,
+        **_clock_data(found.quantities),
+        "rows": [
+            {
+                "robot": row.robot,
+                "kind": row.kind,
+                "runs": [
+                    {"start": start, "end": end, "place": cell.place, "mark": cell.mark}
+                    for start, end, cell in row.runs
+                ],
+            }
+            for row in found.rows
+        ],
+    }
+
+
+def _clock_data(quantities: Quantities) -> dict[str, Any]:
+    units = quantities.units
+    return {
+        "tick": str(quantities.tick),
+        "units": {"length": units.length, "time": units.time},
+    }
+
+
+def _events(found: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
+    from rightofway.metrics import event_columns
+    from rightofway.viz.table import chosen_events, event_list, parquet_of
+
+    chosen = chosen_events(
+        found, first_tick=shown.first_tick, last_tick=shown.last_tick, robots=shown.robots
+    )
+    made = event_list(found, chosen, shown.quantities)
+    if output and Path(output).suffix.lower() == ".parquet":
+        _write(output, parquet_of(event_columns(found, chosen)))
+        say(f"wrote {output}")
+    elif output:
+        _put_lists([made], output)
+    elif not as_json:
+        click.echo(made.as_text())
+    if as_json:
+        columns = event_columns(found, chosen)
+        exact = {"enter": "enter_tick", "leave": "leave_tick", "waits": "wait_ticks"}
+        keys = [key for key in columns if key not in exact.values()]
+        values = zip(*(columns[exact.get(key, key)] for key in keys), strict=True)
+        rows = [dict(zip(keys, row, strict=True)) for row in values]
+        put_json({**_clock_data(shown.quantities), "events": rows})
+
+
+def _put_lists(lists: Sequence[Listing], output: str) -> None:
+    """Write lists by the ending of the file: all as sheets or text, the first one as CSV."""
+    from rightofway.viz.table.workbook import sheets_of
+
+    if output == "-":
+        click.echo(lists[0].as_csv(), nl=False)
+        return
+    match Path(output).suffix.lower():
+        case ".xlsx":
+            _write(output, sheets_of(lists))
+        case ".csv":
+            _write(output, lists[0].as_csv())
+        case _:
+            _write(output, "\n\n".join(each.as_text(None) for each in lists) + "\n")
+    say(f"wrote {output}")
+
+
+def _groups(found: Plan, number: int, given: dict[str, Any]) -> tuple[TimeSpaceTable, list[str]]:
+    """Return the table of both movement groups of a decision, a heading, and which was chosen."""
+    from rightofway.planners.two_level import movement_groups
+    from rightofway.viz.table import chosen_robots, table_of_groups
+
+    decisions = found.run.decisions
+    if number > len(decisions):
+        last = f"the last one is {len(decisions)}" if decisions else "the plan has no decisions"
+        remedy = "rightofway collisions PLAN lists them"
+        raise InputError.at("--decision", f"{number} is not there, {last} ({remedy})")
+    decision = decisions[number - 1]
+    groups = movement_groups(found, decision)
+    shown = _shown(found, **given)
+    names = shown.robots
+    made = table_of_groups(
+        found,
+        decision.robots if names is None else chosen_robots(found.scenario, names),
+        [None if group is None else group.tracks for group in groups],
+        first_tick=shown.first_tick,
+        last_tick=shown.last_tick,
+        quantities=shown.quantities,
+    )
+    completions = [None if group is None else group.completions for group in groups]
+    words = _group_words(found, decision, completions, shown.quantities)
+    return made, [f"Decision {number}: {words[0]}", "\n".join(words[1:])]
+
+
+def _group_words(
+    found: Plan,
+    decision: Decision,
+    completions: Sequence[tuple[int, int] | None],
+    quantities: Quantities,
+) -> list[str]:
+    i, j = (found.scenario.robots[robot].name for robot in decision.robots)
+    place = found.scenario.roadmap.name(decision.vertices[0])
+    lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
+    for number, pair in enumerate(completions, 1):
+        if pair is None:
+            lines.append(f"List {number}: no way.")
+            continue
+        one, other = map(quantities.cell, pair)
+        total = quantities.duration(sum(pair))
+        lines.append(f"List {number}: W({i}) + W({j}) = {one} + {other} = {total}")
+    waits = found.scenario.robots[decision.waits].name
+    lines.append(f"{waits} waits ({decision.level} level).")
+    return lines
+
+
+@click.command(epilog=COLLISIONS_EXAMPLES, short_help="List where robots meet that never wait.")
+@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN")
+@click.option("-o", "--output", metavar="FILE", callback=_file(".txt", ".csv", ".xlsx"),
+              help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
+@click.option("--each-tick", is_flag=True,
+              help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
+@click.option("--planner", metavar="NAME",
+              help="Plan a scenario first, and list each decision too.")  # fmt: skip
+@click.option("--ticks", "in_ticks", is_flag=True, help="Write times in ticks.")
+@as_json_option("list")
+def collisions(
+    *,
+    source: str,
+    output: str | None,
+    each_tick: bool,
+    planner: str | None,
+    in_ticks: bool,
+    as_json: bool,
+) -> None:
+    """List the collisions and swaps of free-running robots, which never wait for another robot.
+
+    The robots of a scenario drive their shortest routes; those of a plan the routes of the plan,
+    and the conflicts before and after each decision of its planner follow. A file of - is standard
+    input.
+    """
+    from rightofway.metrics import free_running
+    from rightofway.model import Scenario, completions_of
+    from rightofway.planners.routing import free_running_tracks
+    from rightofway.solve import solve
+    from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
+
+    found = read_either(source)
+    if isinstance(found, Scenario) and planner:
+        found = solve(found, planner, report=say)
+    plan = None if isinstance(found, Scenario) else found
+    scenario = found if isinstance(found, Scenario) else found.scenario
+    tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
+    quantities = replace(scenario.quantities, in_ticks=in_ticks)
+    listed = meetings(scenario, tracks)
+    if each_tick:
+        end = max(completions_of(scenario, tracks))
+        lists = [collision_ticks(listed, quantities, end)]
+    else:
+        lists = [collision_list(listed, quantities)]
+    if plan is not None and plan.run.decisions:
+        lists.append(decision_list(plan, quantities))
+    if output:
+        _put_lists(lists, output)
+    if as_json:
+        put_json(_collision_data(listed, plan, quantities))
+    elif not output:
+        routes = "shortest routes" if plan is None else "routes of the plan"
+        parts = [f"On the {routes}, without waits: {_counted(listed)}.", *_texts(lists)]
+        if plan is not None:
+            left = meetings(scenario, plan.tracks)
+            parts.append(f"Left in the plan: {_counted(left)}.")
+            parts += _texts([collision_list(left, quantities)])
+        click.echo("\n\n".join(parts))
+
+
+def _texts(lists: Sequence[Listing]) -> list[str]:
+    return [each.as_text() for each in lists if len(each)]
+
+
+def _counted(listed: Sequence[Meeting]) -> str:
+    kinds = [each.kind for each in listed]
+    counts = ((kinds.count(kind), kind) for kind in ("collision", "swap"))
+    return " and ".join(f"{count} {kind}" + "s" * (count != 1) for count, kind in counts)
+
+
+def _collision_data(
+    listed: Sequence[Meeting], plan: Plan | None, quantities: Quantities
+) -> dict[str, Any]:
+    """Return collisions and decisions for programs; times in ticks."""
+    from rightofway.viz.table import conflicts_before, meetings
+
+    data = {**_clock_data(quantities), "collisions": [_meeting_data(each) for each in listed]}
+    if plan is not None:
+        names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
+        data["decisions"] = [
+            {
+                "tick": each.tick,
+                "kind": each.kind,
+                "vertices": list(map(place, each.vertices)),
+                "robots": [names[robot] for robot in each.robots],
+                "waits": names[each.waits],
+                "level": each.level,
+                "conflicts_before": before,
+                "conflicts_left": each.conflicts_left,
+                "completion_sums": each.completion_sums,
+            }
+            for each, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
+        ]
+        data["left"] = [_meeting_data(each) for each in meetings(plan.scenario, plan.tracks)]
+    return data
+
+
+def _meeting_data(each: Meeting) -> dict[str, Any]:
+    return {
+        "robots": [each.i, each.j],
+        "vertices": each.places,
+        "start": each.start,
+        "end": each.until,
+        "kind": each.kind,
+    }

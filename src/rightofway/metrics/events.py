@@ -1,0 +1,171 @@
+"""The visits of a plan as a list for people and for other programs: who is where, when, what for.
+
+A visit is one row: a robot enters a place, does there what it came for, perhaps waits for another
+robot, and leaves. `event_columns` is the one table of which `Plan.to_dataframe`, files and reports
+are made.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from rightofway.errors import NoPlanExists
+from rightofway.metrics.lost_time import joined_waits, lost_time
+from rightofway.model import Loss, Plan, Scenario, Stays, Tick, VertexId, stays_of
+
+
+class Event(NamedTuple):
+    """One visit of one robot.
+
+    Attributes
+    ----------
+    robot
+        Its index.
+    visit
+        The number of the visit, from 0.
+    vertex
+        Where it is.
+    purpose
+        What the robot does there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
+        ``drive through``, ``make room``, or ``wait`` where it only waits.
+    enter
+        When the visit begins [ticks].
+    leave
+        When the robot is in its next vertex [ticks]; None for its last visit.
+    waits
+        How long it stands still with nothing to do [ticks].
+    waits_for
+        The robot that it waits for, by index; None if no robot is the cause.
+    to_leave
+        The vertex that this robot has to leave first: the next one, or one further on the route;
+        for waits that follow one another behind one robot, that of the last wait.
+    """
+
+    robot: int
+    visit: int
+    vertex: VertexId
+    purpose: str
+    enter: Tick
+    leave: Tick | None
+    waits: Tick
+    waits_for: int | None
+    to_leave: VertexId | None
+
+
+def events(plan: Plan) -> tuple[Event, ...]:
+    """Return the visits of all robots, by robot and in order.
+
+    Parameters
+    ----------
+    plan
+        A plan that keeps the rules; of others, what the tracks claim.
+    """
+    stays = stays_of(plan.scenario, plan.tracks)
+    try:
+        losses = [loss for lost in lost_time(plan) for loss in lost.losses]
+    except NoPlanExists:  # a robot has no way, so nothing is known but its waits
+        losses = list(joined_waits(plan.scenario, plan.tracks, stays))
+    of_robot: list[list[Loss]] = [[] for _ in stays]
+    for loss in losses:
+        of_robot[loss.robot].append(loss)
+    return tuple(
+        event
+        for robot, stay in enumerate(stays)
+        for event in _events_of(plan, robot, stay, of_robot[robot])
+    )
+
+
+def _events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> Iterator[Event]:
+    track = plan.tracks[robot]
+    purposes = _purposes(plan.scenario, robot, stay, len(track))
+    enters = track.enter.tolist()
+    waited = [loss for loss in losses if loss.kind != "makes room"]
+    room = [loss for loss in losses if loss.kind == "makes room"]
+    columns = (track.vertices.tolist(), stay.dwell.tolist(), stay.waits.tolist())
+    for visit, (vertex, dwell, waiting) in enumerate(zip(*columns, strict=True)):
+        reason = _holding(waited, enters[visit] + dwell) if waiting else None
+        idle = "make room" if _holding(room, enters[visit]) else "drive through"
+        yield Event(
+            robot=robot,
+            visit=visit,
+            vertex=VertexId(vertex),
+            purpose=purposes.get(visit) or ("wait" if waiting else idle),
+            enter=Tick(enters[visit]),
+            leave=Tick(enters[visit + 1]) if visit + 1 < len(enters) else None,
+            waits=Tick(waiting),
+            waits_for=None if reason is None else reason.for_robot,
+            to_leave=None if reason is None else reason.freed,
+        )
+
+
+def _holding(losses: Sequence[Loss], tick: int) -> Loss | None:
+    """Return the loss that a tick is in; they are in order of time and do not overlap."""
+    index = bisect_right(losses, tick, key=lambda loss: loss.tick) - 1
+    return losses[index] if index >= 0 and tick < losses[index].end else None
+
+
+def _purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
+    """Return what a robot does in those visits that are more than a drive through."""
+    stages, n_stops = scenario.problem.itineraries[robot].stages, len(scenario.robots[robot].stops)
+    ends_at_home = (scenario.robots[robot].ends or scenario.rules.ends) == "home"
+    per_lap = n_stops + ends_at_home
+    laps = len(stages) // per_lap
+    parts: dict[int, list[str]] = {0: ["home"]}
+    turning = set()
+    for number, (stage, visit) in enumerate(zip(stages, stay.serves, strict=False)):
+        lap, place = divmod(number, per_lap)
+        words = "home" if place == n_stops else f"stop {place + 1}"
+        words = f"work at {words}" if stage.work else words
+        words += f" of lap {lap + 1}" if laps > 1 and place < n_stops else ""
+        if words not in parts.setdefault(visit, []):
+            parts[visit].append(words)
+        if stage.turn and visit < n_visits - 1:
+            turning.add(visit)
+    return {
+        visit: ", ".join([*words, *(["turn"] if visit in turning else [])])
+        for visit, words in parts.items()
+    }
+
+
+def event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str, list[Any]]:
+    """Return visits as named columns, for a data frame or a file.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    chosen
+        Visits of it; all by default.
+
+    Returns
+    -------
+    dict
+        ``robot``, ``vertex``, ``purpose``, ``waits_for`` (a robot) and ``to_leave`` (a vertex) are
+        names; ``visit`` is a number from 0; ``enter``, ``leave`` and ``waits`` are floats [time
+        unit]; ``enter_tick``, ``leave_tick`` and ``wait_ticks`` are the exact values [ticks]. A
+        last visit has no ``leave``, a visit without a reason to wait no ``waits_for``.
+    """
+    rows: Sequence[Event] = tuple(events(plan) if chosen is None else chosen)
+    scenario, tick = plan.scenario, plan.scenario.problem.clock.tick
+    names = [robot.name for robot in scenario.robots]
+    place = scenario.roadmap.name
+
+    def times(ticks: Iterable[Tick | None]) -> list[float | None]:
+        return [None if each is None else float(each * tick) for each in ticks]
+
+    return {
+        "robot": [names[row.robot] for row in rows],
+        "visit": [row.visit for row in rows],
+        "vertex": [place(row.vertex) for row in rows],
+        "purpose": [row.purpose for row in rows],
+        "enter": times(row.enter for row in rows),
+        "leave": times(row.leave for row in rows),
+        "waits": times(row.waits for row in rows),
+        "waits_for": [None if row.waits_for is None else names[row.waits_for] for row in rows],
+        "to_leave": [None if row.to_leave is None else place(row.to_leave) for row in rows],
+        "enter_tick": [row.enter for row in rows],
+        "leave_tick": [row.leave for row in rows],
+        "wait_ticks": [row.waits for row in rows],
+    }

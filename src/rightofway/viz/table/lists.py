@@ -1,0 +1,264 @@
+"""What a plan consists of, as lists: its events, its collisions and swaps, its decisions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from rightofway.metrics import Collision, Event, collisions, event_columns, events, free_running
+from rightofway.metrics.collisions import Swap, swaps
+from rightofway.model import Decision, Plan, Scenario, Tick, Track
+from rightofway.model.quantities import Quantities
+from rightofway.viz.table.listing import Column, Listing
+from rightofway.viz.table.timespace import chosen_robots
+
+
+def chosen_events(
+    plan: Plan,
+    *,
+    first_tick: int = 0,
+    last_tick: int | None = None,
+    robots: Sequence[str] | None = None,
+) -> tuple[Event, ...]:
+    """Return the visits of some robots that have a part in a window of time.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    first_tick, last_tick
+        The window, both included; without a last tick, to the end.
+    robots
+        Names of robots; all by default.
+
+    Raises
+    ------
+    InputError
+        For a robot that is not in the plan.
+    """
+    shown = set(chosen_robots(plan.scenario, robots))
+    return tuple(
+        event
+        for event in events(plan)
+        if event.robot in shown
+        and (last_tick is None or event.enter <= last_tick)
+        and (event.leave is None or event.leave > first_tick)
+    )
+
+
+def event_list(
+    plan: Plan, chosen: Sequence[Event] | None = None, quantities: Quantities | None = None
+) -> Listing:
+    """Return visits as a list.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    chosen
+        Visits of it; all by default.
+    quantities
+        How times are written; by default as the scenario does.
+    """
+    columns, quantities = event_columns(plan, chosen), quantities or plan.scenario.quantities
+    ticks = (
+        ()
+        if quantities.in_ticks
+        else (
+            Column(heading="enter [ticks]", values=columns["enter_tick"], for_people=False),
+            Column(heading="leave [ticks]", values=columns["leave_tick"], for_people=False),
+            Column(heading="waits [ticks]", values=columns["wait_ticks"], for_people=False),
+        )
+    )
+    waits = [ticks or None for ticks in columns["wait_ticks"]]
+    return Listing(
+        title="events",
+        columns=(
+            Column(heading="robot", values=columns["robot"]),
+            Column(heading="visit", values=columns["visit"], kind="number", for_people=False),
+            Column(heading="place", values=columns["vertex"]),
+            Column(heading="purpose", values=columns["purpose"]),
+            Column(heading="enter", values=columns["enter_tick"], kind="time"),
+            Column(heading="leave", values=columns["leave_tick"], kind="time"),
+            Column(heading="waits", values=waits, kind="time"),
+            Column(heading="waits for", values=columns["waits_for"]),
+            Column(heading="to leave", values=columns["to_leave"]),
+            *ticks,
+        ),
+        quantities=quantities,
+    )
+
+
+class Meeting(NamedTuple):
+    """A collision, or a swap, of two robots i and j."""
+
+    i: str
+    j: str
+    start: Tick
+    until: Tick | None
+    places: tuple[str, ...]
+    kind: str
+
+
+def meetings(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Meeting, ...]:
+    """Return the collisions and swaps of any tracks, by time, with the names of places.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
+    found: list[Collision | Swap] = [*collisions(scenario, tracks), *swaps(tracks)]
+    rows = []
+    for each in found:
+        i, j = (name[robot] for robot in each.robots)
+        if isinstance(each, Collision):
+            row = Meeting(i, j, each.start, each.end, (place(each.vertex),), "collision")
+        else:
+            places = tuple(map(place, each.vertices))
+            row = Meeting(i, j, each.tick, each.tick, places, "swap")
+        rows.append(row)
+    return tuple(sorted(rows, key=lambda row: row.start))
+
+
+def collision_list(found: Sequence[Meeting], quantities: Quantities) -> Listing:
+    """Return collisions and swaps as a list of intervals.
+
+    Parameters
+    ----------
+    found
+        The rows of `meetings`.
+    quantities
+        How times are written.
+    """
+    until = [row.until if row.until is not None else "for ever" for row in found]
+    return Listing(
+        title="collisions",
+        columns=(
+            Column(heading="robot i", values=[row.i for row in found]),
+            Column(heading="robot j", values=[row.j for row in found]),
+            Column(heading="from", values=[row.start for row in found], kind="time"),
+            Column(heading="until", values=until, kind="time"),
+            Column(heading="place", values=[" and ".join(row.places) for row in found]),
+            Column(heading="kind", values=[row.kind for row in found]),
+        ),
+        quantities=quantities,
+    )
+
+
+def collision_ticks(found: Sequence[Meeting], quantities: Quantities, end: Tick) -> Listing:
+    """Return the paper's list, Collision(i, j, t) = n: a row for each tick of each collision.
+
+    Parameters
+    ----------
+    found
+        The rows of `meetings`.
+    quantities
+        How times are written.
+    end
+        The last tick listed of a collision that never ends.
+    """
+    rows = sorted(
+        (
+            (tick, row.i, row.j, " and ".join(row.places), row.kind)
+            for row in found
+            for tick in (
+                [row.start]
+                if row.kind == "swap"
+                else range(row.start, end + 1 if row.until is None else row.until)
+            )
+        ),
+        key=lambda row: row[0],
+    )
+    columns = list(zip(*rows, strict=True)) or [()] * 5
+    return Listing(
+        title="collisions",
+        columns=(
+            Column(heading="i", values=columns[1]),
+            Column(heading="j", values=columns[2]),
+            Column(heading="t", values=columns[0], kind="time"),
+            Column(heading="n", values=columns[3]),
+            Column(heading="kind", values=columns[4]),
+        ),
+        quantities=quantities,
+    )
+
+
+def conflicts_before(plan: Plan) -> list[int | None]:
+    """Return the conflicts in the whole system before each decision of a plan's planner.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+
+    Returns
+    -------
+    list
+        Ticks of overlap, and swaps unless the planner leaves them: first those of the free-running
+        robots, then what the decision before has left. None where robots were rerouted, a
+        collision never ends, or the planner did not count.
+    """
+    if plan.run.reroutes:
+        return [None] * len(plan.run.decisions)
+    tracks, total = free_running(plan), 0
+    found = collisions(plan.scenario, tracks)
+    overlap = [each.end - each.start for each in found if each.end is not None]
+    if plan.run.options.get("swaps") != "leave":
+        total = len(swaps(tracks))
+    first = total + sum(overlap) if len(overlap) == len(found) else None
+    return [first, *map(conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
+
+
+def conflicts_left(decision: Decision) -> int | None:
+    """Return the conflicts in the whole system after a decision; None if they were not counted."""
+    return decision.conflicts_left[decision.robots.index(decision.waits)]
+
+
+def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
+    """Return the decisions of a plan as a list: who waits, and the conflicts before and after.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    quantities
+        How times are written; by default as the scenario does.
+    """
+    names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
+    decisions = plan.run.decisions
+
+    def places(decision: Decision) -> str:
+        ends = dict.fromkeys((decision.vertices[0], decision.vertices[-1]))
+        return " to ".join(map(place, ends))
+
+    left_if = [each.conflicts_left for each in decisions]
+    sums = [each.completion_sums or (None, None) for each in decisions]
+    return Listing(
+        title="decisions",
+        columns=(
+            Column(heading="no.", values=range(1, len(decisions) + 1), kind="number"),
+            Column(heading="time", values=[each.tick for each in decisions], kind="time"),
+            Column(heading="place", values=list(map(places, decisions))),
+            Column(heading="i", values=[names[each.robots[0]] for each in decisions]),
+            Column(heading="j", values=[names[each.robots[1]] for each in decisions]),
+            Column(heading="waits", values=[names[each.waits] for each in decisions]),
+            Column(heading="in", values=[place(each.waits_at) for each in decisions]),
+            Column(heading="delay", values=[each.ticks for each in decisions], kind="time"),
+            Column(heading="level", values=[each.level for each in decisions]),
+            Column(heading="before", values=conflicts_before(plan), kind="number"),
+            Column(heading="if i", values=[each[0] for each in left_if], kind="number"),
+            Column(heading="if j", values=[each[1] for each in left_if], kind="number"),
+            Column(heading="left", values=list(map(conflicts_left, decisions)), kind="number"),
+            Column(
+                heading="sum if i", values=[each[0] for each in sums], kind="time", for_people=False
+            ),
+            Column(
+                heading="sum if j", values=[each[1] for each in sums], kind="time", for_people=False
+            ),
+        ),
+        quantities=quantities or plan.scenario.quantities,
+    )

@@ -1,0 +1,68 @@
+"""The visits of a plan with their purposes."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import rightofway
+from rightofway.metrics import event_columns, events
+from rightofway.model import Plan, PlannerRun, Rules, Stop, Track, VertexId
+from rightofway.model.robot import Robot
+from rightofway.model.scenario import Scenario
+from tests.builders.fleets import PAPER, paper_scenario
+
+DOOR_1 = paper_scenario(PAPER[0])
+
+
+def corridor(*stops: Stop, laps: int = 1, speed: Fraction = Fraction(1)) -> Scenario:
+    """Return one robot in a corridor of three cells, with home at the left end."""
+    grid = rightofway.FleetBuilder(grid=["..."]).add_robot("x", home="N0", target="N1").scenario()
+    robot = Robot(name="R", home=VertexId(0), stops=stops, laps=laps, speed=speed)
+    return Scenario(roadmap=grid.roadmap, robots=(robot,), rules=Rules())
+
+
+def plan_of(scenario: Scenario, vertices: list[int], enter: list[int]) -> Plan:
+    tracks = (Track.of(vertices, enter),)
+    return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
+
+
+def test_a_visit_says_what_it_is_for() -> None:
+    """Works 2 at the middle and turns 1, then stops at the end, turns, and comes home."""
+    stops = (Stop(at=VertexId(1), work=Fraction(2)), Stop(at=VertexId(2)))
+    plan = plan_of(corridor(*stops), [0, 1, 2, 1, 0], [0, 1, 5, 7, 9])
+    assert [(event.purpose, event.enter, event.leave) for event in events(plan)] == [
+        ("home", 0, 1),
+        ("work at stop 1, turn", 1, 5),
+        ("stop 2, turn", 5, 7),
+        ("wait", 7, 9),  # a tick more than the drive
+        ("home", 9, None),
+    ]
+
+
+def test_laps_are_counted_and_home_between_them_is_named_once() -> None:
+    plan = plan_of(corridor(Stop(at=VertexId(1)), laps=2), [0, 1, 0, 1, 0], [0, 1, 3, 5, 7])
+    assert [event.purpose for event in events(plan)] == [
+        "home", "stop 1 of lap 1, turn", "home, turn", "stop 1 of lap 2, turn", "home",
+    ]  # fmt: skip
+
+
+def test_a_wait_names_the_robot_and_the_place_that_it_has_to_leave() -> None:
+    """Table 4: R1 waits at home for one tick, until R2 has left N1."""
+    plan = rightofway.solve(DOOR_1, "two-level", swaps="leave")
+    name = DOOR_1.roadmap.name
+    waits = [event for event in events(plan) if event.waits]
+    assert [(each.robot, name(each.vertex), each.waits) for each in waits] == [(0, "N0", 1)]
+    assert waits[0].waits_for == 1
+    assert waits[0].to_leave is not None
+    assert name(waits[0].to_leave) == "N1"
+
+
+def test_columns_have_times_in_the_scenario_unit_and_exact_ticks() -> None:
+    """At speed 2 a cell takes half a time unit, which is the tick."""
+    plan = plan_of(
+        corridor(Stop(at=VertexId(1), work=Fraction(1)), speed=Fraction(2)), [0, 1, 0], [0, 1, 5]
+    )
+    columns = event_columns(plan)
+    assert columns["enter"] == [0.0, 0.5, 2.5]
+    assert columns["leave"] == [0.5, 2.5, None]
+    assert (columns["enter_tick"], columns["leave_tick"]) == ([0, 1, 5], [1, 5, None])
