@@ -136,7 +136,7 @@ def unknown(name: str, owner: str, known: list[str]) -> str:
 
 Swaps = Annotated[
     Literal["resolve", "leave"],
-    "Keep robots that meet head-on apart, or do as published (on shortest routes).",
+    "Keep robots that meet head-on apart, or plan as the planner paper does.",
 ]
 Routes = Annotated[
     Literal["clear", "shortest"],
