@@ -27,6 +27,7 @@ from rightofway.cli.bench import bench
 from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
+from rightofway.cli.paper import paper
 from rightofway.cli.planning import improve, plan
 from rightofway.cli.simulate import simulate
 from rightofway.cli.terminal import say, speak_utf8
@@ -72,6 +73,7 @@ for command in (
     convert,
     bench,
     schema,
+    paper,
 ):
     commands.add_command(command)
 
