@@ -136,15 +136,15 @@ def unknown(name: str, owner: str, known: list[str]) -> str:
 
 Swaps = Annotated[
     Literal["resolve", "leave"],
-    "Keep robots that meet head-on apart, or plan as the planner paper does.",
+    "Resolve swaps, or leave them as the planner paper does.",
 ]
 Routes = Annotated[
     Literal["clear", "shortest"],
-    "Keep clear of others where that is no long way round, or take shortest routes.",
+    "Avoid other robots where the detour is short, or take shortest routes.",
 ]
 Iterations = Annotated[
     int,
-    "How many neighbourhoods are replanned at most; 0: as time and gains allow.",
+    "Most neighbourhoods to replan; 0: until time is up or gains end.",
 ]
 
 
@@ -170,7 +170,7 @@ class LacamOptions(PlannerOptions):
 
     paths: Annotated[
         Literal["spread", "shortest"],
-        "Spread the preferred paths first, or leave every robot its shortest way.",
+        "Spread the preferred paths over the map, or give each robot its shortest path.",
     ] = "spread"
 
 
@@ -179,7 +179,9 @@ class LocalSearchOptions(PlannerOptions):
     """Options of ``local-search``."""
 
     routes: Routes = "clear"
-    rounds: Annotated[int, "How often to favour some robots and descend again."] = 100
+    rounds: Annotated[
+        int, "Rounds after the first descent; each gives more weight to some robots."
+    ] = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -212,7 +214,7 @@ class PrioritizedOptions(PlannerOptions):
 
     order: Annotated[
         Literal["shortest", "longest", "slowest", "file", "random"],
-        "Which robot is planned first: shortest or longest trip, slowest, as in the file.",
+        "First robot: the shortest or longest trip, the slowest, as in the file, random.",
     ] = "shortest"
 
 

@@ -77,7 +77,7 @@ PLANNERS = (
     PlannerSpec(
         "auto",
         "rightofway.planners.auto:auto",
-        "The default: an answer at once, then a better one until time is up.",
+        "The default: a plan at once by several methods, then better plans until time is up.",
         options.AutoOptions,
     ),
     PlannerSpec(
@@ -95,20 +95,20 @@ PLANNERS = (
     PlannerSpec(
         "lacam",
         "rightofway.planners.lacam:lacam",
-        "All robots together, instant by instant: a plan at once, also where there is no room.",
+        "All robots together, instant by instant: a plan at once, also where there is little room.",
         options.LacamOptions,
     ),
     PlannerSpec(
         "local-search",
         "rightofway.planners.local_search:local_search",
-        "Two-level, then flips of rights of way on critical paths until nothing improves.",
+        "The plan of two-level; then rights of way are reversed as long as that improves it.",
         options.LocalSearchOptions,
         improves=True,
     ),
     PlannerSpec(
         "fixed-priority",
         "rightofway.planners.priorities:fixed_priority",
-        "Right of way by the robots' numbers: the first in the scenario goes first.",
+        "Right of way by the order of the scenario: its first robot goes first.",
         options.PriorityOptions,
     ),
     PlannerSpec(
@@ -126,13 +126,13 @@ PLANNERS = (
     PlannerSpec(
         "prioritized",
         "rightofway.planners.prioritized:prioritized",
-        "One robot after another around those before it; a robot in the way is planned again.",
+        "One robot after another, each round those before it; robots in the way are replanned.",
         options.PrioritizedOptions,
     ),
     PlannerSpec(
         "lns",
         "rightofway.planners.lns:lns",
-        "Better and better plans until time is up: a few robots at a time are replanned.",
+        "Better plans until time is up: a few robots at a time are replanned.",
         options.LnsOptions,
         improves=True,
     ),
