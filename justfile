@@ -2,7 +2,7 @@
 
 set shell := ["bash", "-euo", "pipefail", "-c"]
 
-# Everything that can be checked without installing the package anew
+# Everything that can be checked without a new installation
 default: lint types contracts test
 
 # Style of Python and C++
@@ -39,7 +39,7 @@ native:
     cmake --build --preset sanitize --parallel
     ctest --preset sanitize
 
-# Write the stub of the native core anew, from the installed module
+# Write the stub of the native core from the installed module
 stub:
     python -m nanobind.stubgen -m rightofway._core -o src/rightofway/_core.pyi
 

@@ -95,10 +95,12 @@ def planner_list() -> Iterable[str]:
 
 def planner_options(planner: str) -> Iterable[str]:
     """Return the options of a planner."""
-    rows = (
+    rows = [
         (f"`{each.name}`", f"`{each.default}`", _other_values(each), each.summary)
         for each in find(planner).options
-    )
+    ]
+    if not rows:
+        return ["It has no options."]
     return table(("option", "default", "other values", "what it does"), rows)
 
 

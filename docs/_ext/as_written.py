@@ -1,4 +1,4 @@
-"""The Python pages: signatures as they are written, and names that lead to where they are told.
+"""The Python pages: signatures as they are written, and names that lead to their pages.
 
 Left to itself autodoc spells out what annotations stand for, so that ``FaultKind`` becomes a list
 of a dozen words, and names every type after the module it is defined in, which has no page.
@@ -64,10 +64,10 @@ def is_field(_app: Sphinx, _what: str, _name: str, value: Any, *_: Any) -> bool 
     return True if type(value).__name__ == "_tuplegetter" else None
 
 
-def told_elsewhere(
+def defined_elsewhere(
     app: Sphinx, env: BuildEnvironment, node: nodes.Element, content: nodes.Element
 ) -> nodes.Node | None:
-    """Resolve a name that a page of another package tells about, like ``Plan`` in `check`."""
+    """Resolve a name of another package's page, like ``Plan`` in `check`."""
     name = node.get("reftarget", "").rpartition(".")[2]
     domain = env.get_domain("py")
     found = [full for full, *_ in domain.get_objects() if full.split(".")[2:] == [name]]
@@ -80,5 +80,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Register the three."""
     app.connect("autodoc-process-signature", signature_of)
     app.connect("autodoc-skip-member", is_field)
-    app.connect("missing-reference", told_elsewhere)
+    app.connect("missing-reference", defined_elsewhere)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -75,7 +75,7 @@ def solve(
     Returns
     -------
     Plan
-        Passed by `rightofway.check`; only where ``swaps=leave`` was asked for it may hold swaps.
+        Passed by `rightofway.check`; only a plan of ``paper`` may hold swaps.
 
     Raises
     ------

@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from rightofway.io import load
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
 
 __all__ = [
@@ -21,31 +22,21 @@ __all__ = [
     "random_grid",
 ]
 
-PAPER: list[dict[str, Any]] = json.loads(
-    (Path(__file__).parents[1] / "data" / "paper.json").read_text(encoding="utf-8")
-)["cases"]
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+PAPER: list[dict[str, Any]] = [
+    case
+    for case in json.loads((EXAMPLES / "paper" / "tables.json").read_text(encoding="utf-8"))[
+        "tables"
+    ]
+    if "final" in case
+]
+"""The tables of the paper whose rows are recorded: 4 to 11."""
 
 
 def paper_scenario(case: dict[str, Any]) -> Scenario:
     """Return a published case; one tick of the table is one unit of time."""
-    roadmap = roadmap_of_grid(case["grid"])
-    return Scenario(
-        roadmap=roadmap,
-        robots=tuple(
-            Robot(
-                name=robot["name"],
-                home=roadmap.vertex(f"N{robot['home']}"),
-                stops=(
-                    Stop(
-                        at=roadmap.vertex(f"N{robot['target']}"),
-                        work=Fraction(robot["work_ticks"]),
-                    ),
-                ),
-                speed=Fraction(1, robot["ticks_per_cell"]),
-            )
-            for robot in case["robots"]
-        ),
-    )
+    return load(EXAMPLES / "paper" / f"{case['name']}.yaml")
 
 
 def grid_fleet(

@@ -1,4 +1,4 @@
-"""Every small scenario that each planner has to plan."""
+"""Every small scenario, and every planner that has to plan them all without a fault."""
 
 from __future__ import annotations
 
@@ -6,9 +6,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.model import Rules, Scenario
+from rightofway.planners import registered
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
-__all__ = ["SMALL"]
+__all__ = ["SMALL", "STRICT"]
+
+STRICT = sorted(name for name, spec in registered().items() if not spec.leaves_swaps)
+"""Planners whose plans keep all rules; the paper's method leaves swaps."""
 
 RULES = {
     "paper": Rules(),

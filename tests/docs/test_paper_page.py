@@ -24,8 +24,8 @@ def pair(numbers: tuple[int | None, int | None] | None) -> str:
 
 
 def row(case: dict[str, Any], plan: Plan, decision: Decision) -> list[str]:
-    robots = [f"{robot['ticks_per_cell']}, {robot['work_ticks']}" for robot in case["robots"]]
-    about = [case["name"], case["table"].removeprefix("Table "), *robots]
+    robots = [f"{1 / robot.speed}, {robot.stops[0].work}" for robot in plan.scenario.robots]
+    about = [case["name"], str(case["table"]), *robots]
     sums = decision.completion_sums
     tie = " (tie)" if sums is not None and sums[0] == sums[1] else ""
     return [
@@ -41,6 +41,6 @@ def row(case: dict[str, Any], plan: Plan, decision: Decision) -> list[str]:
 def test_the_table_of_cases_is_what_the_published_method_decides() -> None:
     decided = []
     for case in PAPER:
-        plan = rightofway.solve(paper_scenario(case), "two-level", options={"swaps": "leave"})
+        plan = rightofway.solve(paper_scenario(case), "paper")
         decided += [row(case, plan, decision) for decision in plan.run.decisions]
     assert written_rows() == decided

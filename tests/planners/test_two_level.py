@@ -36,7 +36,7 @@ def rows(plan: Plan) -> dict[str, list[int]]:
 
 
 def published(name: str) -> Plan:
-    return solve(paper_scenario(CASES[name]), swaps="leave")
+    return rightofway.solve(paper_scenario(CASES[name]), "paper")
 
 
 @pytest.mark.parametrize("case", PAPER, ids=list(CASES))
@@ -45,6 +45,12 @@ def test_the_published_rows_come_out(case: dict[str, Any]) -> None:
     final, first = rows(published(case["name"])), case["first_tick"]
     for name, row in case["final"].items():
         assert final[name][first : first + len(row)] == row
+
+
+@pytest.mark.parametrize("planner", ["two-level", "auto"])
+def test_leaving_swaps_is_planning_as_published(planner: str) -> None:
+    plan = rightofway.solve(paper_scenario(CASES["door-5"]), planner, options={"swaps": "leave"})
+    assert rows(plan) == rows(published("door-5"))
 
 
 def test_node_level_decides_by_the_conflicts_left_in_the_whole_system() -> None:

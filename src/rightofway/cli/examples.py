@@ -111,13 +111,14 @@ def _example(name: str) -> Path:
 
 
 def _list() -> None:
-    rows = [(name, _first_sentence(_example(name))) for name in example_names()]
+    rows = [(name, first_sentence(_example(name))) for name in example_names()]
     formatter = click.HelpFormatter(width=80)
     formatter.write_dl(rows)
     click.echo(formatter.getvalue(), nl=False)
 
 
-def _first_sentence(path: Path) -> str:
+def first_sentence(path: Path) -> str:
+    """Return the first sentence of the comment that an example begins with."""
     lines = path.read_text(encoding="utf-8").splitlines()
     comment = [line.removeprefix("#").strip() for line in lines[:5] if line.startswith("#")]
     return " ".join(comment).partition(". ")[0].removesuffix(".")

@@ -28,6 +28,7 @@ from rightofway.cli.bench import bench
 from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
+from rightofway.cli.paper import paper
 from rightofway.cli.planning import bound, improve, plan
 from rightofway.cli.simulate import simulate
 from rightofway.cli.tables import collisions, table
@@ -51,7 +52,7 @@ GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Plan": (plan, improve, bound),
     "Look at plans": (check, show, table, collisions),
     "Repeated work and delays": (laps, simulate),
-    "Compare planners": (bench,),
+    "Compare": (bench, paper),
     "Formats": (convert, schema),
 }
 """The commands, by what they are for, in the order of help."""

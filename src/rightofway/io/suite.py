@@ -130,7 +130,7 @@ class SuiteFleetDocument(RulesDocument):
 
 
 class PlannerDocument(Document):
-    """A planner and what it is told."""
+    """A planner and its options."""
 
     name: Name = Field(description="the name of a planner")
     options: dict[str, Any] = Field(default={}, description="{option = value}")

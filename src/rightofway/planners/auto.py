@@ -16,7 +16,7 @@ from rightofway.model import flowtime_of
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
-from rightofway.planners.two_level import two_level
+from rightofway.planners.two_level import paper, two_level
 
 FEW = 60
 """A fleet is small with at most this many robots."""
@@ -28,10 +28,10 @@ SHARE = 0.3
 def auto(task: Task) -> Draft:
     """Plan by several methods and improve the best plan; options: `AutoOptions`.
 
-    With ``swaps=leave`` it is `two_level` as published.
+    With ``swaps=leave`` it is `paper`.
     """
     if task.options["swaps"] == "leave":
-        return two_level(task)
+        return paper(task)
     explained = None
     if len(task.scenario.robots) <= FEW:
         options = {"swaps": "resolve", "routes": "clear"}

@@ -115,7 +115,7 @@ class PartialPlan:
         """Take out one of two robots that no waiting keeps apart; the others keep their rights."""
         why = self.explain_deadlock(meeting)
         if not self.sees_swaps:
-            raise GaveUp(f"{why} (the published method is stuck here; try swaps=resolve)")
+            raise GaveUp(f"{why} (the published method is stuck here; try two-level)")
         everyone = np.ones(len(self.routes), np.uint8)
         robot = max(meeting.robots, key=lambda one: (self.graph.conflicts_of(one, everyone), one))
         self.deferred[robot] = why

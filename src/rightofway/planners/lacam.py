@@ -51,7 +51,7 @@ def lacam(task: Task) -> Draft:
 
 
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
-    """Plan the whole fleet at once; ``spreads`` tells whether robots prefer paths spread before."""
+    """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
     scenario = task.scenario
     refuse_stranded(scenario, ())
     robots, share = len(scenario.robots), SHARE_OF_TIME

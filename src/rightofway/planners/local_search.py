@@ -69,7 +69,7 @@ def local_search(task: Task) -> Draft:
 class LocalSearch:
     """A graph without conflicts, and flips that keep it so.
 
-    ``may_wait`` tells whether a visit may be delayed: a visit that has begun may not.
+    ``may_wait``: whether a visit may be delayed; a visit that has begun may not.
     """
 
     def __init__(

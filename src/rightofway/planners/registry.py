@@ -30,6 +30,8 @@ class PlannerSpec:
         Its options.
     improves
         Whether it can start from a plan and make it better.
+    leaves_swaps
+        Whether its plans may hold swaps; all other plans keep all rules.
     """
 
     name: str
@@ -37,6 +39,7 @@ class PlannerSpec:
     summary: str
     options_type: type[PlannerOptions] = PlannerOptions
     improves: bool = False
+    leaves_swaps: bool = False
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -80,8 +83,14 @@ PLANNERS = (
     PlannerSpec(
         "two-level",
         "rightofway.planners.two_level:two_level",
-        "The paper's method: right of way by collisions left, then by completion times.",
+        "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
+    ),
+    PlannerSpec(
+        "paper",
+        "rightofway.planners.two_level:paper",
+        "The paper's method as published: swaps remain, and the exit code is 1 if there are any.",
+        leaves_swaps=True,
     ),
     PlannerSpec(
         "lacam",

@@ -13,14 +13,10 @@ from rightofway.search import Congestion, Distances
 
 
 def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
-    """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks.
-
-    The published method (``swaps=leave``) takes shortest routes.
-    """
+    """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks."""
     checkpoint = partial(task.deadline.check, "choosing routes")
     distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
-    is_clear = task.options.get("swaps") != "leave" and task.options["routes"] == "clear"
-    choose = clear_routes if is_clear else shortest_routes
+    choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
     return distances, choose(task.scenario, distances)
 
 

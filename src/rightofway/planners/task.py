@@ -103,7 +103,7 @@ class Draft:
     decisions, reroutes
         As in `PlannerRun`.
     keeps_swaps
-        Whether swaps were left in because the options asked for it.
+        Whether the plan may hold swaps, as plans of the published method do.
     """
 
     tracks: tuple[Track, ...]

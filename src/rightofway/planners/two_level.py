@@ -5,9 +5,9 @@ the other has left. The *node level* chooses by the number of conflicts that eit
 the whole system. Where these are equal, the *robot level* follows both choices to their ends, in
 two movement groups, and takes the group in which the two robots achieve their work sooner.
 
-The paper leaves swaps unsolved. Here two robots whose routes run together share a segment, and the
-right of way is decided for the whole segment at once; ``swaps="leave"`` gives the published
-behaviour, vertex by vertex.
+The paper leaves swaps unsolved. Planner ``paper`` is the method as published, vertex by vertex, on
+shortest routes. Planner ``two-level`` sees swaps: two robots whose routes run together share a
+segment, and the right of way is decided for the whole segment at once.
 
 References
 ----------
@@ -17,8 +17,9 @@ constrain*.
 Notes
 -----
 Deterministic. Rights of way once given are kept, so the method ends: it has decided every conflict,
-or it has found one that no waiting resolves (`conflict_resolution`). With ``swaps="resolve"`` the
-planner is complete: given time it finds a plan or proves that none exists. It is not optimal.
+or it has found one that no waiting resolves (`conflict_resolution`). There ``paper`` gives up, but
+``two-level`` is complete: given time it finds a plan or proves that none exists. Neither planner is
+optimal.
 """
 
 from __future__ import annotations
@@ -63,15 +64,18 @@ class _MovementGroup:
 
 
 def two_level(task: Task) -> Draft:
-    """Plan a fleet by the method of the paper; options: `TwoLevelOptions`.
-
-    With ``swaps="leave"`` it also gives up where the published method is stuck.
-    """
+    """Plan a fleet by the method of the paper, without swaps; options: `TwoLevelOptions`."""
+    if task.options["swaps"] == "leave":
+        return paper(task)
     distances, routes = chosen_routes(task)
-    if task.options.get("swaps") == "leave":
-        plan = PartialPlan(task, routes, sees_swaps=False)
-        return plan_on_routes(task, distances, plan, by_two_levels)
     return plan_by_rule(task, distances, routes, by_two_levels)
+
+
+def paper(task: Task) -> Draft:
+    """Plan a fleet by the method as published; the plan may hold swaps. It has no options."""
+    distances, routes = chosen_routes(replace(task, options={"routes": "shortest"}))
+    plan = PartialPlan(task, routes, sees_swaps=False)
+    return plan_on_routes(task, distances, plan, by_two_levels)
 
 
 def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:

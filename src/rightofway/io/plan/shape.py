@@ -105,5 +105,5 @@ class PlanDocument(PlanFrame):
     planner: PlannerDocument = Field(description="how the plan came about")
     robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
     steady: list[SteadyDocument] = Field(
-        default=[], description="robots that repeat themselves; for the page, nobody judges it"
+        default=[], description="robots whose visits repeat; only the page reads it"
     )

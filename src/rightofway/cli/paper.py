@@ -1,0 +1,146 @@
+"""``rightofway paper``: the tables of the paper beside those of our planner of that method."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.examples import examples_folder, first_sentence
+from rightofway.cli.terminal import as_json_option, put_json, wrapped
+
+if TYPE_CHECKING:
+    from rightofway.model import Plan
+
+PAPER_EXAMPLES = """\b
+Examples:
+  rightofway paper
+  rightofway paper 8 --log
+"""
+
+TABLES = 11
+"""Tables of the paper."""
+
+UNRECORDED = "no published row of these tables is recorded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Row:
+    """A row of a table; ``published`` is None where it is not recorded."""
+
+    robot: str
+    kind: str
+    published: list[int | str] | None
+    ours: list[int | str]
+
+    @property
+    def verdict(self) -> str:
+        if self.published is None:
+            return ""
+        return "equal" if self.published == self.ours else "differs"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Table:
+    """A table of the paper and our plan of its scenario."""
+
+    number: int
+    scenario: str
+    first_tick: int
+    plan: Plan
+    rows: list[_Row]
+
+
+@click.command(epilog=PAPER_EXAMPLES, short_help="Compare the tables of the paper with ours.")
+@click.argument("tables", nargs=-1, type=click.IntRange(1, TABLES), metavar="[NUMBERS]")
+@click.option("--log", is_flag=True, help="Print the decisions below each table.")
+@as_json_option("rows")
+def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
+    """Print the tables of the paper beside ours; exit code 1 if a row differs.
+
+    Each scenario is planned with the planner paper. NUMBERS choose tables from 1 to 11. Of Tables 1
+    to 3 the published rows are not recorded, so only ours are printed.
+    """
+    path = examples_folder() / "paper" / "tables.json"
+    entries = json.loads(path.read_text(encoding="utf-8"))["tables"]
+    found = [_table(entry) for entry in entries if not tables or entry["table"] in tables]
+    verdicts = [row.verdict for table in found for row in table.rows if row.verdict]
+    equal = verdicts.count("equal")
+    if as_json:
+        put_json({"tables": [_data(table) for table in found],
+                  "rows": len(verdicts), "equal": equal})  # fmt: skip
+    else:
+        for table in found:
+            _print(table, log=log)
+        click.echo(f"{equal} of {len(verdicts)} published rows equal" if verdicts else UNRECORDED)
+    return 0 if equal == len(verdicts) else 1
+
+
+def _table(entry: dict[str, Any]) -> _Table:
+    from rightofway.io import load
+    from rightofway.solve import solve
+    from rightofway.viz.table import table_of
+
+    plan = solve(load(examples_folder() / "paper" / f"{entry['name']}.yaml"), "paper")
+    first, found = entry.get("first_tick", 0), table_of(plan)
+    rows = []
+    for row in found.rows:
+        published = entry.get(row.kind, {}).get(row.robot)
+        last = found.last_tick if published is None else first + len(published) - 1
+        ours = [cell.place for cell in row.cells(first, last)]
+        rows.append(_Row(robot=row.robot, kind=row.kind, published=published, ours=ours))
+    return _Table(
+        number=entry["table"],
+        scenario=f"paper/{entry['name']}",
+        first_tick=first,
+        plan=plan,
+        rows=rows,
+    )
+
+
+def _print(table: _Table, *, log: bool) -> None:
+    from rightofway.check import check
+    from rightofway.cli.plan_report import decision_log
+
+    title = first_sentence(examples_folder() / f"{table.scenario}.yaml")
+    ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))
+    cells = [str(cell) for row in table.rows for cell in row.ours]
+    width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
+    click.echo("\n".join(wrapped(f"{title} ({table.scenario}).")) + "\n")
+    click.echo(_line("tick", "", ticks, width))
+    for row in table.rows:
+        head = f"{row.robot} {row.kind}"
+        if row.published is not None:
+            click.echo(_line(head, "published", row.published, width))
+            head = ""
+        click.echo(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
+    for fault in check(table.plan).faults:
+        click.echo("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
+    if log:
+        click.echo("\n" + decision_log(table.plan))
+    click.echo()
+
+
+def _line(head: str, whose: str, cells: Sequence[object], width: int) -> str:
+    return f"{head:10}  {whose:9}" + "".join(f"{cell!s:>{width}}" for cell in cells)
+
+
+def _data(table: _Table) -> dict[str, Any]:
+    return {
+        "table": table.number,
+        "scenario": table.scenario,
+        "first_tick": table.first_tick,
+        "rows": [
+            {
+                "robot": row.robot,
+                "kind": row.kind,
+                "published": row.published,
+                "ours": row.ours,
+                "equal": None if row.published is None else row.published == row.ours,
+            }
+            for row in table.rows
+        ],
+    }
