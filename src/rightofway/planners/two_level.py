@@ -65,7 +65,7 @@ class _MovementGroup:
 
 def two_level(task: Task) -> Draft:
     """Plan a fleet by the method of the paper, without swaps; options: `TwoLevelOptions`."""
-    if task.options["swaps"] == "leave":
+    if task.options.get("swaps") == "leave":
         return paper(task)
     distances, routes = chosen_routes(task)
     return plan_by_rule(task, distances, routes, by_two_levels)
@@ -141,6 +141,8 @@ def movement_groups(
         When time ran out.
     """
     options = {"routes": "clear", "swaps": "resolve", **plan.run.options}
+    if plan.run.name == "paper":
+        options = {"routes": "shortest", "swaps": "leave"}
     task = Task(scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit))
     groups: list[MovementGroup | None] = []
 
