@@ -274,7 +274,7 @@ def test_every_command_has_help_with_an_example(cli: Cli, name: str) -> None:
 def test_help_lists_the_planners_with_their_options(cli: Cli) -> None:
     words = " ".join(cli("plan", "--help").out.split())
     assert "two-level The paper's method, swaps resolved" in words
-    assert "swaps=resolve|leave Resolve swaps" in words
+    assert "swaps=resolve|leave Keep robots that meet head-on apart" in words
 
 
 def test_a_plan_is_improved_and_the_page_of_planners_lists_only_those_that_can(cli: Cli) -> None:
