@@ -269,9 +269,9 @@ def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
     if as_json:
         put_json(summary_data(found))
         return
-    put_report(summary(found))
+    put_report(summary(found, found.scenario.quantities))
     if log:
-        put_report("\n" + decision_log(found))
+        put_report("\n" + decision_log(found, found.scenario.quantities))
     if table:
         from rightofway.viz.table import as_text, table_of
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import re
 import shutil
 import stat
 import sys
@@ -35,6 +36,12 @@ MAX_NAME = 40
 
 QUIET = "rightofway.quiet"
 """Where a command keeps whether the user wants no messages."""
+
+NO_BREAK = "\N{NO-BREAK SPACE}"
+"""A space at which no line is broken."""
+
+UNIT = re.compile(r"(?<=\d) (?=[a-z])|(?<=\d h) (?=\d)|(?<=\d min) (?=\d)")
+"""The spaces within ``2 min 34.3 s``."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -133,8 +140,11 @@ def width() -> int:
 
 
 def wrapped(text: str, indent: str = "") -> list[str]:
-    """Return the lines of a sentence."""
-    return textwrap.wrap(text, COLUMNS, initial_indent=indent, subsequent_indent=indent + "    ")
+    """Return the lines of a sentence; a number and its unit stay in one line."""
+    joined = UNIT.sub(NO_BREAK, text)
+    following = indent + "    "
+    lines = textwrap.wrap(joined, COLUMNS, initial_indent=indent, subsequent_indent=following)
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def row(key: str, text: str, column: int) -> str:
@@ -144,9 +154,9 @@ def row(key: str, text: str, column: int) -> str:
     )
 
 
-def short(name: str) -> str:
+def short(name: str, columns: int = MAX_NAME) -> str:
     """Return a robot's name in the columns that it may take."""
-    return name if len(name) <= MAX_NAME else f"{name[: MAX_NAME - 1]}…"
+    return name if len(name) <= columns else f"{name[: columns - 1]}…"
 
 
 def read_scenario(path: str, count: int | None = None) -> Scenario:
