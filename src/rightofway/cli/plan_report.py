@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, row, short, wrapped
+from rightofway.cli.terminal import COLUMNS, measures, row, short, wrapped
 from rightofway.metrics import Metrics, lost_time, measure, waits
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
-from rightofway.model.values import written
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
@@ -49,20 +48,22 @@ def summary(plan: Plan, quantities: Quantities) -> str:
     words = Words(plan=plan, quantities=quantities)
     metrics, lost = measure(plan), lost_time(plan)
     rows = [
-        ("planner", _planning(words, metrics)),
+        ("planner", planning(plan, quantities)),
         ("flowtime", _flowtime(words, metrics)),
         ("makespan", words.time(metrics.makespan)),
         ("lost time", _lost(words, lost)),
     ]
+    if quantities.in_ticks:
+        rows.append(("tick", replace(quantities, in_ticks=False).duration(1)))
     costs = [
         row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 11) for key, text in rows
     ]
     return "\n".join([*costs, "", *_robots(words, lost), *_losses(words, lost)])
 
 
-def _planning(words: Words, metrics: Metrics) -> str:
+def planning(plan: Plan, quantities: Quantities) -> str:
     """Return what the planner did, in words that need no knowledge of its method."""
-    run = words.plan.run
+    run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
     parts = [run.name]
     if run.seconds is not None:
         parts[0] += f", planned in {decimal(run.seconds)} s"
@@ -125,7 +126,7 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     groups: dict[tuple[object, ...], list[Loss]] = {}
     for loss in chain.from_iterable(one.losses for one in lost):
         groups.setdefault((loss.kind, loss.robot, loss.for_robot), []).append(loss)
-    sentences = [
+    sentences: list[tuple[int, int, str]] = [
         (sum(loss.ticks for loss in group), group[0].tick, _sentence(words, group))
         for group in groups.values()
     ]
@@ -184,7 +185,9 @@ def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterato
     found: dict[int, dict[int, int]] = {}
     for loss in chain.from_iterable(groups):
         blocked = loss.vertex if loss.kind == "makes room" else loss.freed
-        if loss.for_robot is not None and blocked == scenario.problem.itineraries[loss.robot].last:
+        if loss.for_robot is None or loss.kind == "follows":
+            continue
+        if blocked == scenario.problem.itineraries[loss.robot].last:
             others = found.setdefault(loss.robot, {})
             others[loss.for_robot] = others.get(loss.for_robot, 0) + loss.ticks
     largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
@@ -208,7 +211,6 @@ def summary_data(plan: Plan) -> dict[str, Any]:
     """Return the same for programs, the planner as in a plan file; times in ticks."""
     metrics, run = measure(plan), plan.run
     names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
-    units = plan.scenario.units
     return {
         "planner": {
             "name": run.name,
@@ -218,8 +220,7 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "seconds": run.seconds,
             "first_plan_seconds": run.first_plan_seconds,
         },
-        "units": {"length": units.length, "time": units.time},
-        "tick": written(plan.scenario.problem.clock.tick),
+        **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
         "robots": [
             {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}

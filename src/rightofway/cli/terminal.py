@@ -14,16 +14,18 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from rightofway.model.quantities import decimal
+from rightofway.model.values import written
 
 if TYPE_CHECKING:
     from rightofway.io import Loaded
-    from rightofway.model import Plan, Scenario
+    from rightofway.model import Plan, Quantities, Scenario
 
 Callback = Callable[[click.Context, click.Parameter, Any], Any]
 """What click calls to check the value of an option."""
@@ -141,17 +143,18 @@ def width() -> int:
 
 def wrapped(text: str, indent: str = "") -> list[str]:
     """Return the lines of a sentence; a number and its unit stay in one line."""
-    joined = UNIT.sub(NO_BREAK, text)
-    following = indent + "    "
-    lines = textwrap.wrap(joined, COLUMNS, initial_indent=indent, subsequent_indent=following)
-    return [line.replace(NO_BREAK, " ") for line in lines]
+    return _broken(text, indent, indent + "    ").splitlines()
 
 
 def row(key: str, text: str, column: int) -> str:
     """Return a row of a report: a key, and from a column on its text, on several lines if long."""
-    return textwrap.fill(
-        text, COLUMNS, initial_indent=f"{key:{column}}", subsequent_indent=" " * column
-    )
+    return _broken(text, f"{key:{column}}", " " * column)
+
+
+def _broken(text: str, first: str, following: str) -> str:
+    joined = UNIT.sub(NO_BREAK, text)
+    filled = textwrap.fill(joined, COLUMNS, initial_indent=first, subsequent_indent=following)
+    return filled.replace(NO_BREAK, " ")
 
 
 def short(name: str, columns: int = MAX_NAME) -> str:
@@ -272,6 +275,25 @@ seed_option = click.option(
     metavar="N",
     help="Seed of all random choices; the same seed gives the same result.",
 )
+
+
+ticks_option = click.option(
+    "--ticks",
+    "in_ticks",
+    is_flag=True,
+    help="Report times in ticks, as files have them.",
+)
+
+
+def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
+    """Return how a report writes times: in the scenario's units, or in ticks on request."""
+    return replace(scenario.quantities, in_ticks=in_ticks)
+
+
+def measures(scenario: Scenario) -> dict[str, Any]:
+    """Return what the numbers of a report for programs are measured in."""
+    tick = written(scenario.problem.clock.tick)
+    return {"tick": tick, "units": asdict(scenario.units)}
 
 
 def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
