@@ -199,6 +199,7 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
         first_plan_seconds=with_plan[0],
         decisions=draft.decisions,
         reroutes=draft.reroutes,
+        improvement=draft.improvement,
         alone=tuple(alone.tolist()),
     )
     plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)

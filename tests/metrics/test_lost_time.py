@@ -143,7 +143,6 @@ def test_a_plan_answers_for_itself_in_plain_data() -> None:
     data = plan.lost_time[0].as_dict(names.__getitem__, plan.scenario.roadmap.name)
     loss = data.pop("losses")[0]
     assert data == {
-        "robot": "R1",
         "completion": 10,
         "alone": 9,
         "detours": 0,

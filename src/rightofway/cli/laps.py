@@ -15,9 +15,11 @@ from rightofway.cli.terminal import (
     progress,
     put_json,
     put_report,
+    quantities_of,
     read_scenario,
     say,
     seed_option,
+    ticks_option,
     time_limit_option,
 )
 
@@ -64,6 +66,7 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
 @seed_option
 @plan_output_option("whole laps as a plan")
 @page_option("the laps")
+@ticks_option
 @as_json_option("result")
 def laps(
     *,
@@ -75,6 +78,7 @@ def laps(
     seed: int,
     output: str | None,
     page: str | None,
+    in_ticks: bool,
     as_json: bool,
 ) -> int:
     """Let every robot of a SCENARIO repeat its round trip until the motion is periodic.
@@ -83,7 +87,8 @@ def laps(
     waits where for which other, and the bottleneck. Exit code 1 if a group ends in a deadlock, 3 if
     time ran out for one.
 
-    Scenarios name no unit of time: throughput_per_hour of --json is laps in 3600 time units.
+    Where a scenario names no unit of time, throughput_per_hour of --json is laps in 3600 time
+    units.
     """
     from rightofway.cli.laps_report import laps_data, laps_report
     from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of, run_laps
@@ -111,7 +116,7 @@ def laps(
     if as_json:
         put_json(laps_data(run))
     elif output != "-":
-        put_report(laps_report(run))
+        put_report(laps_report(run, quantities_of(problem, in_ticks=in_ticks)))
     if page:
         from rightofway.viz import write_page
 

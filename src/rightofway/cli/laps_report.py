@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
-from rightofway.cli.terminal import wrapped
+from rightofway.cli.terminal import COLUMNS, measures, short, wrapped
 from rightofway.cyclic import (
     Comparison,
     CyclicResult,
@@ -20,19 +21,17 @@ from rightofway.cyclic import (
     in_words,
     parameter_effects,
 )
-from rightofway.model import Scenario
+from rightofway.model import Quantities, Scenario, Tick, decimal
+from rightofway.model.values import written
 
 HOUR = 3600
-"""Time units of a scenario in an hour, if they are seconds."""
+"""Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""
 
 MAX_GROUPS = 3
 """Groups in the report; --json has them all."""
 
 MAX_LINES = 12
 """Lines of a list; longer lists end with the number of further ones."""
-
-MAX_DENOMINATOR = 12
-"""Fractions of smaller parts are rounded in the report."""
 
 MAX_TIMES = 4
 """Times of one wait within a period that the report lists; further ones are counted."""
@@ -46,29 +45,35 @@ MAX_VISITS = 1_000_000
 MAX_VISITS_OF_SENSITIVITY = 200_000
 """Visits of a period whose sensitivity is computed; each parameter takes a search."""
 
-Sites = dict[tuple[int, int, int], list[Fraction]]
-"""Waits by vertex, waiting robot and awaited robot: their times [time unit]."""
+Sites = dict[tuple[int, int, int], list[Tick]]
+"""Waits by vertex, waiting robot and awaited robot: their times [ticks]."""
 
 
 def laps_data(run: CyclicResult) -> dict[str, Any]:
-    """Return a result for programs: plain data, times as exact fractions of the time unit."""
+    """Return a result for programs: plain data, exact times [time unit]."""
     return {
         "rule": run.rule,
         "routes": run.routes,
-        "throughput_per_hour": str(HOUR * run.throughput()),
+        **measures(run.scenario),
+        "throughput_per_hour": written(_hour(run.scenario) * run.throughput()),
         "groups": [_group_data(run.scenario, group) for group in run.groups],
     }
+
+
+def _hour(scenario: Scenario) -> Fraction:
+    """Return the time units of an hour, or 3600 where they are not known."""
+    return HOUR / (scenario.units.seconds or Fraction(1))
 
 
 def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
     names, pattern, measured, time = _names(scenario, group), group.pattern, None, clock.time
-    means = [None if mean is None else str(mean * clock.tick) for mean in group.mean_laps()]
-    shares = [None if share is None else str(share) for share in group.waiting_shares()]
+    means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
+    shares = [None if share is None else written(share) for share in group.waiting_shares()]
     if pattern is None:
         found = group.measured()
         laps = dict(zip(names, found.laps, strict=True))
-        measured = {"from": str(time(found.warm_up)), "laps": laps}
+        measured = {"from": written(time(found.warm_up)), "laps": laps}
 
     def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
         return [
@@ -76,8 +81,8 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
                 "vertex": place(wait.vertex),
                 "robots": [robots[robot].name for robot in wait.pair],
                 "waits": robots[wait.waits].name,
-                when: str(time(wait.tick)),
-                "for": str(time(wait.ticks)),
+                when: written(time(wait.tick)),
+                "for": written(time(wait.ticks)),
             }
             for wait in waits
         ]
@@ -86,9 +91,9 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
         "robots": names,
         "ends": group.ends,
         "why": group.why,
-        "transient": str(time(pattern.transient)) if pattern else None,
-        "begins": str(time(pattern.begins)) if pattern else None,
-        "period": str(time(pattern.period)) if pattern else None,
+        "transient": written(time(pattern.transient)) if pattern else None,
+        "begins": written(time(pattern.begins)) if pattern else None,
+        "period": written(time(pattern.period)) if pattern else None,
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
         "laps_made": dict(zip(names, group.laps_made(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
@@ -107,20 +112,20 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
                     "kind": piece.kind,
                     "robot": robots[piece.robot].name,
                     "vertices": [place(vertex) for vertex in piece.places],
-                    "for": str(time(piece.ticks)),
+                    "for": written(time(piece.ticks)),
                 }
                 for piece in (bottleneck.pieces if bottleneck else ())
             ],
             "sensitivity": _sensitivity_data(scenario, group),
         }
     if group.comparison is not None:
-        hour = HOUR / clock.tick
+        hour = _hour(scenario) / clock.tick
         data |= {
-            "throughput_per_hour": str(group.comparison.throughput * hour),
-            "fairness": str(group.comparison.fairness),
+            "throughput_per_hour": written(group.comparison.throughput * hour),
+            "fairness": written(group.comparison.fairness),
             "first_come": {
                 "ends": group.comparison.baseline_ends,
-                "throughput_per_hour": str(group.comparison.baseline * hour),
+                "throughput_per_hour": written(group.comparison.baseline * hour),
             },
         }
     return data
@@ -144,17 +149,17 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
             "kind": one.kind,
             "robot": None if one.robot is None else scenario.robots[one.robot].name,
             "stop": one.stop,
-            "gain": str(one.effect.gain * tick),
-            "loss": str(one.effect.loss * tick),
-            "until": str(one.effect.until),
-            "at_best": str(one.effect.at_best * tick),
-            "ten_per_cent": str(one.ten_per_cent * tick),
+            "gain": written(one.effect.gain * tick),
+            "loss": written(one.effect.loss * tick),
+            "until": written(one.effect.until),
+            "at_best": written(one.effect.at_best * tick),
+            "ten_per_cent": written(one.ten_per_cent * tick),
         }
         for one in parameter_effects(scenario, graph)
     ]
 
 
-def laps_report(run: CyclicResult) -> str:
+def laps_report(run: CyclicResult, quantities: Quantities) -> str:
     """Return a result for people."""
     together = [group for group in run.groups if len(group.robots) > 1]
     ends = Counter(group.ends for group in together)
@@ -164,76 +169,88 @@ def laps_report(run: CyclicResult) -> str:
         (ends["open"], "open: time ran out"),
     ]
     groups = [f"{number} of {len(together)} {words}" for number, words in counts if number]
-    if len(together) < len(run.groups):
-        groups.append(f"{len(run.groups) - len(together)} robots meet no other")
+    alone = len(run.groups) - len(together)
+    if alone:
+        groups.append("1 robot meets no other" if alone == 1 else f"{alone} robots meet no other")
+    per = "per hour" if run.scenario.units.time else f"in {HOUR} time units"
     lines = [
         f"rule        {run.rule}, on {run.routes} routes",
         f"groups      {'; '.join(groups)}",
-        f"throughput  {_short(HOUR * run.throughput())} laps in {HOUR} time units",
+        f"throughput  {decimal(_hour(run.scenario) * run.throughput())} laps {per}",
     ]
     largest = sorted(together, key=lambda group: -len(group.robots))
     for group in largest[:MAX_GROUPS]:
-        lines += ["", *_group_lines(run.scenario, group)]
+        lines += ["", *_group_lines(run.scenario, quantities, group)]
         if group.comparison is not None:
             lines += comparison_lines(group.comparison)
     if len(largest) > MAX_GROUPS:
-        more = len(largest) - MAX_GROUPS
-        lines += ["", f"… and {more} more groups, none larger (--json has them all)"]
+        lines += [
+            "",
+            f"… and {len(largest) - MAX_GROUPS} more groups, none larger (--json lists all)",
+        ]
     return "\n".join(lines)
 
 
-def _group_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
-    time, size = scenario.problem.clock.time, f"{len(group.robots)} robots"
+def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
+    size = f"{len(group.robots)} robots"
     if group.pattern is None:
         source = "Laps until then"
         if group.ends != "deadlock":
             measured = group.measured()
-            laps = sum(measured.laps) / len(measured.laps)
+            laps = decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
             source = (
-                f"Measured, not proven: means of {laps:.1f} laps per robot"
-                f" from time {_short(time(measured.warm_up))} on"
+                f"Measured, not proven: means of {laps} laps per robot"
+                f" from {quantities.moment(measured.warm_up)} on"
             )
         yield from wrapped(f"{size}: {group.why}. {source}:")
-        yield from _robot_lines(scenario, group)
+        yield from _robot_lines(scenario, quantities, group)
         return
-    period, since = time(group.pattern.period), time(group.pattern.transient)
-    yield f"{size}: period {period}, from time {since} on"
-    yield from _robot_lines(scenario, group)
+    period, since = group.pattern.period, group.pattern.transient
+    repeats = f"period {quantities.duration(period)}, from {quantities.moment(since)} on"
+    yield from wrapped(f"{size}: {repeats}")
+    yield from _robot_lines(scenario, quantities, group)
     if _is_long(group):
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
-    yield from _wait_lines(scenario, group)
+    yield from _wait_lines(scenario, quantities, group)
     bottleneck = group.bottleneck()
     if bottleneck:
         yield from wrapped(f"bottleneck: {in_words(bottleneck, scenario)}")
         yield from _sensitivity_lines(scenario, group)
 
 
-def _robot_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
-    names, tick = _names(scenario, group), scenario.problem.clock.tick
+def _robot_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
     counts = group.pattern.counts if group.pattern else group.measured().laps
-    title = "laps/period" if group.pattern else "laps"
-    width = max(map(len, ("robot", *names[:MAX_LINES])))
-    yield f"{'robot':{width}}  {title:>11}  mean lap     alone  waiting"
-    rows = zip(
-        names, counts, group.mean_laps(), group.waiting_shares(), group.context.laps, strict=True
-    )
-    for name, laps, mean, share, route in list(rows)[:MAX_LINES]:
-        lap = ("never" if group.pattern else "?") if mean is None else _short(mean * tick)
-        alone = _short(route.duration * tick)
-        waits = "" if share is None else f"{float(share):7.1%}"
-        yield f"{name:{width}}  {laps:11}  {lap:>8}  {alone:>8}  {waits}".rstrip()
-    if len(names) > MAX_LINES:
-        yield f"… and {len(names) - MAX_LINES} more robots"
+    never, cell, heading = "never" if group.pattern else "?", quantities.cell, quantities.heading
+    rows = [
+        ("laps/period" if group.pattern else "laps", heading("mean lap"), heading("alone"), "waits")
+    ]
+    rows += [
+        (
+            str(laps),
+            never if mean is None else cell(mean),
+            cell(route.duration),
+            "" if share is None else f"{float(share):.1%}",
+        )
+        for laps, mean, share, route in islice(
+            zip(counts, group.mean_laps(), group.waiting_shares(), group.context.laps, strict=True),
+            MAX_LINES,
+        )
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    room = COLUMNS - sum(widths) - 2 * len(widths)
+    names = ["robot", *(short(name, room) for name in _names(scenario, group)[:MAX_LINES])]
+    width = max(map(len, names))
+    for name, cells in zip(names, rows, strict=True):
+        line = "  ".join(f"{text:>{space}}" for text, space in zip(cells, widths, strict=True))
+        yield f"{name:{width}}  {line}".rstrip()
+    if len(group.robots) > MAX_LINES:
+        yield f"… and {len(group.robots) - MAX_LINES} more robots (--json lists all)"
 
 
-def _short(number: Fraction) -> str:
-    return str(number) if number.denominator <= MAX_DENOMINATOR else f"{float(number):.2f}"
-
-
-def _wait_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
-    first, periodic = _sites(scenario, group.first_waits()), _sites(scenario, group.waits())
+    first, periodic = _sites(group.first_waits()), _sites(group.waits())
     both = len(first.keys() & periodic.keys())
     yield f"waits: {len(first)} in the first lap, {len(periodic)} in each period, {both} in both"
     robots, place = scenario.robots, scenario.roadmap.name
@@ -241,23 +258,31 @@ def _wait_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
     for site in sites[:MAX_LINES]:
         vertex, waiting, awaited = site
         text = f"{place(vertex)}: {robots[waiting].name} waits for {robots[awaited].name}"
-        when = []
-        for words, found in (("first lap at", first), ("each period at", periodic)):
-            times = found.get(site, ())
-            more = f" and {len(times) - MAX_TIMES} more times" if len(times) > MAX_TIMES else ""
-            if times:
-                when.append(f"{words} {', '.join(map(_short, times[:MAX_TIMES]))}{more}")
+        when = [
+            f"{words} at {_moments(quantities, found[site])}"
+            for words, found in (("first lap", first), ("each period", periodic))
+            if site in found
+        ]
         yield from wrapped(f"{text}, {'; '.join(when)}", "  ")
     if len(sites) > MAX_LINES:
         yield f"  … and {len(sites) - MAX_LINES} more"
 
 
-def _sites(scenario: Scenario, waits: Sequence[LapWait]) -> Sites:
+def _sites(waits: Sequence[LapWait]) -> Sites:
     found: Sites = {}
     for wait in waits:
-        site = (wait.vertex, wait.waits, wait.for_robot)
-        found.setdefault(site, []).append(scenario.problem.clock.time(wait.tick))
+        found.setdefault((wait.vertex, wait.waits, wait.for_robot), []).append(wait.tick)
     return found
+
+
+def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
+    """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
+    write = quantities.duration
+    if quantities.in_ticks or not quantities.time_unit:
+        write = quantities.cell
+    listed = ", ".join([quantities.moment(ticks[0]), *map(write, ticks[1:MAX_TIMES])])
+    more = len(ticks) - MAX_TIMES
+    return f"{listed} and {more} more time{'s' * (more > 1)}" if more > 0 else listed
 
 
 def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:

@@ -3,55 +3,228 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, row, short, wrapped
-from rightofway.metrics import Metrics, measure, waits
-from rightofway.model import Decision, Plan, Wait
+from rightofway.cli.terminal import COLUMNS, measures, row, short, wrapped
+from rightofway.metrics import Metrics, lost_time, measure, waits
+from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
 
+COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
+"""Headings of the table of robots: the first is the sum of the others."""
 
-def summary(plan: Plan) -> str:
-    """Return the costs of a plan, and which robots lose time for which others."""
-    metrics, found = measure(plan), waits(plan)
-    tick = plan.scenario.problem.clock.tick
 
-    def time(number: int) -> str:
-        return _ticks(number) + ("" if tick == 1 else f" = {number * tick} time units")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Words:
+    """How a report on one plan writes times, robots and places."""
 
-    above = f"{metrics.gap:.1%} above the lower bound {metrics.lower_bound}"
+    plan: Plan
+    quantities: Quantities
+
+    def robot(self, robot: int | None) -> str:
+        """Return the name of a robot."""
+        return "" if robot is None else self.plan.scenario.robots[robot].name
+
+    def place(self, vertex: int | None) -> str:
+        """Return the name of a vertex."""
+        return "" if vertex is None else self.plan.scenario.roadmap.name(vertex)
+
+    def time(self, ticks: int) -> str:
+        """Return how long a number of ticks lasts."""
+        return self.quantities.duration(ticks)
+
+    def at(self, tick: int) -> str:
+        """Return when something happens."""
+        return f"at {self.quantities.moment(tick)}"
+
+
+def summary(plan: Plan, quantities: Quantities) -> str:
+    """Return the costs of a plan, and where and to which others robots lose time."""
+    words = Words(plan=plan, quantities=quantities)
+    metrics, lost = measure(plan), lost_time(plan)
     rows = [
-        ("planner", f"{plan.run.name}: {plan.run.status}"),
-        ("flowtime", f"{time(metrics.flowtime)}, {above}"),
-        ("makespan", time(metrics.makespan)),
-        ("waiting", time(metrics.waiting)),
+        ("planner", planning(plan, quantities)),
+        ("flowtime", _flowtime(words, metrics)),
+        ("makespan", words.time(metrics.makespan)),
+        ("lost time", _lost(words, lost)),
     ]
+    if quantities.in_ticks:
+        rows.append(("tick", replace(quantities, in_ticks=False).duration(1)))
     costs = [
-        row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 10) for key, text in rows
+        row(key, textwrap.shorten(text, 4 * COLUMNS, placeholder=" …"), 11) for key, text in rows
     ]
-    return "\n".join([*costs, "", *_robots(plan, metrics, found), *_waits(plan, found)])
+    return "\n".join([*costs, "", *_robots(words, lost), *_losses(words, lost)])
+
+
+def planning(plan: Plan, quantities: Quantities) -> str:
+    """Return what the planner did, in words that need no knowledge of its method."""
+    run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
+    parts = [run.name]
+    if run.seconds is not None:
+        parts[0] += f", planned in {decimal(run.seconds)} s"
+    if metrics.flowtime == metrics.lower_bound:
+        parts.append("optimal, no robot loses time")
+    elif run.improvement is not None:
+        made, saved = run.improvement, run.improvement.saved
+        found = f"saved {words.time(saved)}" if saved > 0 else "found no better plan"
+        number = "" if made.tries is None else f"{made.tries} "
+        tries = "attempt" if made.tries == 1 else "attempts"
+        ended = "interrupted: " if made.interrupted else ""
+        parts.append(f"{ended}{number}{tries} to improve the first plan {found}")
+    if run.reroutes:
+        names = [words.robot(reroute.robot) for reroute in run.reroutes]
+        parts.append(f"rerouted: {', '.join(names)}")
+    return "; ".join(parts)
+
+
+def _flowtime(words: Words, metrics: Metrics) -> str:
+    flowtime, bound = words.time(metrics.flowtime), metrics.lower_bound
+    if metrics.flowtime == bound:
+        return f"{flowtime}, the least possible"
+    if not bound:
+        return flowtime
+    return f"{flowtime}, {metrics.gap:.1%} above the lower bound of {words.time(bound)}"
+
+
+def _lost(words: Words, lost: Sequence[LostTime]) -> str:
+    parts = {
+        "detours": sum(one.detours for one in lost),
+        "making room": sum(one.making_room for one in lost),
+        "waiting": sum(one.waiting for one in lost),
+    }
+    told = [f"{key} {words.time(ticks)}" for key, ticks in parts.items() if ticks]
+    return f"{words.time(sum(parts.values()))}: {', '.join(told)}" if told else "none"
+
+
+def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+    most = sorted(range(len(lost)), key=lambda robot: -lost[robot].lost)[:MAX_LINES]
+    listed, cell = sorted(most), words.quantities.cell
+    rows = [
+        tuple(map(cell, (one.completion, one.alone, one.detours, one.making_room, one.waiting)))
+        for one in (lost[robot] for robot in listed)
+    ]
+    widths = [max(map(len, column)) for column in zip(COLUMNS_OF_TIMES, *rows, strict=True)]
+    room = COLUMNS - sum(widths) - 2 * len(widths)
+    names = [short(words.robot(robot), room) for robot in listed]
+    width = max(map(len, ("robot", *names)))
+    which = "each robot" if len(listed) == len(lost) else "the robots that lose most"
+    yield words.quantities.heading(f"times of {which}")
+    for name, cells in zip(("robot", *names), (COLUMNS_OF_TIMES, *rows), strict=True):
+        line = "  ".join(f"{one:>{space}}" for one, space in zip(cells, widths, strict=True))
+        yield f"{name:{width}}  {line}"
+    if len(lost) > len(listed):
+        yield f"… and {len(lost) - len(listed)} more robots, which lose less time"
+
+
+def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+    """Yield where and to which robots time is lost, the largest losses first."""
+    groups: dict[tuple[object, ...], list[Loss]] = {}
+    for loss in chain.from_iterable(one.losses for one in lost):
+        groups.setdefault((loss.kind, loss.robot, loss.for_robot), []).append(loss)
+    sentences: list[tuple[int, int, str]] = [
+        (sum(loss.ticks for loss in group), group[0].tick, _sentence(words, group))
+        for group in groups.values()
+    ]
+    sentences += [
+        (one.detours, 0, f"{words.robot(one.robot)} takes detours of {words.time(one.detours)}.")
+        for one in lost
+        if one.detours > 0
+    ]
+    sentences.sort(key=lambda sentence: (-sentence[0], sentence[1]))
+    if sentences:
+        yield ""
+    for *_, sentence in sentences[:MAX_LINES]:
+        yield from wrapped(sentence)
+    if len(sentences) > MAX_LINES:
+        yield f"… and {len(sentences) - MAX_LINES} more (--json lists all)"
+    yield from _homes_in_the_way(words, groups.values())
+
+
+def _sentence(words: Words, group: Sequence[Loss]) -> str:
+    first, times = group[0], len(group)
+    robot, other = words.robot(first.robot), words.robot(first.for_robot)
+    place, freed = words.place(first.vertex), words.place(first.freed)
+    total, begin = words.time(sum(loss.ticks for loss in group)), words.at(first.tick)
+    if first.kind == "follows":
+        way = f"from {place} to {freed}"
+        if times > 1:
+            return f"{robot} follows {other} {times} times and loses {total}, first {way} {begin}."
+        return f"{robot} follows {other} {way} and loses {total}, beginning {begin}."
+    if first.kind == "makes room":
+        reason = "" if first.for_robot is None else f" for {other}"
+        moment = words.quantities.moment
+        away = f"away from {place} from {moment(first.tick)} to {moment(first.end)}"
+        if times > 1:
+            return f"{robot} makes room{reason} {times} times and loses {total}, first {away}."
+        return f"{robot} makes room{reason} and loses {total}, {away}."
+    where = f"in {place}"
+    if first.until_vertex != first.vertex:
+        where += f" to {words.place(first.until_vertex)}"
+    if times > 1:
+        reason = (
+            "though no other robot is in its way" if first.for_robot is None else f"for {other}"
+        )
+        return f"{robot} waits {times} times {reason}, {total} in all, first {where} {begin}."
+    if first.for_robot is None:
+        reason = "though no other robot is in its way"
+    elif first.freed == first.towards:
+        reason = f"for {other} to leave {freed}"
+    else:
+        reason = f"so that {other} can leave {freed} first"
+    return f"{robot} waits {total} {where} {begin}, {reason}."
+
+
+def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterator[str]:
+    """Say where the last place of a robot that loses time is on the way of others."""
+    scenario = words.plan.scenario
+    found: dict[int, dict[int, int]] = {}
+    for loss in chain.from_iterable(groups):
+        blocked = loss.vertex if loss.kind == "makes room" else loss.freed
+        if loss.for_robot is None or loss.kind == "follows":
+            continue
+        if blocked == scenario.problem.itineraries[loss.robot].last:
+            others = found.setdefault(loss.robot, {})
+            others[loss.for_robot] = others.get(loss.for_robot, 0) + loss.ticks
+    largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
+    if largest:
+        yield ""
+    for robot in largest[:MAX_LINES]:
+        last = scenario.problem.itineraries[robot].last
+        what = "home" if last == scenario.robots[robot].home else "last place"
+        ranked = sorted(found[robot], key=lambda other: -found[robot][other])
+        names = [*map(words.robot, ranked[:3]), *(["others"] if ranked[3:] else [])]
+        listing = " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+        lost = words.time(sum(found[robot].values()))
+        yield from wrapped(
+            f"{words.place(last)}, the {what} of {words.robot(robot)}, is on the way of {listing}"
+            f" and costs {words.robot(robot)} {lost}: a {what} or a parking place off that way"
+            " would help."
+        )
 
 
 def summary_data(plan: Plan) -> dict[str, Any]:
     """Return the same for programs, the planner as in a plan file; times in ticks."""
-    metrics, run, found = measure(plan), plan.run, waits(plan)
-    names, place = _names(plan), plan.scenario.roadmap.name
-    rows = zip(names, metrics.completions, metrics.alone, _waiting(plan, found), strict=True)
+    metrics, run = measure(plan), plan.run
+    names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
     return {
         "planner": {
             "name": run.name,
             "options": dict(run.options),
             "seed": run.seed,
             "status": run.status,
+            "seconds": run.seconds,
+            "first_plan_seconds": run.first_plan_seconds,
         },
-        "tick": str(plan.scenario.problem.clock.tick),
+        **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
         "robots": [
-            {"name": name, "completion": completion, "alone": alone, "waiting": waiting}
-            for name, completion, alone, waiting in rows
+            {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
+            for lost in lost_time(plan)
         ],
         "waits": [
             {
@@ -61,88 +234,36 @@ def summary_data(plan: Plan) -> dict[str, Any]:
                 "ticks": wait.ticks,
                 "for": None if wait.for_robot is None else names[wait.for_robot],
             }
-            for wait in found
+            for wait in waits(plan)
         ],
         "rerouted": [names[reroute.robot] for reroute in run.reroutes],
     }
 
 
-def _names(plan: Plan) -> list[str]:
-    return [robot.name for robot in plan.scenario.robots]
-
-
-def _ticks(number: int) -> str:
-    return f"{number} tick" + "s" * (number != 1)
-
-
-def _waiting(plan: Plan, found: Sequence[Wait]) -> list[int]:
-    total = [0] * len(plan.tracks)
-    for wait in found:
-        total[wait.robot] += wait.ticks
-    return total
-
-
-def _robots(plan: Plan, metrics: Metrics, found: Sequence[Wait]) -> Iterator[str]:
-    waiting = _waiting(plan, found)
-    lost = [done - alone for done, alone in zip(metrics.completions, metrics.alone, strict=True)]
-    listed = sorted(sorted(range(len(lost)), key=lambda robot: -lost[robot])[:MAX_LINES])
-    names = {robot: short(plan.scenario.robots[robot].name) for robot in listed}
-    width = max(map(len, ("robot", *names.values())))
-    yield f"{'robot':{width}}  completes  alone  waits"
-    for robot, name in names.items():
-        times = f"{metrics.completions[robot]:9}  {metrics.alone[robot]:5}  {waiting[robot]:5}"
-        yield f"{name:{width}}  {times}"
-    if len(lost) > len(listed):
-        yield f"… and {len(lost) - len(listed)} more robots, which lose less time"
-
-
-def _waits(plan: Plan, found: Sequence[Wait]) -> Iterator[str]:
-    """Yield which robot waits for which other, largest sums of waits first."""
-    groups: dict[tuple[int, int | None], list[Wait]] = {}
-    for wait in found:
-        groups.setdefault((wait.robot, wait.for_robot), []).append(wait)
-    longest = sorted(groups.values(), key=lambda group: -sum(wait.ticks for wait in group))
-    if longest:
-        yield ""
-    names, place = _names(plan), plan.scenario.roadmap.name
-    for group in longest[:MAX_LINES]:
-        first, where = group[0], ""
-        if len(group) > 1:
-            where = f" in {len(group)} places, first"
-        where += f" in {place(first.vertex)} at tick {first.tick}"
-        reason = "to let others pass further on"
-        if first.for_robot is not None:
-            reason = f"for {names[first.for_robot]} to leave {place(first.towards)}"
-        total = _ticks(sum(wait.ticks for wait in group))
-        yield from wrapped(f"{names[first.robot]} waits {total}{where}, {reason}.")
-    if len(longest) > MAX_LINES:
-        yield f"… and {len(longest) - MAX_LINES} more (--json lists all)"
-
-
-def decision_log(plan: Plan) -> str:
+def decision_log(plan: Plan, quantities: Quantities) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
-    names = _names(plan)
+    words = Words(plan=plan, quantities=quantities)
     lines: list[str] = []
     for decision in plan.run.decisions:
-        lines += wrapped(_decision(plan, names, decision))
-        lines += wrapped(_reason(decision, names), "    ")
+        lines += wrapped(_decision(words, decision))
+        lines += wrapped(_reason(words, decision), "    ")
     for reroute in plan.run.reroutes:
-        lines += wrapped(f"{names[reroute.robot]} is rerouted: {reroute.because}.")
+        lines += wrapped(f"{words.robot(reroute.robot)} is rerouted: {reroute.because}.")
     return "\n".join(lines or ["No decision was needed: no two robots meet."])
 
 
-def _decision(plan: Plan, names: list[str], decision: Decision) -> str:
-    place, vertices = plan.scenario.roadmap.name, decision.vertices
-    where = place(vertices[0])
+def _decision(words: Words, decision: Decision) -> str:
+    vertices = decision.vertices
+    where = words.place(vertices[0])
     if decision.kind != "vertex":
-        where = f"segment {where} to {place(vertices[-1])} ({len(vertices)} vertices)"
-    waits, first = names[decision.waits], names[_goes_first(decision)]
-    how = f"{waits} waits {_ticks(decision.ticks)} in {place(decision.waits_at)}"
+        where = f"segment {where} to {words.place(vertices[-1])} ({len(vertices)} vertices)"
+    waits, first = words.robot(decision.waits), words.robot(_goes_first(decision))
+    how = f"{waits} waits {words.time(decision.ticks)} in {words.place(decision.waits_at)}"
     if decision.kind == "following":
         how = f"{how} and follows {first}" if decision.ticks else f"{waits} follows {first}"
     else:
         how = f"{how}, {first} goes first"
-    return f"tick {decision.tick}, {where}: {how}."
+    return f"At {words.quantities.moment(decision.tick)}, {where}: {how}."
 
 
 def _goes_first(decision: Decision) -> int:
@@ -150,22 +271,30 @@ def _goes_first(decision: Decision) -> int:
     return one if decision.waits == other else other
 
 
-def _reason(decision: Decision, names: list[str]) -> str:
-    i, j = (names[robot] for robot in decision.robots)
+def _reason(words: Words, decision: Decision) -> str:
+    i, j = map(words.robot, decision.robots)
     if_i, if_j = decision.conflicts_left
     left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"
     match decision.level:
         case "only":
-            return f"only choice: {names[_goes_first(decision)]} cannot wait here."
+            return f"only choice: {words.robot(_goes_first(decision))} cannot wait here."
         case "priority":
-            return f"priority: {names[_goes_first(decision)]} has the higher one."
+            return f"priority: {words.robot(_goes_first(decision))} has the higher one."
         case "settled":
             return f"node level: the other choice meets robots that are settled already ({left})."
         case "node":
             return f"node level: {left}."
-    if_i, if_j = decision.completion_sums or (None, None)
-    if if_i is None or if_j is None:
-        sums = f"Only with {j if if_i is None else i} waiting do both get through."
+    sum_i, sum_j = decision.completion_sums or (None, None)
+    if sum_i is None or sum_j is None:
+        sums = f"Only with {j if sum_i is None else i} waiting do both get through."
+    elif sum_i == sum_j:
+        sums = (
+            f"A tie: either way they complete after {words.time(sum_i)} in sum, and"
+            f" {words.robot(decision.waits)} waits by rule."
+        )
     else:
-        sums = f"Their work takes {if_i} ticks together if {i} waits, {if_j} if {j} does."
+        sums = (
+            f"They complete after {words.time(sum_i)} in sum if {i} waits, after"
+            f" {words.time(sum_j)} if {j} does."
+        )
     return f"robot level: {left}. {sums}"

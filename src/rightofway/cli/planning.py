@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
 from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -19,13 +18,16 @@ from rightofway.cli.terminal import (
     as_json_option,
     complain,
     count_option,
+    measures,
     progress,
     put_json,
     put_report,
+    quantities_of,
     read_scenario,
     say,
     seed_option,
     short,
+    ticks_option,
     time_limit_option,
     width,
 )
@@ -33,9 +35,9 @@ from rightofway.errors import NoPlanExists
 from rightofway.planners import DEFAULT, IMPROVER, PlannerSpec, find, registered
 
 if TYPE_CHECKING:
-    from rightofway.model import Plan
+    from rightofway.model import Plan, Quantities
 
-SECONDS_PER_VISIT = 1.7e-6
+SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
 
@@ -96,6 +98,7 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
         click.option("--log", is_flag=True,
                      help="Print every decision: which robot waits, where and why."),
         click.option("--table", is_flag=True, help="Print the time/space table."),
+        ticks_option,
         as_json_option("summary"),
     ]  # fmt: skip
 
@@ -146,8 +149,9 @@ Examples:
 @click.command(epilog=BOUND_EXAMPLES, short_help="Print the lower bounds of all plans.")
 @click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @count_option
+@ticks_option
 @as_json_option("bounds")
-def bound(*, scenario: str, count: int | None, as_json: bool) -> None:
+def bound(*, scenario: str, count: int | None, in_ticks: bool, as_json: bool) -> None:
     """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
 
     They follow from the time at which each robot would be done if it were alone. A SCENARIO of - is
@@ -161,17 +165,15 @@ def bound(*, scenario: str, count: int | None, as_json: bool) -> None:
     if as_json:
         robots = [{"name": name, "alone": ticks} for name, ticks in zip(names, alone, strict=True)]
         flowtime, makespan = sum(alone), max(alone)
-        units = {key: value for key, value in asdict(problem.units).items() if value}
         put_json(
             {
-                "tick": str(problem.problem.clock.tick),
-                "units": units,
+                **measures(problem),
                 "lower_bound": {"flowtime": flowtime, "makespan": makespan},
                 "robots": robots,
             }
         )
         return
-    q = problem.quantities
+    q = quantities_of(problem, in_ticks=in_ticks)
     column = max(len("robot"), *(len(short(name)) for name in names[:MAX_LINES]))
     lines = [
         f"flowtime  at least {q.duration(sum(alone))}",
@@ -201,6 +203,7 @@ def _run(
     page: str | None,
     log: bool,
     table: bool,
+    in_ticks: bool,
     as_json: bool,
 ) -> int:
     """Read, plan, write and report; return the exit code."""
@@ -233,7 +236,8 @@ def _run(
         write_page(found, page)
         say(f"wrote {page} (open it in a browser)")
     if output != "-":
-        _report(found, log=log, table=table, as_json=as_json)
+        quantities = quantities_of(found.scenario, in_ticks=in_ticks)
+        _report(found, quantities, log=log, table=table, as_json=as_json)
     may_hold_swaps = find(planner).leaves_swaps or found.run.options.get("swaps") == "leave"
     if not may_hold_swaps:
         return 0
@@ -264,15 +268,15 @@ def no_plan_shown(problem: Any, page: str | None, *, as_json: bool) -> Iterator[
         raise
 
 
-def _report(found: Plan, *, log: bool, table: bool, as_json: bool) -> None:
+def _report(found: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
     from rightofway.cli.plan_report import decision_log, summary, summary_data
 
     if as_json:
         put_json(summary_data(found))
         return
-    put_report(summary(found))
+    put_report(summary(found, quantities))
     if log:
-        put_report("\n" + decision_log(found))
+        put_report("\n" + decision_log(found, quantities))
     if table:
         from rightofway.viz.table import as_text, table_of
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import re
 import shutil
 import stat
 import sys
@@ -13,16 +14,18 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from rightofway.model.quantities import decimal
+from rightofway.model.values import written
 
 if TYPE_CHECKING:
     from rightofway.io import Loaded
-    from rightofway.model import Plan, Scenario
+    from rightofway.model import Plan, Quantities, Scenario
 
 Callback = Callable[[click.Context, click.Parameter, Any], Any]
 """What click calls to check the value of an option."""
@@ -35,6 +38,12 @@ MAX_NAME = 40
 
 QUIET = "rightofway.quiet"
 """Where a command keeps whether the user wants no messages."""
+
+NO_BREAK = "\N{NO-BREAK SPACE}"
+"""A space at which no line is broken."""
+
+UNIT = re.compile(r"(?<=\d) (?=[a-z])|(?<=\d h) (?=\d)|(?<=\d min) (?=\d)")
+"""The spaces within ``2 min 34.3 s``."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -133,20 +142,24 @@ def width() -> int:
 
 
 def wrapped(text: str, indent: str = "") -> list[str]:
-    """Return the lines of a sentence."""
-    return textwrap.wrap(text, COLUMNS, initial_indent=indent, subsequent_indent=indent + "    ")
+    """Return the lines of a sentence; a number and its unit stay in one line."""
+    return _broken(text, indent, indent + "    ").splitlines()
 
 
 def row(key: str, text: str, column: int) -> str:
     """Return a row of a report: a key, and from a column on its text, on several lines if long."""
-    return textwrap.fill(
-        text, COLUMNS, initial_indent=f"{key:{column}}", subsequent_indent=" " * column
-    )
+    return _broken(text, f"{key:{column}}", " " * column)
 
 
-def short(name: str) -> str:
+def _broken(text: str, first: str, following: str) -> str:
+    joined = UNIT.sub(NO_BREAK, text)
+    filled = textwrap.fill(joined, COLUMNS, initial_indent=first, subsequent_indent=following)
+    return filled.replace(NO_BREAK, " ")
+
+
+def short(name: str, columns: int = MAX_NAME) -> str:
     """Return a robot's name in the columns that it may take."""
-    return name if len(name) <= MAX_NAME else f"{name[: MAX_NAME - 1]}…"
+    return name if len(name) <= columns else f"{name[: columns - 1]}…"
 
 
 def read_scenario(path: str, count: int | None = None) -> Scenario:
@@ -262,6 +275,25 @@ seed_option = click.option(
     metavar="N",
     help="Seed of all random choices; the same seed gives the same result.",
 )
+
+
+ticks_option = click.option(
+    "--ticks",
+    "in_ticks",
+    is_flag=True,
+    help="Report times in ticks, as files have them.",
+)
+
+
+def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
+    """Return how a report writes times: in the scenario's units, or in ticks on request."""
+    return replace(scenario.quantities, in_ticks=in_ticks)
+
+
+def measures(scenario: Scenario) -> dict[str, Any]:
+    """Return what the numbers of a report for programs are measured in."""
+    tick = written(scenario.problem.clock.tick)
+    return {"tick": tick, "units": asdict(scenario.units)}
 
 
 def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

@@ -119,6 +119,7 @@ def show(
 
     A scenario is planned first, as by `rightofway plan`.
     """
+    from rightofway.cli.plan_report import planning
     from rightofway.model import Scenario
     from rightofway.solve import solve
 
@@ -131,7 +132,7 @@ def show(
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
             found = solve(found, time_limit=LIMIT, report=report)
-        say(f"{plan}: planned with {found.run.name}: {found.run.status}")
+        say(f"{plan}: {planning(found, found.scenario.quantities)}")
     if page:
         _write(found, page)
     if output == "-":

@@ -131,7 +131,7 @@ def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
 
 
 def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> str:
-    """Describe a bottleneck: ``R2's work at N8, then N4, then R1's way home``.
+    """Describe a bottleneck: ``R2 enters N4, drives to N8, works, drives home; R1 enters N4``.
 
     Parameters
     ----------
@@ -140,22 +140,52 @@ def in_words(bottleneck: Bottleneck, scenario: Scenario, *, most: int = 12) -> s
     scenario
         The scenario, for names of robots and places.
     most
-        Number of pieces to name; further pieces are counted.
+        Number of steps to name; further steps are counted.
     """
     if len(bottleneck.robots) == 1:
         name = scenario.robots[bottleneck.robots[0]].name
         return f"{name}'s own lap: it waits for no robot"
-    names = [_name(piece, scenario) for piece in bottleneck.pieces]
-    if len(names) > most:
-        names = [*names[:most], f"{len(names) - most} more"]
-    return ", then ".join(names)
+    pieces = list(bottleneck.pieces)
+    while pieces[-1].kind == "right of way":  # how the first robot comes to its first piece
+        pieces.insert(0, pieces.pop())
+    parts, left = [], most
+    for robot, run in groupby(pieces, lambda piece: piece.robot):
+        steps = list(_steps(list(run), scenario))
+        if left > 0:
+            parts.append(f"{scenario.robots[robot].name} {', '.join(steps[:left])}")
+        left -= len(steps)
+    if left < 0:
+        parts.append(f"and {-left} more step{'s' * (left < -1)}")
+    return "; ".join(parts)
 
 
-def _name(piece: Piece, scenario: Scenario) -> str:
-    robot, place = scenario.robots[piece.robot], scenario.roadmap.name(piece.places[-1])
-    at_home = piece.places[-1] == robot.home
-    if piece.kind == "right of way":
-        return place
-    if piece.kind == "work":
-        return f"{robot.name}'s {'turn' if at_home else 'work'} at {place}"
-    return f"{robot.name}'s way home" if at_home else f"{robot.name}'s way to {place}"
+def _steps(run: Sequence[Piece], scenario: Scenario) -> Iterator[str]:
+    """Yield what one robot does without waiting for others; whole laps in between are counted."""
+    home, place = scenario.robots[run[0].robot].home, scenario.roadmap.name
+    steps: list[str] = []
+    arrivals: list[int] = []  # how many steps have been made when the robot is home
+    for piece in run:
+        if piece.kind == "right of way":
+            steps.append(f"enters {place(piece.places[0])}")
+        elif piece.kind == "work":
+            steps.append(f"turns at {place(home)}" if piece.places[0] == home else "works")
+        else:
+            for last in _split_at(piece.places[1:], home):
+                steps.append("drives home" if last == home else f"drives to {place(last)}")
+                if last == home:
+                    arrivals.append(len(steps))
+    laps = len(arrivals) - 1
+    if laps < 1:
+        yield from steps
+        return
+    yield from steps[: arrivals[0]]
+    yield f"makes {laps} lap{'s' * (laps > 1)} of its own"
+    yield from steps[arrivals[-1] :]
+
+
+def _split_at(places: Sequence[VertexId], home: VertexId) -> Iterator[VertexId]:
+    """Yield where each part of a way ends: at home, and at the last vertex."""
+    for place in places[:-1]:
+        if place == home:
+            yield place
+    yield places[-1]

@@ -3,7 +3,7 @@
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.lost_time import Loss, LostTime
-from rightofway.model.plan import Decision, Plan, PlannerRun, Reroute, RobotPlan, Wait
+from rightofway.model.plan import Decision, Improvement, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.roadmap import (
@@ -44,6 +44,7 @@ __all__ = [
     "Floor",
     "Frame",
     "Grid",
+    "Improvement",
     "Itinerary",
     "Lap",
     "Loss",

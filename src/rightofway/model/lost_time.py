@@ -97,7 +97,7 @@ class LostTime:
     def as_dict(
         self, robot: Callable[[int], Any] = int, place: Callable[[int], Any] = int
     ) -> dict[str, Any]:
-        """Return the attributes by name, as plain data.
+        """Return all but the robot by name, as plain data.
 
         Parameters
         ----------
@@ -109,7 +109,6 @@ class LostTime:
         marks = dict.fromkeys(("robot", "for_robot"), robot)
         marks |= dict.fromkeys(("vertex", "until_vertex", "towards", "freed"), place)
         return {
-            "robot": robot(self.robot),
             "completion": self.completion,
             "alone": self.alone,
             "detours": self.detours,

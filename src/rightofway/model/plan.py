@@ -82,6 +82,25 @@ class Reroute:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Improvement:
+    """What a planner gained by changing its first plan, or the plan it was given.
+
+    Attributes
+    ----------
+    saved
+        How much less the flowtime is than that of the first plan [ticks].
+    tries
+        How many changes it tried, or None where they were not counted.
+    interrupted
+        Whether an interrupt ended the search.
+    """
+
+    saved: Tick
+    tries: int | None = None
+    interrupted: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlannerRun:
     """How a plan came about.
 
@@ -100,6 +119,8 @@ class PlannerRun:
         Rights of way in the order they were decided, from planners that record them.
     reroutes
         Robots that were rerouted.
+    improvement
+        What changes of the first plan gained, or None where there were none. Files do not keep it.
     alone
         The least completion of each robot without the others [ticks], or None where planning did
         not compute it. Files do not keep it.
@@ -113,6 +134,7 @@ class PlannerRun:
     first_plan_seconds: float | None = None
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
+    improvement: Improvement | None = field(default=None, compare=False)
     alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
 
 

@@ -44,4 +44,6 @@ def auto(task: Task) -> Draft:
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
-    return better if after < before else replace(explained, status=better.status)
+    if after < before:
+        return better
+    return replace(explained, status=better.status, improvement=better.improvement)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Problem, Reroute, Scenario, Tick, Track
+from rightofway.model import Decision, Improvement, Problem, Reroute, Scenario, Tick, Track
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ class Draft:
         One for each robot.
     status
         What the planner did, in words.
-    decisions, reroutes
+    decisions, reroutes, improvement
         As in `PlannerRun`.
     keeps_swaps
         Whether the plan may hold swaps, as plans of the published method do.
@@ -110,6 +110,7 @@ class Draft:
     status: str
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
+    improvement: Improvement | None = None
     keeps_swaps: bool = False
 
 

@@ -1,0 +1,145 @@
+"""What the report on a plan says, read as a stranger would."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from rightofway.cli.plan_report import decision_log, planning, summary
+from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track, Units
+from tests.builders.fleets import grid_fleet
+from tests.builders.plans import counter, door
+
+Trip = tuple[Sequence[int], Sequence[int]]
+
+
+def in_seconds(plan: Plan) -> Plan:
+    scenario = replace(plan.scenario, units=Units(length="m", time="s"))
+    return replace(plan, scenario=scenario)
+
+
+def report(plan: Plan) -> list[str]:
+    text = summary(plan, plan.scenario.quantities)
+    assert max(map(len, text.splitlines())) <= 80
+    return text.splitlines()
+
+
+def plan_of(grid: Sequence[str], *trips: Trip, speeds: Sequence[str] = ("1",)) -> Plan:
+    ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
+    scenario = grid_fleet(
+        grid, ends, rules=Rules(ends="none"), speeds=[Fraction(speed) for speed in speeds]
+    )
+    tracks = tuple(Track.of(vertices, enter) for vertices, enter in trips)
+    return in_seconds(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
+
+
+def test_times_are_in_the_units_of_the_scenario() -> None:
+    assert report(in_seconds(door())) == [
+        "planner    two-level",
+        "flowtime   19 s, 5.6% above the lower bound of 18 s",
+        "makespan   10 s",
+        "lost time  1 s: waiting 1 s",
+        "",
+        "times of each robot [s]",
+        "robot  completes  alone  detours  makes room  waits",
+        "R1            10      9        0           0      1",
+        "R2             9      9        0           0      0",
+        "",
+        "R1 waits 1 s in N0 at 0 s, for R2 to leave N1.",
+    ]
+
+
+def test_on_request_times_are_in_ticks_and_the_length_of_a_tick_is_given() -> None:
+    plan = in_seconds(door())
+    lines = summary(plan, replace(plan.scenario.quantities, in_ticks=True)).splitlines()
+    assert lines[3:5] == ["lost time  1 tick: waiting 1 tick", "tick       1 s"]
+    assert lines[6] == "times of each robot [ticks]"
+    assert lines[-1] == "R1 waits 1 tick in N0 at tick 0, for R2 to leave N1."
+
+
+def test_a_robot_behind_a_slower_one_follows_it() -> None:
+    slow = ([1, 2, 3, 4, 5], [0, 2, 4, 6, 8])
+    quick = ([0, 1, 2, 3, 4], [0, 2, 4, 6, 8])
+    plan = plan_of(["......"], slow, quick, speeds=["1/2", "1"])
+    assert report(plan)[-1] == "R2 follows R1 from N0 to N4 and loses 4 s, beginning at 0 s."
+
+
+def test_a_wait_for_a_place_further_on_names_that_place() -> None:
+    plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
+    assert "R2 waits 3 s in N0 at 0 s, so that R1 can leave N3 first." in report(plan)
+
+
+def test_a_wait_that_nothing_compels_says_so() -> None:
+    plan = plan_of(["..."], ([0, 1, 2], [0, 1, 4]))
+    assert report(plan)[-1] == "R1 waits 2 s in N1 at 1 s, though no other robot is in its way."
+
+
+def test_a_detour_and_a_robot_that_makes_room_each_have_a_sentence() -> None:
+    aside = ([0, 1, 4, 1, 2], [0, 1, 2, 4, 5])
+    lines = report(plan_of(["...", "..."], aside, ([3, 0, 1], [0, 2, 3])))
+    assert "R1 makes room for R2 and loses 2 s, away from N1 from 2 s to 4 s." in lines
+    assert report(plan_of(["...", "..."], ([0, 3, 4, 5, 2], range(5))))[-1] == (
+        "R1 takes detours of 2 s."
+    )
+
+
+def test_waits_of_several_laps_are_summed_up() -> None:
+    lines = report(in_seconds(counter()))
+    assert "R1 waits 3 times for R2, 9 s in all, first in N0 at 7 s." in lines
+
+
+def test_a_home_on_the_way_of_another_robot_is_named_with_a_remedy() -> None:
+    """R1 comes home to N1 only after R2 has come through it."""
+    scenario = grid_fleet([".....", "@@@.@"], [("N1", "N3"), ("N0", "N8")])
+    plan = Plan(
+        scenario=scenario,
+        tracks=(
+            Track.of([1, 2, 3, 2, 1], [0, 1, 2, 4, 5]),
+            Track.of([0, 1, 2, 3, 8, 3, 2, 1, 0], [0, 3, 4, 5, 6, 8, 9, 10, 11]),
+        ),
+        run=PlannerRun(name="by hand"),
+    )
+    assert not any("is on the way" in line for line in report(plan))
+    waits = ([1, 2, 3, 2, 1], [0, 1, 2, 4, 11])
+    plan = replace(plan, tracks=(Track.of(*waits), plan.tracks[1]))
+    words = " ".join(report(in_seconds(plan)))
+    assert "R1 waits 6 s in N2 at 4 s, for R2 to leave N1." in words
+    assert (
+        "N1, the home of R1, is on the way of R2 and costs R1 6 s: a home or a parking place off"
+        " that way would help."
+    ) in " ".join(words.split())
+
+
+def test_a_tie_is_called_a_tie() -> None:
+    words = " ".join(decision_log(door(), door().scenario.quantities).split())
+    assert "A tie: either way they complete after 19 time units in sum, and R1 waits by rule." in (
+        words
+    )
+
+
+def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
+    plan = in_seconds(door())
+
+    def words(**run: object) -> str:
+        changed = replace(plan.run, **run)  # type: ignore[arg-type]
+        return planning(replace(plan, run=changed), plan.scenario.quantities)
+
+    assert words(seconds=0.4213) == "two-level, planned in 0.42 s"
+    assert words(improvement=Improvement(saved=Tick(0), tries=2000)) == (
+        "two-level; 2000 attempts to improve the first plan found no better plan"
+    )
+    assert words(improvement=Improvement(saved=Tick(75), tries=1, interrupted=True)) == (
+        "two-level; interrupted: 1 attempt to improve the first plan saved 1 min 15 s"
+    )
+    assert words(reroutes=(Reroute(robot=1, because="x"),)) == "two-level; rerouted: R2"
+
+
+def test_a_plan_without_lost_time_is_called_optimal() -> None:
+    lines = report(plan_of(["..."], ([0, 1, 2], [0, 1, 2])))
+    assert lines[:4] == [
+        "planner    by hand; optimal, no robot loses time",
+        "flowtime   2 s, the least possible",
+        "makespan   2 s",
+        "lost time  none",
+    ]
