@@ -10,7 +10,8 @@ def test_a_robot_tells_its_times_and_why_it_waits(show: Opener) -> None:
     viewer = show(door())
     viewer.page.click("#robot-list .row:has-text('R1')")
     card = viewer.text("#card")
-    assert "10 (+1, 11 %)" in card  # alone it takes 9: eight edges and a turning of one
+    # alone it takes 9: eight edges and a turning of one
+    assert "Alone\t9\n+\tWaiting\t1\n=\tHome at\t10" in card
     assert "waits 1 time unit in N0 for R2 to leave N1" in card
 
 
@@ -126,6 +127,7 @@ def test_the_address_keeps_moment_and_choice(show: Opener) -> None:
 
 def test_a_robot_can_be_found_by_name(show: Opener) -> None:
     viewer = show(crowd(120))
+    viewer.page.click("#tab-robots")
     viewer.page.fill("#find-robot", "robot 11")
     # 11, and 110 to 119
     assert viewer.ask("robotList.list.items.length") == 11
@@ -162,6 +164,7 @@ def test_every_control_has_a_name(show: Opener) -> None:
 def test_the_page_is_usable_on_a_telephone(show: Opener) -> None:
     viewer = show(crowd(30), viewport={"width": 360, "height": 740}, has_touch=True)
     assert viewer.ask("document.documentElement.scrollWidth") == 360
+    viewer.page.tap("#tab-robots")
     viewer.page.tap("#robot-list .row:has-text('Robot 3')")
     assert viewer.ask("choice.robot.name") == "Robot 3"
     height = viewer.ask("document.querySelector('#play').getBoundingClientRect().height")

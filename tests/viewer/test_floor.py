@@ -81,7 +81,7 @@ def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Viewer) ->
     assert "never: stuck behind R2, which breaks down" in late.text("#card")
     late.page.click("#robot-list .row:has-text('R2')")
     assert "at 22" in late.text("#card")
-    assert late.text("#headline") == "2 robots, 2 of them never done"
+    assert late.text("#headline") == "2 robots\n2 of them never home"
 
 
 def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:

@@ -86,6 +86,7 @@ def test_the_page_does_not_grow_while_it_plays(played: dict[str, Any]) -> None:
 
 def test_lists_hold_the_rows_in_sight_only(show: Opener) -> None:
     viewer = show(crowd(1000, decisions=300))
+    viewer.page.click("#tab-robots")
     assert viewer.ask("robotList.list.items.length") == 1000
     assert viewer.ask("document.querySelectorAll('#robot-list .row').length") < 60
     viewer.page.evaluate("robotList.list.box.scrollTop = 1e6")

@@ -35,9 +35,14 @@ def test_the_plan_itself_is_told_as_ever() -> None:
 def test_standing_still_is_not_waiting() -> None:
     """R2 waits for R1 from 0 to 9 and from 16 to 19, R1 for R2 from 11 to 14.
 
-    The rows: robot, vertex, tick, ticks, towards, for whom.
+    The rows: kind, robot, for whom, vertex first and last, towards, freed, tick, end, ticks.
     """
-    assert told()["waits"] == [[1, 2, 0, 9, 1, 0], [0, 0, 11, 3, 1, 1], [1, 2, 16, 3, 1, 0]]
+    rows = [
+        [0, 0, 1, 0, 0, 1, 1, 11, 14, 3],
+        [0, 1, 0, 2, 2, 1, 1, 0, 9, 9],
+        [0, 1, 0, 2, 2, 1, 1, 16, 19, 3],
+    ]
+    assert told()["losses"] == rows
 
 
 def test_stages_take_what_they_really_took() -> None:
@@ -60,7 +65,7 @@ def test_a_run_as_planned_ends_with_the_plan() -> None:
     )
     payload = payload_of(plan, actual=actual)
     assert payload["floor"]["end"] == payload["end"] == 10
-    assert payload["floor"]["waits"] == payload["waits"]
+    assert payload["floor"]["losses"] == payload["losses"]
 
 
 def test_another_way_is_told_with_its_vertices() -> None:

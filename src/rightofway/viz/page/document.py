@@ -1,7 +1,7 @@
 """The page as one HTML document that needs no other file, and as a frame for notebooks.
 
 The scripts under ``assets/`` are plain classic scripts, one concept each, that share one scope;
-they are put into the page as they are, each in an element of its own.
+they are put into the page without comments and indentation, each in an element of its own.
 """
 
 from __future__ import annotations
@@ -32,8 +32,9 @@ SCRIPTS = (
     "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
     "map_names", "map_tip", "scale_bar", "map_view",
     "axis", "steady_band", "space_time", "robot_rows", "census", "diagram",
-    "virtual_list", "robot_list", "decision_list", "card", "summary", "states", "tabs",
-    "transport", "loop", "mode_switch", "deep_link", "keys", "main",
+    "virtual_list", "find", "robot_list", "decision_list", "fault_list", "card", "summary",
+    "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper", "keys",
+    "main",
 )  # fmt: skip
 """In the order they run; each may use those before it at once, and all others later."""
 
@@ -47,6 +48,7 @@ def page_of(
     steady: Sequence[SteadyState] = (),
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
+    title: str = "",
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
 
@@ -61,6 +63,8 @@ def page_of(
         An execution of the plan: the page shows it beside the plan.
     no_plan
         Why the fleet has no plan; ``plan`` then holds every robot at its home.
+    title
+        What the page is about, usually the name of the file; its heading begins with it.
 
     Returns
     -------
@@ -74,16 +78,17 @@ def page_of(
     """
     themes = (
         f":root{{{LIGHT.css()}}}",
-        f"@media (prefers-color-scheme:dark){{:root{{{DARK.css()}}}}}",
+        f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.css()}}}}}",
     )
     style = "\n".join([*themes, _asset("style.css")])
-    scripts = [_asset(f"{name}.js") for name in SCRIPTS]
+    scripts = [_script(name) for name in SCRIPTS]
     count = len(plan.scenario.robots)
-    title = html.escape(f"{count} robot{'s' * (count != 1)}, planned by {plan.run.name}")
+    robots = f"{count} robot{'s' * (count != 1)}"
+    about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
     allowed = " ".join(map(_hash, scripts))
-    payload = payload_of(plan, steady=steady, actual=actual, no_plan=no_plan)
+    payload = payload_of(plan, steady=steady, actual=actual, no_plan=no_plan, title=title)
     parts = {
-        "title": title.encode("ascii", "xmlcharrefreplace").decode(),
+        "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": "default-src 'none'; img-src data:; "
         f"style-src {_hash(style)}; script-src {allowed}",
         "style": style,
@@ -101,12 +106,13 @@ def write_page(
     steady: Sequence[SteadyState] = (),
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
+    title: str = "",
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan
+    plan, steady, actual, no_plan, title
         As for `page_of`.
     path
         Where, usually ``….html``.
@@ -116,7 +122,8 @@ def write_page(
     InputError
         As for `page_of`, or if the file cannot be written.
     """
-    write_whole(path, page_of(plan, steady=steady, actual=actual, no_plan=no_plan))
+    page = page_of(plan, steady=steady, actual=actual, no_plan=no_plan, title=title)
+    write_whole(path, page)
 
 
 def frame_of(
@@ -147,6 +154,12 @@ def frame_of(
 def _hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"
+
+
+@cache
+def _script(name: str) -> str:
+    """Return a script without comments that fill lines and without indentation: a fifth less."""
+    return re.sub(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*", "", _asset(f"{name}.js"))
 
 
 @cache

@@ -14,12 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.check import Report, check
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.metrics import Metrics, measure, waits
-from rightofway.metrics.waits import waits_in
+from rightofway.metrics import Metrics, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
+    Loss,
+    LostTime,
     Plan,
     Roadmap,
     Scenario,
@@ -27,7 +29,6 @@ from rightofway.model import (
     SteadyState,
     Tick,
     Track,
-    Wait,
 )
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
@@ -40,6 +41,12 @@ Stoppages = Sequence[tuple[Tick, Tick | None]]
 DECIMALS = 3
 """Decimals of a position; a thousandth of a cell cannot be seen."""
 
+LOSSES = ("waits", "follows", "makes room")
+"""Kinds of lost time; the page is given their places in this list."""
+
+LISTED_FAULTS = 1000
+"""Faults that the page lists; all are counted."""
+
 
 def payload_of(
     plan: Plan,
@@ -47,12 +54,13 @@ def payload_of(
     steady: Sequence[SteadyState] = (),
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
+    title: str = "",
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan
+    plan, steady, actual, no_plan, title
         As for `page_of`; times in the result are ticks.
 
     Raises
@@ -62,8 +70,9 @@ def payload_of(
     """
     trips, steady = trips_of(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
-    tick = scenario.problem.clock.tick
+    tick, lost = scenario.problem.clock.tick, lost_time(plan)
     payload: dict[str, Any] = {
+        "title": title,
         "units": {"length": scenario.units.length, "time": scenario.units.time},
         "tick": [tick.numerator, tick.denominator],
         "end": max(end_of(trips), 1),
@@ -71,8 +80,9 @@ def payload_of(
         "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
         "line": vertices_in_line([trip.vertices for trip in trips]),
-        "robots": _robots(plan, trips, metrics),
-        "waits": [_wait(wait) for wait in waits(plan)],
+        "robots": _robots(plan, trips, metrics, lost),
+        "losses": [_loss(loss) for one in lost for loss in one.losses],
+        "faults": _faults(plan, check(plan, limit=LISTED_FAULTS)),
         "planner": {"name": run.name, "status": run.status},
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
@@ -131,7 +141,9 @@ def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     return {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
 
 
-def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[str, Any]]:
+def _robots(
+    plan: Plan, trips: Sequence[Trip], metrics: Metrics, lost: Sequence[LostTime]
+) -> list[dict[str, Any]]:
     edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
     colours = robot_colours(len(trips))
     return [
@@ -141,6 +153,7 @@ def _robots(plan: Plan, trips: Sequence[Trip], metrics: Metrics) -> list[dict[st
             "speed": str(robot.speed),
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
+            "lost": [lost[index].detours, lost[index].making_room, lost[index].waiting],
             "vertices": _differences(trip.vertices),
             "enter": _differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),
@@ -239,7 +252,7 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
     return {
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": robots,
-        "waits": [_wait(wait) for wait in waits_in(plan.scenario, actual.tracks, stays)],
+        "losses": [_loss(loss) for loss in joined_waits(plan.scenario, actual.tracks, stays)],
     }
 
 
@@ -281,5 +294,23 @@ def _differences(numbers: Iterable[int]) -> list[int]:
     return found
 
 
-def _wait(wait: Wait) -> list[int | None]:
-    return [wait.robot, wait.vertex, wait.tick, wait.ticks, wait.towards, wait.for_robot]
+def _loss(loss: Loss) -> list[int | None]:
+    places = (loss.vertex, loss.until_vertex, loss.towards, loss.freed)
+    times = (loss.tick, loss.end, loss.ticks)
+    return [LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times]
+
+
+def _faults(plan: Plan, report: Report) -> dict[str, Any]:
+    known = range(plan.scenario.roadmap.n_vertices)
+    return {
+        "count": report.total,
+        "listed": [
+            {
+                "kind": fault.kind,
+                "tick": fault.tick,
+                "robots": list(fault.robots),
+                "vertices": [vertex for vertex in fault.vertices if vertex in known],
+            }
+            for fault in report.faults
+        ],
+    }

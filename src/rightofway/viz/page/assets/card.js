@@ -1,6 +1,6 @@
 "use strict";
 
-const MOST_LINES = 200; // of stages or waits in a card
+const MOST_LINES = 200; // of stages or losses in a card
 
 /** All about the robot or decision that is chosen. */
 class Card {
@@ -12,10 +12,11 @@ class Card {
   }
 
   #show() {
-    const { robot, decision } = this.choice;
+    const { robot, decision, fault } = this.choice;
     this.box.hidden = !robot;
     if (!robot) return;
-    this.box.replaceChildren(...(decision ? this.#decision(decision) : this.#robot(robot)));
+    const content = fault ? this.#fault(fault) : decision ? this.#decision(decision) : this.#robot(robot);
+    this.box.replaceChildren(...content);
     this.box.scrollTop = 0;
   }
 
@@ -29,41 +30,48 @@ class Card {
   #robot(robot) {
     const { words } = this;
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
-    const waited = robot.waits.reduce((sum, wait) => sum + wait.ticks, 0);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
+      ...(robot.planned || this.plan.steady ? [] : [this.#sum(robot)]),
       facts([
         ...this.#times(robot),
-        ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
-        ["Waits", waited ? `${words.time(waited)} in all` : "never"],
         ["Speed", this.plan.quantities.speed(robot.speed)],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],
       ]),
       element("h3", {}, "Trip"),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
-      ...this.#waits(robot),
+      ...this.#losses(robot),
     ];
+  }
+
+  /** Where the completion time goes: alone + detours + making room + waiting. */
+  #sum(robot) {
+    const { detours, makingRoom, waiting } = robot.lost;
+    const parts = [["Detours", detours], ["Making room", makingRoom], ["Waiting", waiting]].filter(([, ticks]) => ticks);
+    const row = (sign, term, ticks, className = "") => element("tr", { className },
+      element("td", {}, sign), element("th", { scope: "row" }, term), element("td", {}, this.words.time(ticks)));
+    const end = this.plan.endsAtHome ? "Home at" : "Done at";
+    return element("table", { className: "sum" }, row("", "Alone", robot.alone),
+      ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))), row("=", parts.length ? end : `${end}, no time lost`, robot.completion, "all"));
   }
 
   #times(robot) {
     if (robot.planned) return this.#floorTimes(robot);
-    return this.plan.steady ? this.#lapTimes(robot) : this.#planTimes(robot);
-  }
-
-  #planTimes(robot) {
-    const { words } = this;
-    const share = robot.alone ? `, ${words.percent(robot.delay / robot.alone)}` : "";
-    const lost = robot.delay > 0 ? ` (+${words.time(robot.delay)}${share})` : "";
-    return [["Done at", `${words.time(robot.completion)}${lost}`], ["Alone", words.time(robot.alone)]];
+    return this.plan.steady ? this.#lapTimes(robot) : [];
   }
 
   #floorTimes(robot) {
     const { words } = this;
-    const planned = ["Planned", words.time(robot.planned.completion)];
-    if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], planned];
-    if (robot.ending === WAIT) return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], planned];
-    return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], planned];
+    const waited = robot.losses.reduce((sum, { ticks }) => sum + ticks, 0);
+    const planned = [
+      ["Planned", words.time(robot.planned.completion)],
+      ["Held up", robot.held ? `${words.time(robot.held)} in all` : ""],
+      ["Waits", waited ? `${words.time(waited)} in all` : "never"],
+    ];
+    if (robot.ending === BROKEN) return [["Breaks down", `at ${words.time(robot.broken)}`], ...planned];
+    if (robot.ending === WAIT) return [["Done", words.stuck(robot.stuckBehind(this.plan.happened))], ...planned];
+    return [["Done at", `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`], ...planned];
   }
 
   /** From when on it repeats itself, and how often. */
@@ -83,10 +91,10 @@ class Card {
     return this.#moment(robot.enter[stage.visit], text);
   }
 
-  #waits(robot) {
-    if (!robot.waits.length) return [];
-    const lines = this.#lines(robot.waits, (wait) => this.#moment(wait.tick, this.words.wait(wait, robot)));
-    return [element("h3", {}, "Waits"), lines];
+  #losses(robot) {
+    if (!robot.losses.length) return [];
+    const lines = this.#lines(robot.losses, (loss) => this.#moment(loss.tick, this.words.loss(loss, robot)));
+    return [element("h3", {}, robot.planned ? "Waits" : "Loses time"), lines];
   }
 
   #lines(items, make) {
@@ -100,6 +108,18 @@ class Card {
       this.clock.pause();
       this.clock.seek(tick);
     });
+  }
+
+  #fault(fault) {
+    const robots = fault.robots.map((index) => this.plan.robots[index]);
+    const names = robots.map((robot) => link(robot.name, () => this.choice.chooseRobot(robot.index)));
+    const title = element("h2", {}, ...names.flatMap((name, i) => (i ? [i < names.length - 1 ? ", " : " and ", name] : [name])));
+    return [
+      this.#header(...robots.slice(0, 3).map(swatch), title),
+      element("p", { className: "name wrong" }, `${this.words.fault(fault)}.`),
+      element("p", {}, this.words.remedy(fault)),
+      element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`)),
+    ];
   }
 
   #decision(decision) {

@@ -1,8 +1,8 @@
 "use strict";
 
 /**
- * What the user looks at: a robot, a decision, the heat map, the plan or what became of it, the
- * bottleneck. Tells `choice`, `heat`, `mode` and `bottleneck`.
+ * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
+ * the bottleneck. Tells `choice`, `heat`, `mode` and `bottleneck`.
  */
 class Choice extends Observable {
   constructor(plan) {
@@ -10,9 +10,11 @@ class Choice extends Observable {
     this.plan = plan;
     this.robotIndex = -1;
     this.decisionIndex = -1;
+    this.faultIndex = -1;
     this.heat = false;
     this.mode = plan.happened ? "both" : "plan";
     this.bottleneck = true;
+    this.allFaulty = [...new Set(plan.faults.flatMap(({ robots }) => robots))];
   }
 
   /** The robot, or null. */
@@ -20,9 +22,19 @@ class Choice extends Observable {
     return this.plan.robots[this.robotIndex] ?? null;
   }
 
-  /** The decision, or null. */
+  /** The decision or fault, or null: what happens between its `robots` at its `vertices` at its `tick`. */
   get decision() {
-    return this.plan.decisions[this.decisionIndex] ?? null;
+    return this.fault ?? this.plan.decisions[this.decisionIndex] ?? null;
+  }
+
+  /** The fault, or null. */
+  get fault() {
+    return this.plan.faults[this.faultIndex] ?? null;
+  }
+
+  /** The robots that are marked as faulty: those of the fault looked at, else of all faults. */
+  get faulty() {
+    return this.fault ? this.fault.robots : this.allFaulty;
   }
 
   chooseRobot(index) {
@@ -32,6 +44,11 @@ class Choice extends Observable {
   /** Look at a decision, and so at the robot that waits. */
   chooseDecision(index) {
     this.#set(this.plan.decisions[index]?.waits ?? -1, index);
+  }
+
+  /** Look at a fault, and so at the first of its robots. */
+  chooseFault(index) {
+    this.#set(this.plan.faults[index]?.robots[0] ?? -1, -1, index);
   }
 
   chooseNothing() {
@@ -67,8 +84,9 @@ class Choice extends Observable {
     return this.robotIndex < 0 || this.robotIndex === index;
   }
 
-  #set(robot, decision) {
-    if (robot === this.robotIndex && decision === this.decisionIndex) return;
+  #set(robot, decision, fault = -1) {
+    if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex) return;
+    this.faultIndex = fault;
     this.robotIndex = robot;
     this.decisionIndex = decision;
     this.tell("choice");

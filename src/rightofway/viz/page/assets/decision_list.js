@@ -12,11 +12,11 @@ class DecisionList {
     this.list = new VirtualList(document.getElementById("decision-list"), {
       rowHeight: 52,
       className: "two",
-      none: this.items.length ? "No decision fits that." : "This planner tells of no decisions.",
-      fill: (row, item) => this.#fill(row, item),
+      none: this.items.length ? "No decision fits that." : "The planner reports no decisions.",
+      fill: fillTwoLines,
       choose: (item) => item.choose(),
     });
-    this.find.addEventListener("input", () => this.#select());
+    connectFind(this.find, this.list, () => this.#select());
     choice.on("choice", () => this.list.setChosen(this.items.find((item) => item.isChosen()) ?? null));
     this.#select();
   }
@@ -26,7 +26,7 @@ class DecisionList {
   }
 
   #decision(decision, index) {
-    const parts = [`at ${this.words.moment(decision.tick)}`, this.words.loss(decision), this.words.why(decision)];
+    const parts = [`at ${this.words.moment(decision.tick)}`, this.words.cost(decision), this.words.why(decision)];
     return {
       head: this.words.decision(decision),
       detail: parts.join(" · "),
@@ -49,15 +49,15 @@ class DecisionList {
   }
 
   #select() {
-    const part = this.find.value.trim().toLowerCase();
-    this.list.setItems(this.items.filter(({ head, detail }) => `${head} ${detail}`.toLowerCase().includes(part)));
+    this.list.setItems(this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)));
   }
+}
 
-  #fill(row, item) {
-    if (row.filled === item) return;
-    row.filled = item;
-    row.title = `${item.head}\n${item.detail}`;
-    const head = element("span", { className: "text name" }, item.head);
-    row.replaceChildren(head, element("span", { className: "text name" }, item.detail));
-  }
+/** Write an item with a head and a detail into a row. */
+function fillTwoLines(row, item) {
+  if (row.filled === item) return;
+  row.filled = item;
+  row.title = `${item.head}\n${item.detail}`;
+  const head = element("span", { className: "text name" }, item.head);
+  row.replaceChildren(head, element("span", { className: "text name" }, item.detail));
 }

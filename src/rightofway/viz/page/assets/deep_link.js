@@ -21,7 +21,9 @@ class DeepLink {
     const asked = new URLSearchParams(location.hash.slice(1));
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
-    if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
+    const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;
+    if (this.plan.faults[fault]) this.choice.chooseFault(fault);
+    else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
     if (this.plan.happened && MODES.includes(asked.get("show"))) this.choice.show(asked.get("show"));
     const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
@@ -36,11 +38,16 @@ class DeepLink {
   }
 
   #write() {
-    if (this.clock.playing) return;
+    if (!this.clock.playing) history.replaceState(null, "", this.address);
+  }
+
+  /** The address of this moment and choice. */
+  get address() {
     const state = new URLSearchParams({ tick: String(Math.round(this.clock.tick * 100) / 100) });
-    if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
+    if (this.choice.fault) state.set("fault", String(this.choice.faultIndex + 1));
+    else if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);
-    history.replaceState(null, "", `#${state}`);
+    return `${location.href.split("#")[0]}#${state}`;
   }
 }

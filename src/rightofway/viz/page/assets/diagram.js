@@ -24,6 +24,7 @@ class Diagram {
   /** Paint a frame: the picture if it is stale, else only the needle moves. */
   paint() {
     const size = fitCanvas(this.canvas);
+    if (!size.width) return; // no room for it on a low screen
     if (size.changed || this.layer.stale) {
       this.area = this.#areaOf(size);
       const context = this.canvas.getContext("2d");

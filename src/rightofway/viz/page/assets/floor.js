@@ -3,7 +3,7 @@
 /** The robots as they drove on the floor: the same visits at other ticks, and some of them never. */
 function onTheFloor(raw, planned) {
   const robots = raw.floor.robots.map((run, index) => new FloorRobot(raw.robots[index], run, planned[index]));
-  giveWaits(robots, raw.floor.waits);
+  giveLosses(robots, raw.floor.losses);
   return robots;
 }
 
@@ -32,10 +32,11 @@ class FloorRobot extends Robot {
     return phases.begin.reduce((sum, begin, i) => sum + (phases.activity[i] === HELD ? phases.end(i) - begin : 0), 0);
   }
 
-  /** How much longer a wait was than planned. */
-  unplanned(wait) {
-    const visit = lastAtMost(this.enter, wait.tick);
-    return visit < this.asPlanned ? wait.ticks - this.plannedWait[visit] : 0;
+  /** How much longer the waits of a loss were than planned. */
+  unplanned(loss) {
+    const [first, last] = [lastAtMost(this.enter, loss.tick), lastAtMost(this.enter, loss.end - 0.5)];
+    if (last >= this.asPlanned) return 0;
+    return this.plannedWait.slice(first, last + 1).reduce((rest, planned) => rest - planned, loss.ticks);
   }
 
   /** The robot that stands for ever where this one has to go next, or null. */

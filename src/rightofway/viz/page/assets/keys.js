@@ -3,6 +3,7 @@
 /** What the keyboard does wherever no text is being written. */
 function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
   const help = document.getElementById("help");
+  const about = document.getElementById("about");
   const find = document.getElementById("find-robot");
   const actions = {
     " ": () => clock.toggle(),
@@ -25,9 +26,10 @@ function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     Escape: () => choice.chooseNothing(),
   };
   document.getElementById("help-open").addEventListener("click", () => help.showModal());
+  document.getElementById("about-open").addEventListener("click", () => about.showModal());
   document.addEventListener("keydown", (event) => {
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action || help.open || event.ctrlKey || event.metaKey || event.altKey || isTaken(event)) return;
+    if (!action || help.open || about.open || event.ctrlKey || event.metaKey || event.altKey || isTaken(event)) return;
     event.preventDefault();
     action(event);
   });

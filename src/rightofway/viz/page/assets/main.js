@@ -19,12 +19,16 @@ const states = new States(motion, choice);
 const card = new Card(plan, clock, choice, words); // before the lists, whose height depends on it
 const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
-const tabs = new Tabs([plan.robots.length, decisionList.items.length], () => {
+const faultList = new FaultList(plan, clock, choice, words);
+const tabs = new Tabs([plan.robots.length, decisionList.items.length, plan.faultCount || null], () => {
   robotList.refresh();
   decisionList.refresh();
+  faultList.refresh();
 });
 const deepLink = new DeepLink(plan, clock, choice);
-showSummary(plan, words);
+const summary = new Summary(plan, choice, words);
+const share = new Share(plan, clock, mapView, diagram, theme, words, deepLink);
+const paper = new Paper(plan, clock, theme, words, () => frames.paint(performance.now()));
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
 for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
 for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
@@ -98,5 +102,6 @@ new ResizeObserver(() => frames.ask()).observe(diagram.canvas);
 
 const linked = deepLink.read();
 mapView.viewport.fit();
+if (plan.faultCount) tabs.show(2);
 frames.ask();
-if (!linked && !EMBEDDED && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
+if (!linked && !plan.faultCount && !EMBEDDED && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();

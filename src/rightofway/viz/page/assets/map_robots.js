@@ -23,6 +23,14 @@ class MapRobots {
       const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
       for (const index of chosen) this.#chosen(context, this.plan.robots[index], radius, scale);
     }
+    this.#faulty(context, radius, scale);
+  }
+
+  /** A red ring round the robots that break a rule. */
+  #faulty(context, radius, scale) {
+    context.strokeStyle = this.theme.held;
+    context.lineWidth = Math.max(0.07, 2 / scale);
+    for (const index of this.choice.faulty) ring(context, this.motion.x[index], this.motion.y[index], Math.max(radius * 1.75, 9 / scale));
   }
 
   /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */

@@ -106,7 +106,8 @@ class Robot {
     this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
     this.completion = raw.completion;
     this.alone = raw.alone;
-    this.waits = [];
+    this.lost = { detours: raw.lost[0], makingRoom: raw.lost[1], waiting: raw.lost[2] };
+    this.losses = []; // by tick
     this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
     this.ending = raw.ending ?? (raw.stands ? WAIT : DONE); // what it does for ever after its last visit
     this.phases = phasesOf(this);
@@ -141,15 +142,20 @@ class Robot {
   }
 }
 
-/** A wait with its reason: in which vertex, from when, how long, to get where, and for whom or null. */
-class Wait {
-  constructor([robot, vertex, tick, ticks, towards, forRobot]) {
-    Object.assign(this, { robot, vertex, tick, ticks, towards, forRobot });
+/** How a robot loses time: it waits once, or several times behind one robot, or leaves a place to others for a while. */
+const WAITS = 0;
+const FOLLOWS = 1;
+const MAKES_ROOM = 2;
+
+/** One cause of lost time, as `Loss` of the model: who loses, to which robot or null, where, when, and how much. */
+class Loss {
+  constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks]) {
+    Object.assign(this, { kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks });
   }
 }
 
-function giveWaits(robots, rows) {
-  for (const wait of rows.map((row) => new Wait(row))) robots[wait.robot].waits.push(wait);
+function giveLosses(robots, rows) {
+  for (const loss of rows.map((row) => new Loss(row))) robots[loss.robot].losses.push(loss);
 }
 
 /** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
@@ -174,10 +180,13 @@ class Plan {
     this.roadmap = new Roadmap(raw.map);
     this.line = raw.line;
     this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
-    giveWaits(this.planned, raw.waits);
+    giveLosses(this.planned, raw.losses);
     this.happened = raw.floor ? onTheFloor(raw, this.planned) : null;
     this.robots = this.happened ?? this.planned; // those that are shown
     this.steady = raw.steady ? new Steady(raw, this.planned) : null;
+    this.title = raw.title;
+    this.faults = raw.faults.listed;
+    this.faultCount = raw.faults.count;
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;
@@ -195,6 +204,11 @@ class Plan {
       }
     }
     return stops;
+  }
+
+  /** Whether all trips lead home again. */
+  get endsAtHome() {
+    return this.planned.every(({ stages, home }) => stages.at(-1).vertex === home);
   }
 
   /** When a visit begins to book its vertex, and when it stops. */

@@ -12,7 +12,7 @@ class RobotList {
       fill: (row, robot) => this.#fill(row, robot),
       choose: (robot) => choice.chooseRobot(robot.index),
     });
-    this.find.addEventListener("input", () => this.#select());
+    connectFind(this.find, this.list, () => this.#select());
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
     choice.on("mode", () => this.#select());
@@ -26,8 +26,7 @@ class RobotList {
   }
 
   #select() {
-    const part = this.find.value.trim().toLowerCase();
-    const found = this.plan.robots.filter((robot) => robot.name.toLowerCase().includes(part));
+    const found = this.plan.robots.filter((robot) => matches(robot.name, this.find.value));
     if (this.sort.getAttribute("aria-pressed") === "true") found.sort((one, other) => lost(other) - lost(one));
     this.list.setItems(found);
   }
@@ -69,7 +68,8 @@ class RobotList {
   #times(late, robot) {
     late.append(`${this.words.time(robot.completion)} `);
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
-    late.title = `Done at ${this.words.time(robot.completion)}, alone ${this.words.time(robot.alone)}`;
+    late.title = `${this.plan.endsAtHome ? "Home" : "Done"} at ${this.words.moment(robot.completion)}, ` +
+      `alone at ${this.words.moment(robot.alone)}`;
   }
 
   /** How late it is at this moment, or which lap it is on; null where there is no such thing. */

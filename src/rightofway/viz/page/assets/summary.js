@@ -1,68 +1,140 @@
 "use strict";
 
-/** The head of the page: what the plan achieves, in a sentence and in figures. */
-function showSummary(plan, words) {
-  const headline = `${counted(plan.robots.length, "robot")}, ${outcome(plan, words)}`;
-  document.getElementById("headline").textContent = headline;
-  const about = plan.happened ? floorFigures : plan.steady ? steadyFigures : planFigures;
-  const told = plan.happened ? [plan.planner.name] : [plan.planner.name, plan.planner.status];
-  const figures = [...about(plan, words), ["Planner", told.filter(Boolean).join(": "), "Who made the plan, and how"]];
-  const known = figures.filter(([, value]) => value);
-  document.getElementById("figures").replaceChildren(...known.map(([term, value, title]) =>
-    element("div", { title }, element("dt", {}, term), element("dd", { className: "name" }, value))));
-}
-
-/** What matters most of a plan, of one that repeats itself, and of what became of one. */
-function outcome({ happened, steady, robots, metrics }, words) {
-  const planned = words.time(metrics.makespan);
-  if (happened) {
-    const failed = happened.filter(({ ending }) => ending !== DONE).length;
-    if (failed) return `${failed} of them never done`;
-    const done = Math.max(...happened.map(({ completion }) => completion));
-    return done === metrics.makespan ? `done at ${planned} as planned` : `done at ${words.time(done)} instead of ${planned}`;
+/** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
+class Summary {
+  constructor(plan, choice, words) {
+    Object.assign(this, { plan, choice, words });
+    const robots = counted(plan.robots.length, "robot");
+    const outcome = this.#outcome();
+    const rest = plan.title ? [robots, outcome] : [outcome];
+    document.getElementById("headline").replaceChildren(
+      element("b", { className: "name" }, plan.title || robots),
+      ...rest.filter(Boolean).map((part) => element("span", {}, part)));
+    document.body.classList.toggle("faulty", plan.faultCount > 0);
+    document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
+      element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat()))));
+    document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
-  const stuck = robots.filter(({ ending }) => ending === WAIT).length;
-  if (stuck) return `${stuck} of them stuck for ever`;
-  return steady ? repetition(steady, words) : `done at ${planned}`;
+
+  /** What cannot be told in figures: faults, robots that are stuck, what repeats itself. */
+  #outcome() {
+    const { faultCount, happened, steady, robots } = this.plan;
+    if (faultCount) return `${counted(faultCount, "fault")}: do not run this plan`;
+    if (happened) {
+      const failed = happened.filter(({ ending }) => ending !== DONE).length;
+      return failed ? `${failed} of them never ${this.#arrived}` : "";
+    }
+    const stuck = robots.filter(({ ending }) => ending === WAIT).length;
+    if (stuck) return `${stuck} of them stuck for ever`;
+    return steady ? this.#repetition(steady) : "";
+  }
+
+  /** What a robot is that has done everything. */
+  get #arrived() {
+    return this.plan.endsAtHome ? "home" : "done";
+  }
+
+  #repetition({ groups, groupOf }) {
+    const robots = groupOf.filter(Boolean).length;
+    if (robots < groupOf.length) return `${robots} of them known to repeat themselves`;
+    return groups.length > 1 ? `in ${groups.length} groups that repeat themselves` : "";
+  }
+
+  /** Terms, values and explanations. */
+  get figures() {
+    const { happened, steady } = this.plan;
+    const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
+    return figures.filter(([, value]) => value);
+  }
+
+  #planFigures() {
+    const { robots, metrics } = this.plan;
+    const latest = mostOf(robots, ({ completion }) => completion);
+    const loser = mostOf(robots, ({ delay }) => delay);
+    const ahead = this.plan.faultCount ? "If all went as planned, all" : "All";
+    return [
+      [`${ahead} ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
+      ["Latest", this.#robot(latest), "The robot that is there last"],
+      ["Time lost", this.#timeLost(robots), "How much later the robots arrive, all together, than if each drove alone"],
+      ["Loses most", loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "", "The robot that loses most time to others"],
+    ];
+  }
+
+  /** The sum of all lost time, and its parts. */
+  #timeLost(robots) {
+    const sum = (part) => robots.reduce((all, robot) => all + part(robot), 0);
+    const parts = [
+      ["waiting", sum(({ lost }) => lost.waiting)],
+      ["detours", sum(({ lost }) => lost.detours)],
+      ["making room", sum(({ lost }) => lost.makingRoom)],
+    ].filter(([, ticks]) => ticks);
+    const all = sum(({ delay }) => delay);
+    if (!all) return "none";
+    const told = parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0];
+    return [this.words.time(all), element("small", {}, ` (${told})`)];
+  }
+
+  #steadyFigures() {
+    const { steady } = this.plan;
+    const { largest, groups } = steady;
+    const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
+    const whose = groups.length > 1 ? " (largest group)" : "";
+    return [
+      [`Repeats every${whose}`, this.words.time(largest.period), "The period: after how long everything comes again"],
+      ["From", this.words.time(largest.start), "The transient: how long it takes until everything repeats"],
+      ["Laps in that time", largest.whole ? String(laps) : "", "Laps that all robots together make in a period"],
+    ];
+  }
+
+  #floorFigures() {
+    const { happened, metrics } = this.plan;
+    const late = happened.filter(({ delayInAll }) => delayInAll > 0);
+    const done = happened.filter(({ ending }) => ending === DONE);
+    const latest = mostOf(done, ({ delayInAll }) => delayInAll);
+    return [
+      [`All ${this.#arrived} at`, done.length === happened.length ? this.#insteadOf(metrics.makespan) : "", "When the last robot was there"],
+      ["Late", `${late.length} of ${happened.length}`, "Robots that arrived later than planned, or never"],
+      ["Latest by", latest?.delayInAll > 0 ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)] : "", "How late the latest of those was that arrived"],
+    ];
+  }
+
+  /** When the last robot was there, and when it was to be. */
+  #insteadOf(makespan) {
+    const planned = this.words.time(makespan);
+    const last = Math.max(...this.plan.happened.map(({ completion }) => completion));
+    return last === makespan ? `${planned}, as planned` : `${this.words.time(last)} instead of ${planned}`;
+  }
+
+  #robot(robot) {
+    return link(robot.name, () => this.choice.chooseRobot(robot.index));
+  }
+
+  #made() {
+    const { planner, metrics: { flowtime, makespan, lowerBound }, tick } = this.plan;
+    const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
+    const isUnit = tick.numerator === tick.denominator;
+    return [
+      ["Planner", planner.name],
+      ["Reports", planner.status],
+      ["Flowtime", this.words.time(flowtime)],
+      ["Lower bound", this.words.time(lowerBound)],
+      ["Gap", gap],
+      ["Makespan", this.words.time(makespan)],
+      ["Tick", isUnit ? "" : `${this.words.duration(1)}, the step in which times are counted`],
+    ];
+  }
+
+  #explanation() {
+    return [
+      "The flowtime is the sum of the times at which the robots are there. No plan can have less than the lower bound, " +
+        "the sum if each robot drove alone; the gap says how far the plan is above it. The least possible flowtime " +
+        "lies between the two.",
+      "The makespan is the time at which the last robot is there.",
+    ].map((text) => element("p", {}, text));
+  }
 }
 
-function repetition({ groups, groupOf, largest }, words) {
-  const robots = groupOf.filter(Boolean).length;
-  if (robots < groupOf.length) return `${robots} of them known to repeat themselves`;
-  if (groups.length > 1) return `in ${groups.length} groups that repeat themselves`;
-  return `the same every ${words.time(largest.period)}`;
-}
-
-function planFigures({ metrics: { flowtime, makespan, lowerBound } }, words) {
-  const gap = lowerBound ? words.percent(flowtime / lowerBound - 1) : "";
-  return [
-    ["Flowtime", words.time(flowtime), "Sum of all completion times"],
-    ["Makespan", words.time(makespan), "When the last robot is done"],
-    ["Lower bound", words.time(lowerBound), "Sum of all completion times if every robot were alone"],
-    ["Gap", gap, "How far the flowtime is above its lower bound"],
-  ];
-}
-
-function steadyFigures({ steady }, words) {
-  const { largest, groups } = steady;
-  const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
-  const whose = groups.length > 1 ? " of the largest group" : "";
-  return [
-    [`Period${whose}`, words.time(largest.period), "After how long everything comes again"],
-    ["Transient", words.time(largest.start), "How long it takes until it does"],
-    ["Laps", largest.whole ? `${laps} a period` : "", "Laps that all robots together make in a period"],
-  ];
-}
-
-function floorFigures({ happened, metrics }, words) {
-  const late = happened.filter(({ delayInAll }) => delayInAll > 0);
-  const done = happened.filter(({ ending }) => ending === DONE);
-  const most = done.reduce((most, { delayInAll }) => Math.max(most, delayInAll), 0);
-  const flowtime = done.reduce((sum, { completion }) => sum + completion, 0);
-  const all = done.length === happened.length;
-  return [
-    ["Late", `${late.length} of ${happened.length}`, "Robots that were done later than planned, or never"],
-    ["Latest by", most ? words.time(most) : "", "How late the latest of those was that were done"],
-    ["Flowtime", all ? `${words.time(flowtime)} instead of ${words.time(metrics.flowtime)}` : "", "Sum of all completion times"],
-  ];
+/** The item with the largest value; the first one of several. */
+function mostOf(items, valueOf) {
+  return items.reduce((most, item) => (most === null || valueOf(item) > valueOf(most) ? item : most), null);
 }

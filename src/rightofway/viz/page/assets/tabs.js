@@ -1,12 +1,13 @@
 "use strict";
 
-/** Two lists in one place. */
+/** Several lists in one place; those without items may be left out. */
 class Tabs {
   constructor(counts, shown) {
     this.tabs = [...document.querySelectorAll("[role=tab]")];
     this.shown = shown;
     this.tabs.forEach((tab, index) => {
       tab.querySelector("b").textContent = counts[index];
+      tab.hidden = counts[index] === null;
       tab.addEventListener("click", () => this.show(index));
       tab.addEventListener("keydown", (event) => this.#key(event, index));
     });
@@ -25,8 +26,10 @@ class Tabs {
     if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
     event.preventDefault();
     event.stopPropagation();
-    const other = (index + 1) % this.tabs.length;
-    this.show(other);
-    this.tabs[other].focus();
+    const shown = this.tabs.filter((tab) => !tab.hidden);
+    const by = event.key === "ArrowRight" ? 1 : shown.length - 1;
+    const other = shown[(shown.indexOf(this.tabs[index]) + by) % shown.length];
+    this.show(this.tabs.indexOf(other));
+    other.focus();
   }
 }

@@ -5,10 +5,13 @@ class Theme extends Observable {
   constructor() {
     super();
     this.#read();
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-      this.#read();
-      this.tell("theme");
-    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
+  }
+
+  /** Read the colours again. */
+  refresh() {
+    this.#read();
+    this.tell("theme");
   }
 
   #read() {

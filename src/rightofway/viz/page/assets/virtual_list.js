@@ -84,13 +84,23 @@ class VirtualList {
     else if (bottom > this.box.scrollTop + this.box.clientHeight) this.box.scrollTop = bottom - this.box.clientHeight;
   }
 
+  /** Choose the first item, if there is one. */
+  chooseFirst() {
+    if (this.items.length) this.choose(this.items[0]);
+  }
+
+  /** Choose the item before (-1) or after (1) the one that is chosen. */
+  step(by) {
+    const target = Math.min(Math.max(this.items.indexOf(this.chosen) + by, 0), this.items.length - 1);
+    if (target >= 0) this.choose(this.items[target]);
+  }
+
   #key(event) {
-    const now = this.items.indexOf(this.chosen);
-    const last = this.items.length - 1;
-    const target = { ArrowDown: now + 1, ArrowUp: Math.max(now - 1, 0), Home: 0, End: last }[event.key];
-    if (target === undefined || last < 0) return;
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") this.step(event.key === "ArrowDown" ? 1 : -1);
+    else if (event.key === "Home") this.chooseFirst();
+    else if (event.key === "End" && this.items.length) this.choose(this.items.at(-1));
+    else return;
     event.preventDefault();
     event.stopPropagation();
-    this.choose(this.items[Math.min(target, last)]);
   }
 }

@@ -54,10 +54,10 @@ class Words {
     return `${percent && percent < 9.95 ? percent.toFixed(1) : Math.round(percent)} %`;
   }
 
-  /** Why a robot waits, and on the floor how much longer than planned. */
-  wait(wait, robot) {
-    const more = robot.planned ? robot.unplanned(wait) : 0;
-    return more > 0 ? `${this.#wait(wait)}, ${this.time(more)} more than planned` : this.#wait(wait);
+  /** How a robot loses time, and on the floor how much more than planned. */
+  loss(loss, robot) {
+    const more = robot.planned ? robot.unplanned(loss) : 0;
+    return more > 0 ? `${this.#loss(loss)}, ${this.time(more)} more than planned` : this.#loss(loss);
   }
 
   /** Why a robot never gets on. */
@@ -66,11 +66,14 @@ class Words {
     return `never: stuck behind ${behind.name}${behind.ending === BROKEN ? ", which breaks down" : ""}`;
   }
 
-  #wait(wait) {
-    const what = `waits ${this.duration(wait.ticks)} in ${this.vertex(wait.vertex)}`;
-    const next = this.vertex(wait.towards);
-    if (wait.forRobot === null) return `${what} before ${next}, for what comes later on its way`;
-    return `${what} for ${this.robot(wait.forRobot)} to leave ${next}`;
+  #loss({ kind, forRobot, vertex, until, towards, freed, ticks }) {
+    const [here, lasts] = [this.vertex(vertex), this.duration(ticks)];
+    const other = forRobot === null ? null : this.robot(forRobot);
+    if (kind === MAKES_ROOM) return `leaves ${here}${other ? ` to make room for ${other}` : ""} and comes back, loses ${lasts}`;
+    if (kind === FOLLOWS) return `follows ${other} from ${here} to ${this.vertex(until)}, loses ${lasts}`;
+    if (other === null) return `waits ${lasts} in ${here}, though no robot is in its way`;
+    const ahead = freed === towards ? "" : ", further on its way";
+    return `waits ${lasts} in ${here} for ${other} to leave ${this.vertex(freed)}${ahead}`;
   }
 
   /** How late a robot is. */
@@ -92,6 +95,43 @@ class Words {
     const steps = group.circuit.map(({ robot, vertex }) => `${robot.name} in ${this.vertex(vertex)}`);
     return `${this.bottleneck(group)}. Each of these visits begins as soon as the one before allows, ` +
       `the first again a period later: ${steps.join(", ")}`;
+  }
+
+  /** What is wrong, in a sentence. */
+  fault({ kind, robots, vertices }) {
+    const names = robots.map((robot) => this.robot(robot));
+    const places = vertices.map((vertex) => this.vertex(vertex));
+    const [who, where] = [several(names), several(places) ?? "a place that is not on the map"];
+    switch (kind) {
+      case "vertex conflict": return `${who} are both in ${where}`;
+      case "headway": return `${who} come to ${where} too soon after each other`;
+      case "swap conflict": return `${who} drive through each other between ${where}`;
+      case "rotation": return `${who} move round ${where} all at once`;
+      case "jump": return `${who} jumps from ${places[0]} to ${places[1] ?? "nowhere"}`;
+      case "too fast": return `${who} drives from ${places[0]} to ${places[1]} faster than it can`;
+      case "work cut short": return `${who} leaves ${where} before its work there is done`;
+      case "stop missed": return `${who} does not come to its stop ${where}`;
+      case "wrong home": return `${who} does not start at its home: it starts in ${where}`;
+      case "wrong end": return `${who} does not end where its trip ends: it ends in ${where}`;
+      case "backwards": return `${who} leaves ${where} before it comes there`;
+      default: return `${who}: ${kind}, ${where}`;
+    }
+  }
+
+  /** What would be right, in a sentence. */
+  remedy({ kind }) {
+    return {
+      "vertex conflict": "A place holds one robot: let one come when the other has left.",
+      headway: "Let the second robot come later: the rules ask for a headway.",
+      "swap conflict": "Two robots cannot exchange their places: let one wait aside until the other is by.",
+      rotation: "The rules forbid rotations: let one wait until its place is empty.",
+      jump: "No way joins these two places.",
+      "too fast": "Let the drive take as long as the robot needs.",
+      "work cut short": "Let it stay until its work and turning are done.",
+      "stop missed": "Let it visit its stops in their order.",
+      "wrong home": "Let it start at its home at time 0.",
+      "wrong end": "Let it end where its trip ends.",
+    }[kind] ?? "";
   }
 
   /** Where two robots would have met. */
@@ -116,7 +156,7 @@ class Words {
   }
 
   /** What the robot that waits loses by a decision, in few words. */
-  loss(decision) {
+  cost(decision) {
     return decision.ticks ? `${this.duration(decision.ticks)} later` : "no time lost";
   }
 

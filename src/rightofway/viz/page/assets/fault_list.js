@@ -1,0 +1,40 @@
+"use strict";
+
+/** All faults of a plan that breaks rules: the earliest first; choosing one goes to its moment and place. */
+class FaultList {
+  constructor(plan, clock, choice, words) {
+    Object.assign(this, { plan, clock, choice, words });
+    this.find = document.getElementById("find-fault");
+    this.items = plan.faults.map((fault, index) => this.#item(fault, index));
+    this.list = new VirtualList(document.getElementById("fault-list"), {
+      rowHeight: 52,
+      className: "two",
+      none: this.items.length ? "No fault fits that." : "The plan keeps every rule.",
+      fill: fillTwoLines,
+      choose: (item) => item.choose(),
+    });
+    connectFind(this.find, this.list, () => this.#select());
+    choice.on("choice", () => this.list.setChosen(this.items[choice.faultIndex] ?? null));
+    this.#select();
+  }
+
+  refresh() {
+    this.list.refresh();
+  }
+
+  #item(fault, index) {
+    return {
+      head: this.words.fault(fault),
+      detail: `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
+      choose: () => {
+        this.clock.pause();
+        this.clock.seek(fault.tick);
+        this.choice.chooseFault(index);
+      },
+    };
+  }
+
+  #select() {
+    this.list.setItems(this.items.filter(({ head, detail }) => matches(`${head} ${detail}`, this.find.value)));
+  }
+}

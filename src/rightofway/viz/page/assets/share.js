@@ -1,0 +1,63 @@
+"use strict";
+
+const SAID_FOR = 2000; // how long a button says what it did [ms]
+
+/** Takes the moment elsewhere: as a link, as a picture. */
+class Share {
+  constructor(plan, clock, mapView, diagram, theme, words, deepLink) {
+    Object.assign(this, { plan, clock, mapView, diagram, theme, words, deepLink });
+    const buttons = { "copy-link": () => this.copyLink(), "save-picture": () => this.savePicture(), print: () => window.print() };
+    for (const [id, action] of Object.entries(buttons)) {
+      this[id] = document.getElementById(id);
+      this[id].addEventListener("click", action);
+      this[id].hidden = EMBEDDED; // a frame of another page may do none of these
+    }
+  }
+
+  async copyLink() {
+    const address = this.deepLink.address;
+    try {
+      await navigator.clipboard.writeText(address);
+      this.#say(this["copy-link"], "Copied");
+    } catch {
+      window.prompt("Copy this link", address); // where the browser keeps the clipboard to itself
+    }
+  }
+
+  /** Download map and diagram of the moment. */
+  savePicture() {
+    this.picture().toBlob((blob) => {
+      const address = URL.createObjectURL(blob);
+      const stem = (this.plan.title || "plan").replace(/\.[^.]*$/, "");
+      element("a", { href: address, download: `${stem} at ${this.words.time(this.clock.tick)}.png` }).click();
+      setTimeout(() => URL.revokeObjectURL(address), SAID_FOR);
+    });
+  }
+
+  /** Heading, map and diagram of the moment on one canvas. */
+  picture() {
+    const { theme, words, clock } = this;
+    const [map, diagram] = [this.mapView.canvas, this.diagram.canvas];
+    const ratio = map.width / map.clientWidth;
+    const head = Math.round(48 * ratio);
+    const made = element("canvas", { width: map.width, height: head + map.height + diagram.height });
+    const context = made.getContext("2d");
+    context.fillStyle = theme.paper;
+    context.fillRect(0, 0, made.width, made.height);
+    context.drawImage(map, 0, head);
+    context.drawImage(diagram, 0, head + map.height);
+    context.scale(ratio, ratio);
+    context.fillStyle = theme.ink;
+    context.font = theme.font(16, 600);
+    context.fillText([this.plan.title, words.moment(clock.tick)].filter(Boolean).join(": "), 28, 31);
+    const x = this.diagram.area.x(clock.tick);
+    if (diagram.height) context.fillRect(x - 0.75, 48 + map.clientHeight, 1.5, diagram.clientHeight - AXIS_HEIGHT);
+    return made;
+  }
+
+  #say(button, text) {
+    const before = (button.words ??= button.textContent);
+    button.textContent = text;
+    setTimeout(() => (button.textContent = before), SAID_FOR);
+  }
+}
