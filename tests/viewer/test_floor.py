@@ -125,7 +125,7 @@ def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
     late.page.keyboard.press("Escape")
     late.wait_for("!frames.asked")
     orange = [*late.ask("channels(theme.wait)"), 255]
-    middle = "diagram.spaceTime.axis.spots(2)[0].y + 3"  # N2
+    middle = "diagram.spaceTime.axis.spots(2)[0].y + 2"  # N2
     for tick, is_marked in ((4, False), (6, True), (8.5, True), (9.5, False)):
         x, y = late.ask(f"[diagram.area.x({tick}), {middle}]")
         assert (pixel(late, "diagram", x, y) == orange) is is_marked, tick
