@@ -73,7 +73,7 @@ class MapBase {
     draw(bothWays, lane, this.theme.wall);
     draw(oneWay, lane * 0.7, this.theme.wall);
     context.lineCap = "butt";
-    if (lane < 5) return;
+    if (lane < 4) return;
     context.setLineDash([this.#pixels(5), this.#pixels(5)]);
     draw(bothWays, 1, this.theme.paper);
     context.setLineDash([]);
