@@ -125,7 +125,7 @@ def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
     late.page.keyboard.press("Escape")
     late.wait_for("!frames.asked")
     orange = [*late.ask("channels(theme.wait)"), 255]
-    middle = "diagram.area.bottom - 1.5 * diagram.spaceTime.rowHeight + 5"  # N2 is the second row
+    middle = "diagram.spaceTime.axis.spots(2)[0].y + 2"  # N2
     for tick, is_marked in ((4, False), (6, True), (8.5, True), (9.5, False)):
         x, y = late.ask(f"[diagram.area.x({tick}), {middle}]")
         assert (pixel(late, "diagram", x, y) == orange) is is_marked, tick
@@ -133,7 +133,7 @@ def test_waiting_for_a_late_robot_is_told_and_marked(late: Viewer) -> None:
 
 def test_the_plan_is_drawn_thin_beside_what_happened(late: Viewer) -> None:
     """By plan R1 is at home from 6 on; the line of that is gone without the plan."""
-    x, y = late.ask("[diagram.area.x(8), diagram.area.bottom - 0.5 * diagram.spaceTime.rowHeight]")
+    x, y = late.ask("[diagram.area.x(8), diagram.spaceTime.axis.spots(0)[0].y]")
 
     def darkness() -> float:
         seen = [pixel(late, "diagram", x, y + off) for off in (-1, 0, 1)]

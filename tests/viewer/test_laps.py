@@ -110,8 +110,8 @@ def test_a_plan_that_ends_within_the_first_period_cannot_be_looped(show: Opener)
 
 def test_the_bottleneck_is_lit_in_every_period(steady: Viewer) -> None:
     """The time in N1 is critical, by turns of R1 and R2; the time at home between is not."""
-    below_the_line = "diagram.area.bottom - ({} + 0.3) * diagram.spaceTime.rowHeight"
-    home, counter = 0, 2
+    below_the_line = "diagram.spaceTime.axis.spots({})[0].y + 5"
+    home, counter = 0, 1
     ticks = ((3, counter, False), (8, counter, True), (13, counter, True), (34, counter, True))
     for tick, row, is_lit in (*ticks, (8, home, False), (18, home, False)):
         x, y = steady.ask(f"[diagram.area.x({tick}), {below_the_line.format(row)}]")

@@ -160,8 +160,8 @@ def test_what_is_at_the_pointer_stands_beside_it(show: Opener) -> None:
 def test_coordinates_are_those_of_the_site(show: Opener) -> None:
     viewer = show(yard())
     assert viewer.ask("plan.roadmap.toSite(0, 0)") == [0, 0]
-    viewer.ask("plan.roadmap.frame = { x: 10, y: 5, yUp: true }")
     unit = viewer.ask("plan.roadmap.unit")
+    viewer.ask(f"plan.roadmap.frame = {{ x: 10, y: 5, yUp: true, unit: {unit} }}")
     assert viewer.ask(f"plan.roadmap.toSite(4 / {unit}, 3 / {unit})") == [14, 2]
 
 

@@ -8,6 +8,7 @@ from rightofway.model import Edge, roadmap_of_edges, roadmap_of_grid
 from rightofway.viz.placement import (
     MAX_ROBOTS,
     MAX_VERTICES,
+    edge_length,
     plane_of,
     vertices_in_line,
 )
@@ -49,29 +50,58 @@ def test_vertices_on_one_spot_do_not_divide_by_zero() -> None:
     assert plane_of(roadmap).points.tolist() == [[0, 0], [0, 0]]
 
 
+def one_each(*_: int) -> float:
+    """Return the length of every edge."""
+    return 1.0
+
+
 def test_one_route_is_a_line_from_its_home() -> None:
-    assert vertices_in_line([[4, 2, 9, 2, 4]]) == [4, 2, 9]
+    assert list(vertices_in_line([[4, 2, 9, 2, 4]], one_each)) == [4, 2, 9]
 
 
 def test_two_routes_through_a_door_meet_in_the_middle() -> None:
     # R1: 0 1 3 5 4, R2: 2 1 3 5 6; 2 lies one before 1 as 0 does, 6 one after 5 as 4 does
-    assert vertices_in_line([[0, 1, 3, 5, 4], [2, 1, 3, 5, 6]]) == [0, 2, 1, 3, 5, 4, 6]
+    assert list(vertices_in_line([[0, 1, 3, 5, 4], [2, 1, 3, 5, 6]], one_each)) == [
+        0,
+        2,
+        1,
+        3,
+        5,
+        4,
+        6,
+    ]
 
 
 def test_a_route_the_other_way_keeps_the_line() -> None:
     # the second robot comes from 7, beyond 3, and leaves at 0 for 8
-    assert vertices_in_line([[0, 1, 2, 3], [7, 3, 2, 1, 0, 8]]) == [8, 0, 1, 2, 3, 7]
+    assert list(vertices_in_line([[0, 1, 2, 3], [7, 3, 2, 1, 0, 8]], one_each)) == [
+        8,
+        0,
+        1,
+        2,
+        3,
+        7,
+    ]
 
 
 def test_a_detour_lies_between_its_ends() -> None:
     # 5 and 6 lie evenly between 1 (place 1) and 3 (place 3): at 5/3 and 7/3, round 2
-    assert vertices_in_line([[0, 1, 2, 3], [0, 1, 5, 6, 3]]) == [0, 1, 5, 2, 6, 3]
+    assert list(vertices_in_line([[0, 1, 2, 3], [0, 1, 5, 6, 3]], one_each)) == [0, 1, 5, 2, 6, 3]
 
 
 def test_routes_that_share_nothing_lie_side_by_side() -> None:
-    assert vertices_in_line([[0, 1], [2, 3]]) == [0, 2, 1, 3]
+    assert list(vertices_in_line([[0, 1], [2, 3]], one_each)) == [0, 2, 1, 3]
 
 
 def test_too_many_robots_or_vertices_have_no_line() -> None:
-    assert vertices_in_line([[0]] * (MAX_ROBOTS + 1)) == []
-    assert vertices_in_line([list(range(MAX_VERTICES + 1))]) == []
+    assert list(vertices_in_line([[0]] * (MAX_ROBOTS + 1), one_each)) == []
+    assert list(vertices_in_line([list(range(MAX_VERTICES + 1))], one_each)) == []
+
+
+def test_places_in_line_are_as_far_apart_as_their_edges_are_long() -> None:
+    # the route a b c d of the loop: edges of 2, 2 and 3; the way from d to a is not on the line
+    plan = loop()
+    places = vertices_in_line(
+        [plan.tracks[0].vertices.tolist()], edge_length(plan.scenario.roadmap)
+    )
+    assert places == {0: 0, 1: 2, 2: 4, 3: 7}

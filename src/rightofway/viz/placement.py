@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,39 +59,57 @@ def plane_of(roadmap: Roadmap) -> Plane:
     )
 
 
-def vertices_in_line(routes: Sequence[Sequence[int]]) -> list[int]:
+def edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
+    """Return the function from the ends of an edge to its length [length unit]; 0 without one."""
+
+    def length(tail: int, head: int) -> float:
+        edge = None if tail == head else roadmap.edge(tail, head)
+        return 0.0 if edge is None else float(roadmap.lengths[roadmap.length_class[edge]])
+
+    return length
+
+
+def vertices_in_line(
+    routes: Sequence[Sequence[int]], distance: Callable[[int, int], float]
+) -> dict[int, float]:
     """Order the vertices of all routes so that every robot passes its own nearly in order.
 
     Parameters
     ----------
     routes
         The vertices that each robot visits.
+    distance
+        The length of the edge between two vertices [length unit].
 
     Returns
     -------
-    list of int
-        Every visited vertex once; empty where there are too many robots or vertices for one line.
+    dict
+        The place along the line [length unit] of every visited vertex, in increasing order; empty
+        where there are too many robots or vertices for one line.
 
     Notes
     -----
-    The first route gives the places 0, 1, 2, …. Each further one is laid along the vertices it
-    shares with those before: forwards or backwards, evenly between, one further each beyond.
+    The first route gives the places, each new vertex as far beyond the one before as its edge is
+    long. Each further route is laid along the vertices it shares with those before: forwards or
+    backwards, in proportion between them, at its own length beyond.
     """
     if len(routes) > MAX_ROBOTS or len(set().union(*routes)) > MAX_VERTICES:
-        return []
+        return {}
     places: dict[int, float] = {}
     for route in routes:
+        steps = {head: distance(tail, head) for tail, head in reversed(list(pairwise(route)))}
         once = list(dict.fromkeys(route))
-        laid = list(map(float, range(len(once))))
+        laid = np.cumsum([0.0, *(steps[vertex] for vertex in once[1:])]).tolist()
         anchors = [index for index, vertex in enumerate(once) if vertex in places]
         if anchors:
             at = [places[once[anchor]] for anchor in anchors]
+            along = [laid[anchor] for anchor in anchors]
             ahead = 1 if at[-1] >= at[0] else -1
-            between = np.interp(laid, anchors, at).tolist()
+            between = np.interp(laid, along, at).tolist()
             laid = [
-                place + ahead * (min(index - anchors[0], 0) + max(index - anchors[-1], 0))
-                for index, place in enumerate(between)
+                place + ahead * (min(there - along[0], 0) + max(there - along[-1], 0))
+                for there, place in zip(laid, between, strict=True)
             ]
         for vertex, place in zip(once, laid, strict=True):
             places.setdefault(vertex, place)
-    return sorted(places, key=lambda vertex: (places[vertex], vertex))
+    return dict(sorted(places.items(), key=lambda item: (item[1], item[0])))

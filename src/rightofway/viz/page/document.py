@@ -27,11 +27,11 @@ FRAME_HEIGHT = 680
 
 SCRIPTS = (
     "observable", "quantities", "phases", "plan", "floor", "steady", "fleet_memo",
-    "motion", "clock", "choice", "use", "words",
+    "motion", "clock", "corridor", "choice", "use", "words",
     "dom", "theme", "canvas", "shapes",
     "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
     "map_names", "map_tip", "scale_bar", "map_view",
-    "axis", "steady_band", "space_time", "robot_rows", "census", "diagram",
+    "axis", "steady_band", "space_axis", "space_time", "robot_rows", "census", "diagram",
     "virtual_list", "find", "robot_list", "decision_list", "fault_list", "card", "summary",
     "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper", "keys",
     "main",

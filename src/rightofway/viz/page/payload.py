@@ -33,7 +33,7 @@ from rightofway.model import (
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import Plane, plane_of, vertices_in_line
+from rightofway.viz.placement import Plane, edge_length, plane_of, vertices_in_line
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
@@ -79,7 +79,7 @@ def payload_of(
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
-        "line": vertices_in_line([trip.vertices for trip in trips]),
+        "line": _line(scenario.roadmap, trips),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, check(plan, limit=LISTED_FAULTS)),
@@ -139,6 +139,12 @@ def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     left, top = map(Fraction, plane.corner)
     x, y = roadmap.frame.to_site((left, top))
     return {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
+
+
+def _line(roadmap: Roadmap, trips: Sequence[Trip]) -> list[list[float]]:
+    """Return the places over time of a small fleet: vertex and distance along the line."""
+    places = vertices_in_line([trip.vertices for trip in trips], edge_length(roadmap))
+    return [[vertex, round(place, DECIMALS)] for vertex, place in places.items()]
 
 
 def _robots(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rightofway.viz.motion import Activity, Trip
 from rightofway.viz.palette import mix
-from rightofway.viz.placement import vertices_in_line
+from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.raster.canvas import Pen, Scene
 
 MOST_ROWS = 60
@@ -48,7 +48,8 @@ class Diagram:
     def __init__(self, scene: Scene, width: float) -> None:
         self.scene = scene
         self.left, self.right = GUTTER, width - PAD
-        self.line = vertices_in_line([trip.vertices for trip in scene.trips])
+        routes = [trip.vertices for trip in scene.trips]
+        self.line = list(vertices_in_line(routes, edge_length(scene.roadmap)))
         rows = len(self.line) or len(scene.trips)
         self.is_census = rows > MOST_ROWS
         self.bottom = CENSUS_HEIGHT if self.is_census else rows * ROW_HEIGHT

@@ -2,7 +2,7 @@
 
 /**
  * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
- * the bottleneck. Tells `choice`, `heat`, `mode` and `bottleneck`.
+ * the bottleneck, a corridor. Tells `choice`, `heat`, `mode`, `bottleneck` and `corridor`.
  */
 class Choice extends Observable {
   constructor(plan) {
@@ -15,6 +15,8 @@ class Choice extends Observable {
     this.mode = plan.happened ? "both" : "plan";
     this.bottleneck = true;
     this.allFaulty = [...new Set(plan.faults.flatMap(({ robots }) => robots))];
+    this.corridor = null; // the vertices of the way whose distances are the axis of the diagram
+    this.picked = null; // the ends of the next corridor that are chosen so far
   }
 
   /** The robot, or null. */
@@ -63,6 +65,24 @@ class Choice extends Observable {
   toggleBottleneck() {
     this.bottleneck = !this.bottleneck;
     this.tell("bottleneck");
+  }
+
+  /** Begin to choose a corridor by its ends; or show none any more. */
+  toggleCorridor() {
+    this.picked = this.picked || this.corridor ? null : [];
+    this.corridor = null;
+    this.tell("corridor");
+  }
+
+  /** Choose an end of the corridor: with the second one it is the shortest way between both. */
+  pickEnd(vertex) {
+    if (this.picked.includes(vertex)) return;
+    this.picked.push(vertex);
+    if (this.picked.length === 2) {
+      this.corridor = shortestWay(this.plan.roadmap, ...this.picked);
+      this.picked = this.corridor ? null : [];
+    }
+    this.tell("corridor");
   }
 
   /** Show the plan, what became of it on the `floor`, or `both`. */

@@ -17,7 +17,7 @@ class Diagram {
 
   /** The view that suits what is chosen and how large the fleet is. */
   get view() {
-    if (this.choice.robot || this.plan.line.length) return this.spaceTime;
+    if (this.choice.robot || this.choice.corridor || this.plan.line.length) return this.spaceTime;
     return this.plan.robots.length <= MOST_ROWS ? this.rows : this.census;
   }
 
@@ -31,10 +31,17 @@ class Diagram {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       this.layer.drawOn(context, size);
-      this.heading.textContent = this.heading.title = this.view.title;
-      this.canvas.setAttribute("aria-label", this.view.title);
+      this.heading.textContent = this.heading.title = this.#title;
+      this.canvas.setAttribute("aria-label", this.#title);
     }
     this.needle.style.transform = `translateX(${this.area.x(this.clock.tick)}px)`;
+  }
+
+  get #title() {
+    const { picked } = this.choice;
+    if (!picked) return this.view.title;
+    if (!picked.length) return "Corridor: press the place on the map where it begins";
+    return `Corridor from ${this.words.vertex(picked[0])}: press the place where it ends`;
   }
 
   #areaOf({ width, height }) {

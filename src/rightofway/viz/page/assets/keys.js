@@ -18,6 +18,7 @@ function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     "-": () => viewport.zoom(1 / 1.5),
     0: () => viewport.fit(),
     h: () => choice.toggleHeat(),
+    c: () => choice.toggleCorridor(),
     b: () => choice.toggleBottleneck(),
     l: () => loop.toggle(),
     f: () => modeSwitch.next(),

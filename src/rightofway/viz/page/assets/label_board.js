@@ -6,8 +6,10 @@ const SQUARE = 48; // pixels; side of the squares that taken places are sorted i
 class LabelBoard {
   #squares = new Map();
 
-  clear() {
+  /** Begin anew, on a canvas of a size; nothing is free beyond its borders. */
+  clear(width, height) {
     this.#squares.clear();
+    Object.assign(this, { width, height });
   }
 
   /** Keep a rectangle free of labels. */
@@ -21,6 +23,7 @@ class LabelBoard {
   }
 
   isFree(left, top, right, bottom) {
+    if (left < 0 || top < 0 || right > this.width || bottom > this.height) return false;
     for (const key of this.#keys(left, top, right, bottom)) {
       for (const it of this.#squares.get(key) ?? []) {
         if (it.left >= right || it.right <= left || it.top >= bottom || it.bottom <= top) continue;

@@ -87,6 +87,7 @@ clock.on("playing", () => frames.ask());
 choice.on("choice", repaintAll);
 choice.on("heat", repaintAll);
 choice.on("bottleneck", repaintAll);
+choice.on("corridor", repaintAll);
 clock.on("loop", repaintAll);
 choice.on("mode", () => {
   frames.told = NaN;

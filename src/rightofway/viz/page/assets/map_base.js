@@ -20,6 +20,7 @@ class MapBase {
     else this.#network(context);
     if (this.choice.heat) this.#heat(context);
     this.bottleneck.paintMap(context, scale);
+    this.#corridor(context, this.choice.corridor ?? this.choice.picked ?? []);
     this.#homes(context);
     this.#stops(context);
     context.restore();
@@ -72,7 +73,7 @@ class MapBase {
     draw(bothWays, lane, this.theme.wall);
     draw(oneWay, lane * 0.7, this.theme.wall);
     context.lineCap = "butt";
-    if (lane < 5) return;
+    if (lane < 4) return;
     context.setLineDash([this.#pixels(5), this.#pixels(5)]);
     draw(bothWays, 1, this.theme.paper);
     context.setLineDash([]);
@@ -116,6 +117,21 @@ class MapBase {
       if (rows) context.fillRect(x[vertex] - 0.5, y[vertex] - 0.5, 1, 1);
       else disc(context, x[vertex], y[vertex], this.#pixels(Math.max(this.sizes.vertex * 1.6, 5)));
     }
+  }
+
+  /** The corridor that the diagram is drawn along, or the end of it that is chosen. */
+  #corridor(context, vertices) {
+    if (!vertices.length) return;
+    const { x, y } = this.plan.roadmap;
+    context.strokeStyle = this.theme.ink;
+    context.lineCap = context.lineJoin = "round";
+    context.lineWidth = this.#pixels(2 * this.sizes.robot + 6);
+    context.globalAlpha = 0.16;
+    context.beginPath();
+    for (const vertex of [vertices[0], ...vertices]) context.lineTo(x[vertex], y[vertex]);
+    context.stroke();
+    context.globalAlpha = 1;
+    context.lineCap = "butt";
   }
 
   #strength(robot) {

@@ -38,7 +38,7 @@ class MapNames {
   paint(context, width, height) {
     this.written = [];
     this.#spots ??= this.#findSpots(context, width, height);
-    this.#robots.clear();
+    this.#robots.clear(width, height);
     const inSight = this.#inSight(width, height);
     const named = inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
     if (!named.length && !this.#spots.length) return;
@@ -162,7 +162,7 @@ class MapNames {
   #findSpots(context, width, height) {
     const { roadmap } = this.plan;
     const marks = this.#usedPlaces();
-    this.#keepFree(marks);
+    this.#keepFree(marks, width, height);
     const spots = [];
     for (const vertex of this.#named(marks)) {
       const [x, y] = this.#pointOf(vertex);
@@ -192,8 +192,8 @@ class MapNames {
   }
 
   /** Homes and stops, and on a roadmap lanes, that names rather do not cover. */
-  #keepFree(marks) {
-    for (const board of [this.#places, this.#marks, this.#lanes]) board.clear();
+  #keepFree(marks, width, height) {
+    for (const board of [this.#places, this.#marks, this.#lanes]) board.clear(width, height);
     for (const [vertex, { isHome }] of marks) {
       this.#marks.takeDisc(...this.#pointOf(vertex), isHome ? this.sizes.home : this.sizes.stop);
     }

@@ -15,7 +15,7 @@ class MapRobots {
     if (this.choice.robotIndex < 0) {
       for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
     } else {
-      context.globalAlpha = 0.28;
+      context.globalAlpha = 0.4;
       for (const robot of this.plan.robots) {
         if (!this.choice.standsOut(robot.index)) this.#robot(context, robot, radius, scale);
       }

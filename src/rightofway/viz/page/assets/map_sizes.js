@@ -1,7 +1,7 @@
 "use strict";
 
 const READABLE_RADIUS = 10; // pixels; a robot need not be larger to be seen from afar
-const SMALLEST_CAP = 4.5; // pixels; robots are at least as large, even where cells are smaller
+const SMALLEST_CAP = { many: 4.5, few: 7 }; // pixels; robots may be as large where cells are smaller
 const LARGEST_RADIUS = { grid: 44, network: 20 }; // pixels
 
 /**
@@ -18,7 +18,8 @@ class MapSizes {
     const { scale } = this.viewport;
     const { roadmap, robots } = this.plan;
     const apart = Math.sqrt((roadmap.width * roadmap.height) / robots.length) * scale; // on average
-    const least = Math.min(apart * 0.16, READABLE_RADIUS, Math.max(scale * 0.95, SMALLEST_CAP));
+    const cap = Math.max(SMALLEST_CAP.many, Math.min(SMALLEST_CAP.few, apart * 0.1), scale * 0.95);
+    const least = Math.min(apart * 0.16, READABLE_RADIUS, cap);
     return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.rows ? "grid" : "network"]);
   }
 
@@ -36,7 +37,7 @@ class MapSizes {
   /** Width of a lane of a roadmap that is driven both ways. */
   get lane() {
     const { scale } = this.viewport;
-    return Math.min(Math.max(scale * 0.42, 7), Math.max(scale * 0.9, 1.5), 18);
+    return Math.min(Math.max(scale * 0.42, 7), Math.max(scale * 1.1, 1.5), 18);
   }
 
   /** Radius of a vertex of a roadmap. */

@@ -5,6 +5,7 @@ class MapView {
   constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck) {
     Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
+    this.roadmap = plan.roadmap;
     this.viewport = new Viewport(canvas, plan.roadmap);
     this.sizes = new MapSizes(plan, this.viewport);
     const base = new MapBase(plan, this.viewport, this.sizes, theme, choice, use, bottleneck);
@@ -46,6 +47,11 @@ class MapView {
 
   #click() {
     const { x, y } = this.viewport.pointer;
+    if (this.choice.picked) {
+      const vertex = nearest(this.roadmap.x, this.roadmap.y, x, y, Math.max(0.5, 16 / this.viewport.scale));
+      if (vertex >= 0) this.choice.pickEnd(vertex);
+      return;
+    }
     const reach = Math.max(0.45, (this.sizes.robot + 8) / this.viewport.scale);
     this.choice.chooseRobot(nearest(this.motion.x, this.motion.y, x, y, reach));
   }
@@ -61,6 +67,11 @@ class MapView {
     press("zoom-out", () => this.viewport.zoom(1 / 1.5));
     press("fit", () => this.viewport.fit());
     press("heat", () => this.choice.toggleHeat());
+    press("corridor", () => this.choice.toggleCorridor());
+    this.choice.on("corridor", () => {
+      const { picked, corridor } = this.choice;
+      document.getElementById("corridor").setAttribute("aria-pressed", Boolean(picked || corridor));
+    });
     this.choice.on("heat", () => this.#showHeat());
     this.choice.on("mode", () => this.#showHeat());
   }

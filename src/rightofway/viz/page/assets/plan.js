@@ -14,10 +14,8 @@ class Roadmap {
     this.width = raw.width;
     this.height = raw.height;
     this.rows = raw.rows ?? null;
-    this.unit = raw.unit; // length units in a unit of the drawing
-    this.origin = raw.origin; // of the drawing, in the plane of the roadmap [length unit]
-    const corner = this.rows ? this.unit / 2 : 0; // the middle of a grid's first cell
-    this.frame = raw.frame ?? { x: corner, y: corner, yUp: false };
+    this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
+    this.unit = raw.frame.unit; // length units in a unit of the drawing
     this.background = raw.background ?? null;
     if (this.rows) this.#readGrid();
     else this.#readNetwork(raw);
@@ -30,9 +28,8 @@ class Roadmap {
 
   /** Where a point of the drawing is in the site's frame [length unit]. */
   toSite(x, y) {
-    const { frame, origin, unit } = this;
-    const [right, down] = [origin[0] + x * unit, origin[1] + y * unit];
-    return [frame.x + right, frame.yUp ? frame.y - down : frame.y + down];
+    const { frame, unit } = this;
+    return [frame.x + x * unit, frame.y + (frame.yUp ? -y : y) * unit];
   }
 
   /** The vertex within half a unit of a point, or -1. */
@@ -41,6 +38,35 @@ class Roadmap {
     const [column, row] = [Math.round(x), Math.round(y)];
     if (row < 0 || row >= this.height || column < 0 || column >= this.width) return -1;
     return this.vertexAt[row * this.width + column];
+  }
+
+  /** The vertices that can be driven to from a vertex. */
+  next(vertex) {
+    this.#next ??= this.rows ? this.#besideEach() : this.#headsOfEach();
+    return this.#next[vertex];
+  }
+
+  /** How long the way between two neighbours is [length unit]. */
+  distance(tail, head) {
+    if (this.rows) return this.unit;
+    this.#lengths ??= new Map(Array.from(this.tails, (from, edge) => [from * this.size + this.heads[edge], this.lengths[edge]]));
+    return this.#lengths.get(tail * this.size + head) ?? this.#lengths.get(head * this.size + tail);
+  }
+
+  #next = null;
+  #lengths = null;
+
+  #besideEach() {
+    return Array.from({ length: this.size }, (_, vertex) => {
+      const [x, y] = [this.x[vertex], this.y[vertex]];
+      return [[x + 1, y], [x, y + 1], [x - 1, y], [x, y - 1]].map((cell) => this.near(...cell)).filter((it) => it >= 0);
+    });
+  }
+
+  #headsOfEach() {
+    const heads = Array.from({ length: this.size }, () => []);
+    this.tails.forEach((tail, edge) => heads[tail].push(this.heads[edge]));
+    return heads;
   }
 
   #readGrid() {
@@ -178,7 +204,7 @@ class Plan {
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;
     this.roadmap = new Roadmap(raw.map);
-    this.line = raw.line;
+    this.line = raw.line.map(([vertex, at]) => ({ vertex, at })); // of a small fleet: its places in one line
     this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
     giveLosses(this.planned, raw.losses);
     this.happened = raw.floor ? onTheFloor(raw, this.planned) : null;

@@ -1,10 +1,9 @@
 "use strict";
 
-const TALLEST_ROW = 46;
-
 /**
  * Space and time, as in a railway's graphic timetable: places upwards, time to the right. Fields are
  * bookings; a line is level while its robot stays, dashed while it waits, and slopes while it drives.
+ * Along a corridor or the route of the chosen robot distances are true, and so slopes are speeds.
  */
 class SpaceTime {
   constructor(plan, theme, words, use, choice, bottleneck) {
@@ -12,87 +11,110 @@ class SpaceTime {
   }
 
   get title() {
-    return this.choice.mode === "plan" ? this.#titleOfPlan : `Place over time; ${this.#signsOfFloor}`;
+    return this.choice.mode === "plan" ? `${this.#where}: ${this.#signs}` : `${this.#where}: ${this.#signsOfFloor}`;
+  }
+
+  /** What the axis is. */
+  get #where() {
+    const { robot, corridor } = this.choice;
+    const length = (vertices) => this.plan.quantities.length(this.#rounded(new Corridor(this.plan.roadmap, vertices).length));
+    if (corridor) return `Distance over time, ${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length(corridor)}`;
+    if (robot) return `Distance over time along the route of ${robot.name}, ${length(robot.vertices)}`;
+    return "Place over time";
+  }
+
+  #rounded(length) {
+    return Number(length.toPrecision(4));
+  }
+
+  get #signs() {
+    if (this.choice.decision) return "lines are the two robots, fields what is booked";
+    if (this.choice.robot) return "slopes are speeds, fields what it and others book";
+    return this.choice.corridor ? "slopes are speeds, fields what robots book" : "lines are robots, fields what they book";
   }
 
   get #signsOfFloor() {
-    const { robot, ghosts } = this.choice;
     const signs = ["stripes: held up", "orange: waits for a late robot"];
-    if (ghosts) signs.push("thin lines: the plan");
-    if (robot) signs.unshift(`along the route of ${robot.name}`);
+    if (this.choice.ghosts) signs.push("thin lines: the plan");
     return signs.join(", ");
   }
 
-  get #titleOfPlan() {
-    const { robot, decision } = this.choice;
-    if (decision) return "Place over time: lines are the two robots, fields what is booked";
-    if (robot) return `Place over time along the route of ${robot.name}, and who else books it`;
-    return "Place over time: lines are robots, fields what they book";
-  }
-
   paint(context, area) {
-    const vertices = this.#places();
     this.area = area;
-    this.rows = new Map(vertices.map((vertex, row) => [vertex, row]));
-    this.rowHeight = Math.min(area.height / vertices.length, TALLEST_ROW);
-    this.#rowLines(context, vertices);
-    const names = vertices.map((vertex) => this.words.vertex(vertex));
-    paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
+    this.axis = this.#axis(area);
+    this.#rowLines(context);
+    const vertices = new Set(this.axis.rows.map(({ vertex }) => vertex));
     for (const vertex of vertices) this.#bookings(context, vertex);
     this.bottleneck.paintDiagram(context, area, ({ vertex }) => this.#lane(vertex));
-    if (this.choice.ghosts) for (const { planned } of this.#drawn()) this.#line(context, planned, true);
-    for (const robot of this.#drawn()) this.#line(context, robot);
+    const drawn = this.#drawn();
+    if (this.choice.ghosts) for (const { planned } of drawn) this.#line(context, planned, true);
+    for (const robot of this.plan.robots) if (!this.#isDrawn(robot)) this.#passing(context, robot);
+    for (const robot of drawn) this.#line(context, robot);
     if (this.choice.decision) this.#mark(context, this.choice.decision);
   }
 
-  /** The rows from the bottom: the route of the chosen robot, or all places where these fit in. */
-  #places() {
-    const { robot, decision } = this.choice;
-    if (!robot || (decision && this.plan.line.length)) return this.plan.line;
-    return [...new Set(robot.vertices)];
+  /** The corridor, the route of the chosen robot, or all places where these fit in. */
+  #axis(area) {
+    const { robot, corridor } = this.choice;
+    const { roadmap, line } = this.plan;
+    if (corridor || robot) return new CorridorAxis(new Corridor(roadmap, corridor ?? robot.vertices), area);
+    return new LineAxis(line, area, (tail, head) => roadmap.distance(tail, head));
   }
 
-  /** The robots that have lines. */
+  /** The robots that have strong lines. */
   #drawn() {
     const { robot, decision } = this.choice;
     if (decision) return decision.robots.map((index) => this.plan.robots[index]);
     return robot ? [robot] : this.plan.robots;
   }
 
-  #middle(row) {
-    return this.area.bottom - (row + 0.5) * this.rowHeight;
+  /** Whether a robot has a strong line. */
+  #isDrawn(robot) {
+    return !this.choice.robot || this.choice.standsOut(robot.index);
   }
 
   /** The row of a vertex, or null. */
   #lane(vertex) {
-    const row = this.rows.get(vertex);
-    if (row === undefined) return null;
-    const height = Math.min(Math.max(this.rowHeight * 0.5, 5), this.rowHeight);
-    return { top: this.#middle(row) - height / 2, height };
+    const [row] = this.axis.spots(vertex);
+    if (!row) return null;
+    const half = Math.max(row.half * 0.62, 2.5);
+    return { top: row.y - half, height: 2 * half };
   }
 
-  #rowLines(context, vertices) {
-    if (this.rowHeight < 9) return;
+  /** Names of rows, and lines from them through the diagram. */
+  #rowLines(context) {
+    const { robot } = this.choice;
+    const ends = new Set(robot ? [robot.home, ...robot.stages.map(({ vertex }) => vertex)] : []);
+    const isEnd = (row, i) => i === 0 || i === this.axis.rows.length - 1 || ends.has(row.vertex);
+    const named = this.axis.named(isEnd);
     context.strokeStyle = this.theme.line;
     context.lineWidth = 1;
     context.beginPath();
-    vertices.forEach((_, row) => line(context, this.area.left, this.#middle(row), this.area.right, this.#middle(row)));
+    for (const { y } of named) line(context, this.area.left, y, this.area.right, y);
     context.stroke();
+    context.font = this.theme.font(12);
+    context.fillStyle = this.theme.muted;
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const { vertex, y } of named) {
+      context.fillText(shortened(context, this.words.vertex(vertex), this.area.left - 34), this.area.left - 12, y + 0.5);
+    }
+    this.named = named;
   }
 
   #bookings(context, vertex) {
-    const { area, rowHeight } = this;
-    const height = Math.max(rowHeight * 0.8, Math.min(rowHeight, 1));
-    const top = this.#middle(this.rows.get(vertex)) - height / 2;
+    const { area } = this;
     for (const [robot, visit] of this.use.visitsAt(vertex)) {
       const [from, to] = this.plan.booking(robot, visit);
       const left = area.x(Math.max(from, 0));
       const width = Math.max(area.x(to) - left - 0.75, 0.75);
       context.fillStyle = robot.colour;
       context.globalAlpha = this.#strength(robot) * (robot.leave(visit) === Infinity ? 0.5 : 1);
-      context.beginPath();
-      context.roundRect(left, top, width, height, Math.min(3, height / 3, width / 3));
-      context.fill();
+      for (const { y, half } of this.axis.spots(vertex)) {
+        context.beginPath();
+        context.roundRect(left, y - half, width, 2 * half, Math.min(3, half * 0.6, width / 3));
+        context.fill();
+      }
     }
     context.globalAlpha = 1;
   }
@@ -100,7 +122,21 @@ class SpaceTime {
   /** Where one robot is chosen, the others are what stands in its way. */
   #strength(robot) {
     if (!this.choice.robot) return 0.2;
-    return robot === this.choice.robot ? 0.2 : this.choice.standsOut(robot.index) ? 0.6 : 0.4;
+    return robot === this.choice.robot ? 0.2 : this.choice.standsOut(robot.index) ? 0.5 : 0.3;
+  }
+
+  /** The ways of another robot in the corridor, thin. */
+  #passing(context, robot) {
+    const { phases, vertices } = robot;
+    context.strokeStyle = robot.colour;
+    context.lineWidth = 1.25;
+    context.beginPath();
+    for (let i = 0; i < phases.begin.length; i++) {
+      const visit = phases.visit[i];
+      const way = phases.activity[i] === DRIVE && this.axis.way(vertices[visit], vertices[visit + 1]);
+      if (way) line(context, this.area.x(phases.begin[i]), way.from.y, this.area.x(phases.end(i)), way.to.y);
+    }
+    context.stroke();
   }
 
   #line(context, robot, ghost = false) {
@@ -109,13 +145,15 @@ class SpaceTime {
     context.lineJoin = "round";
     for (let i = 0; i < phases.begin.length; i++) {
       const activity = phases.activity[i];
-      const from = this.rows.get(vertices[phases.visit[i]]);
-      const to = activity === DRIVE ? this.rows.get(vertices[phases.visit[i] + 1]) : from;
-      if (from === undefined || to === undefined) continue;
-      if (ghost) this.#thin(context, phases.begin[i], phases.end(i), from, to);
-      else {
-        if (robot.plannedWait && activity === WAIT) this.#late(context, robot, i, from);
-        this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);
+      const visit = phases.visit[i];
+      const way = activity === DRIVE ? this.axis.way(vertices[visit], vertices[visit + 1]) : null;
+      const stays = activity === DRIVE ? [] : this.axis.spots(vertices[visit]).map((row) => ({ from: row, to: row, isTrue: true }));
+      for (const { from, to, isTrue } of way ? [way] : stays) {
+        if (ghost || !isTrue) this.#thin(context, phases.begin[i], phases.end(i), from.y, to.y, isTrue);
+        else {
+          if (robot.plannedWait && activity === WAIT) this.#late(context, robot, i, from);
+          this.#stroke(context, activity, phases.begin[i], phases.end(i), from, to);
+        }
       }
     }
     context.setLineDash([]);
@@ -123,11 +161,13 @@ class SpaceTime {
     context.globalAlpha = 1;
   }
 
-  #thin(context, begin, end, from, to) {
+  /** The plan beside what happened; dotted, a way that the rows have at another length. */
+  #thin(context, begin, end, from, to, isTrue) {
+    context.setLineDash(isTrue ? [] : [2, 4]);
     context.lineWidth = 1;
     context.globalAlpha = 0.75;
     context.beginPath();
-    line(context, this.area.x(begin), this.#middle(from), this.area.x(end), this.#middle(to));
+    line(context, this.area.x(begin), from, this.area.x(end), to);
     context.stroke();
   }
 
@@ -135,10 +175,10 @@ class SpaceTime {
   #late(context, robot, phase, row) {
     const [from, to] = [robot.unplannedFrom(phase), robot.phases.end(phase)];
     if (from >= to) return;
-    const height = Math.max(this.rowHeight * 0.34, 3);
+    const height = Math.max(row.half * 1.2, 4);
     const left = this.area.x(from);
     context.fillStyle = this.theme.wait;
-    context.fillRect(left, this.#middle(row) - height / 2, Math.max(this.area.x(to) - left, 1.5), height);
+    context.fillRect(left, row.y - height / 2, Math.max(this.area.x(to) - left, 1.5), height);
   }
 
   #stroke(context, activity, begin, end, from, to) {
@@ -146,35 +186,35 @@ class SpaceTime {
       this.#trouble(context, activity, begin, end, from);
       return;
     }
-    const thin = Math.min(Math.max(this.rowHeight * 0.12, 1.25), 2.5);
+    const thin = Math.min(Math.max(from.half * 0.25, 1.5), 2.5);
     const heavy = activity === WORK || activity === TURN;
     context.lineWidth = heavy ? thin * 2.2 : thin;
     context.lineCap = heavy ? "butt" : "round";
     context.setLineDash(activity === WAIT ? [0.1, thin * 2.4] : []);
     context.globalAlpha = activity === DONE ? 0.4 : activity === TURN ? 0.6 : 1;
     context.beginPath();
-    line(context, this.area.x(begin), this.#middle(from), this.area.x(end), this.#middle(to));
+    line(context, this.area.x(begin), from.y, this.area.x(end), to.y);
     context.stroke();
   }
 
   #trouble(context, activity, begin, end, row) {
-    const height = Math.max(this.rowHeight * 0.4, 5);
+    const height = Math.max(row.half, 5);
     const left = this.area.x(begin);
     const width = Math.max(this.area.x(end) - left, 1.5);
     context.fillStyle = activity === HELD ? this.theme.held : this.theme.broken;
-    if (activity === HELD) stripes(context, left, this.#middle(row) - height / 2, width, height);
-    else crossedOut(context, left, this.#middle(row), width, height);
+    if (activity === HELD) stripes(context, left, row.y - height / 2, width, height);
+    else crossedOut(context, left, row.y, width, height);
   }
 
   #mark(context, decision) {
-    const rows = decision.vertices.map((vertex) => this.rows.get(vertex)).filter((row) => row !== undefined);
+    const rows = decision.vertices.flatMap((vertex) => this.axis.spots(vertex));
     if (!rows.length) return;
-    const [low, high] = [Math.min(...rows), Math.max(...rows)];
-    const height = (high - low + 1) * this.rowHeight;
+    const top = Math.min(...rows.map(({ y, half }) => y - half));
+    const height = Math.max(...rows.map(({ y, half }) => y + half)) - top;
     context.strokeStyle = this.theme.ink;
     context.lineWidth = 1.5;
     context.beginPath();
-    context.roundRect(this.area.x(decision.tick) - 6, this.#middle(high) - this.rowHeight / 2, 12, height, 6);
+    context.roundRect(this.area.x(decision.tick) - 6, top, 12, height, 6);
     context.stroke();
   }
 }

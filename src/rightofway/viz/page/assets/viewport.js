@@ -38,7 +38,7 @@ class Viewport extends Observable {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const { rows, width: columns, height: lines } = this.roadmap;
     const [across, down] = rows ? [columns, lines] : [columns - 1, lines - 1];
-    const margin = rows ? 16 : Math.min(36, 16 + width * 0.03);
+    const margin = rows ? 16 : 26;
     const room = { width: width - 2 * margin, height: height - 1.25 * margin - LEGEND_HEIGHT };
     const fitting = Math.min(room.width / Math.max(across, 1e-9), room.height / Math.max(down, 1e-9));
     this.scale = Math.max(Math.min(fitting, LARGEST_FITTED[rows ? "cell" : "edge"]), 0.1);

@@ -1,0 +1,80 @@
+"use strict";
+
+const NAME_GAP = 14; // pixels between two names, at least
+const SECTION_GAP = 22; // pixels between two sections of a corridor
+const TALLEST_FIELD = 24; // pixels
+const PAD = TALLEST_FIELD / 2 + 1; // pixels above the upper and below the lower row
+
+/** Places upwards in a diagram: rows { vertex, y, half }, `half` being half the height of their fields. */
+class SpaceAxis {
+  constructor(rows) {
+    this.rows = rows;
+    this.byVertex = new Map();
+    for (const row of rows) this.byVertex.set(row.vertex, [...this.spots(row.vertex), row]);
+    const sorted = [...rows].sort((one, other) => other.y - one.y);
+    sorted.forEach((row, i) => {
+      const apart = [sorted[i - 1], sorted[i + 1]].filter(Boolean).map((next) => Math.abs(next.y - row.y));
+      row.half = Math.min(Math.max(Math.min(...apart, TALLEST_FIELD / 0.8) * 0.4, 1), TALLEST_FIELD / 2);
+    });
+  }
+
+  /** The rows of a vertex: none, one, or several. */
+  spots(vertex) {
+    return this.byVertex.get(vertex) ?? [];
+  }
+
+  /** The rows to name, none over another: the important ones first. */
+  named(isImportant) {
+    const named = [];
+    const order = [...this.rows.filter(isImportant), ...this.rows];
+    for (const row of order) if (named.every(({ y }) => Math.abs(y - row.y) >= NAME_GAP)) named.push(row);
+    return named;
+  }
+}
+
+/** Rows along a corridor, true to scale: a slope is a speed. */
+class CorridorAxis extends SpaceAxis {
+  constructor(corridor, area) {
+    const gaps = Math.min(SECTION_GAP * (corridor.sections.length - 1), area.height * 0.4);
+    const room = area.height - 2 * PAD - gaps;
+    const perSection = gaps / Math.max(corridor.sections.length - 1, 1);
+    super(corridor.entries.map((entry) => ({
+      vertex: entry.vertex,
+      y: area.bottom - PAD - (entry.at / (corridor.length || 1)) * room - entry.section * perSection,
+      entry,
+    })));
+    this.corridor = corridor;
+    this.perLength = room / (corridor.length || 1); // pixels
+    this.rowOf = new Map(this.rows.map((row) => [row.entry, row]));
+  }
+
+  /** The rows between which a way leads, if it is in the corridor. */
+  way(tail, head) {
+    const way = this.corridor.way(tail, head);
+    return way && { from: this.rowOf.get(way[0]), to: this.rowOf.get(way[1]), isTrue: true };
+  }
+}
+
+/** Rows of all places of a small fleet in one line: at their distances, but never one over another. */
+class LineAxis extends SpaceAxis {
+  constructor(line, area, distance) {
+    const steps = line.slice(1).map(({ at }, i) => at - line[i].at);
+    const room = area.height - 2 * PAD;
+    const least = Math.min(NAME_GAP + 2, room / Math.max(steps.length, 1));
+    const total = (perLength) => steps.reduce((sum, step) => sum + Math.max(step * perLength, least), 0);
+    let [low, high] = [0, room / (line.at(-1).at - line[0].at || 1)];
+    for (let i = 0; i < 40; i++) [low, high] = total((low + high) / 2) > room ? [low, (low + high) / 2] : [(low + high) / 2, high];
+    let y = area.bottom - PAD;
+    super(line.map(({ vertex, at }, i) => {
+      if (i) y -= Math.max(steps[i - 1] * low, least);
+      return { vertex, y, at };
+    }));
+    this.distance = distance;
+  }
+
+  /** The rows between which a way leads, and whether the line has them about as far apart as they are. */
+  way(tail, head) {
+    const [[from], [to]] = [this.spots(tail), this.spots(head)];
+    return from && to && { from, to, isTrue: Math.abs(to.at - from.at) < 1.6 * this.distance(tail, head) };
+  }
+}
