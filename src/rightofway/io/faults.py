@@ -71,7 +71,7 @@ def under(place: str) -> Iterator[None]:
     except InputError as error:
         if error.source:  # the fault lies in another file, which the document names
             raise InputError(
-                InputFault(place, f"{error.source}: {each}") for each in error.faults
+                InputFault(place, each.after(error.source)) for each in error.faults
             ) from None
         raise InputError(each.within(place) if place else each for each in error.faults) from None
 
