@@ -363,6 +363,10 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if loaded.floor and grid:
         cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
         yield f"floor cut into {cells} cells of {grid.cell_size}"
+    spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
+    if spaces:
+        count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
+        yield f"{count} as blocked in the grid (write . for a free cell)"
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
