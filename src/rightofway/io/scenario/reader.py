@@ -362,7 +362,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        yield f"floor cut into {cells} cells of {grid.cell_size}"
+        yield f"floor cut into {cells} cells of {scenario.quantities.length(grid.cell_size)}"
     spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
     if spaces:
         count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
