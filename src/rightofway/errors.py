@@ -61,13 +61,27 @@ class InputFault:
         Where it stands, as a path into the document: ``robots[3].speed``. Empty for the whole.
     message
         What is wrong, with the value, and what to do about it in brackets.
+    line
+        The line of the file, from 1, where that is known.
+    named
+        The place with the names of its list items: ``robots[3] (R4): speed``, where that is known.
     """
 
     place: str
     message: str
+    line: int | None = None
+    named: str = ""
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.message}" if self.place else self.message
+        return self.after("")
+
+    def after(self, source: str) -> str:
+        """Return the fault with the name of its file: ``fleet.yaml:31: robots[3]: …``."""
+        line = (
+            "" if self.line is None else f"{source}:{self.line}" if source else f"line {self.line}"
+        )
+        parts = (line or source, self.named or self.place, self.message)
+        return ": ".join(part for part in parts if part)
 
     def within(self, outer: str) -> InputFault:
         """Return the same fault seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
@@ -103,8 +117,7 @@ class InputError(RightOfWayError, ValueError):
         return cls([InputFault(place, message)], source)
 
     def __str__(self) -> str:
-        prefix = f"{self.source}: " if self.source else ""
-        return "\n".join(f"{prefix}{fault}" for fault in self.faults)
+        return "\n".join(fault.after(self.source) for fault in self.faults)
 
 
 @contextmanager

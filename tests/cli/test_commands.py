@@ -214,8 +214,8 @@ def test_every_fault_of_a_scenario_is_told_with_its_file(cli: Cli) -> None:
     )
     lines = cli("plan", "bad.yaml").err.splitlines()
     assert len(lines) == 2
-    assert lines[0].startswith("bad.yaml: robots[0].speed: 0 is not positive")
-    assert lines[1].startswith("bad.yaml: robots[1].home: ")
+    assert lines[0].startswith("bad.yaml:4: robots[0] (R1): speed: 0 is not positive")
+    assert lines[1].startswith("bad.yaml:5: robots[1] (R2): home: ")
 
 
 def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:

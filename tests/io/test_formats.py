@@ -9,7 +9,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, plan_of, schema
-from rightofway.io.text import read_document
+from rightofway.io.text import parse_document, parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]
@@ -41,7 +41,7 @@ def test_a_schema_is_a_schema_and_says_what_each_key_is_for(kind: Any) -> None:
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_fits(path: Path) -> None:
-    assert fits(read_document(path), "scenario")
+    assert fits(parse_document(path.read_text("utf-8"), path), "scenario")
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
@@ -55,7 +55,10 @@ def test_every_plan_that_is_written_fits(path: Path) -> None:
 
 @pytest.mark.parametrize("name", BY_SHAPE)
 def test_what_is_bad_by_its_shape_does_not_fit(name: str) -> None:
-    assert not fits(read_document(ROOT / "tests" / "data" / "bad" / f"{name}.yaml"), "scenario")
+    assert not fits(
+        parse_yaml((ROOT / "tests" / "data" / "bad" / f"{name}.yaml").read_text("utf-8")),
+        "scenario",
+    )
 
 
 @pytest.mark.parametrize(
@@ -80,7 +83,7 @@ def test_what_is_bad_by_its_shape_does_not_fit(name: str) -> None:
     ],
 )
 def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
-    document = copy.deepcopy(read_document(EXAMPLES[1]))
+    document = copy.deepcopy(parse_yaml(EXAMPLES[1].read_text("utf-8")))
     assert fits(document, "scenario")
     document["robots"][0][key] = value
     assert not fits(document, "scenario")

@@ -78,3 +78,10 @@ def test_lengths_that_are_no_fractions_are_rounded_up_with_a_note() -> None:
     found = loaded({"roadmap": {"vertices": vertices, "edges": edges}}, home="a", target="c")
     assert found.notes[0] == "1 of 3 lengths rounded up to 0.001 m"
     assert [str(length) for length in found.scenario.roadmap.lengths] == ["1703/1000", "5", "7"]
+
+
+def test_spaces_that_count_as_blocked_are_noted() -> None:
+    shape = {"grid": ["....", ".  ."]}
+    assert loaded(shape, home="N0", target="N3").notes == (
+        "2 spaces count as blocked in the grid (write . for a free cell)",
+    )

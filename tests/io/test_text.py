@@ -12,11 +12,11 @@ from rightofway.io.text import parse_json, read_text
 @pytest.mark.parametrize(
     ("content", "fault"),
     [
-        (b"", "the file is empty (give it some content)"),
-        (b" \n\n", "the file is empty"),
-        (b"\x7fELF\0\0", "the file is not text: byte 4 is 0 (give a text file)"),
-        ("map".encode("utf-16"), "the file is UTF-16 text (save it as UTF-8)"),
-        (b"a\nb: \xe4", "line 2: byte 0xe4 is not UTF-8 (save the file as UTF-8)"),
+        (b"", " the file is empty (give it some content)"),
+        (b" \n\n", " the file is empty"),
+        (b"\x7fELF\0\0", " the file is not text: byte 4 is 0 (give a text file)"),
+        ("map".encode("utf-16"), " the file is UTF-16 text (save it as UTF-8)"),
+        (b"a\nb: \xe4", "2: byte 0xe4 is not UTF-8 (save the file as UTF-8)"),
     ],
 )
 def test_what_is_no_utf_8_text_is_refused(tmp_path: Path, content: bytes, fault: str) -> None:
@@ -24,7 +24,7 @@ def test_what_is_no_utf_8_text_is_refused(tmp_path: Path, content: bytes, fault:
     path.write_bytes(content)
     with pytest.raises(InputError) as caught:
         read_text(path)
-    assert str(caught.value).startswith(f"{path}: {fault}")
+    assert str(caught.value).startswith(f"{path}:{fault}")
 
 
 def test_marks_and_line_ends_of_other_systems_are_taken_off(tmp_path: Path) -> None:

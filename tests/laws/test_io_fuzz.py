@@ -22,7 +22,7 @@ from rightofway.io import (
     scenario_of,
     schema,
 )
-from rightofway.io.text import parse_json, parse_yaml, read_document
+from rightofway.io.text import parse_json, parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]
@@ -47,7 +47,13 @@ ROADMAP = {
 }
 DOCUMENTS = [
     ROADMAP,
-    *(read_document(EXAMPLES / f"{name}.yaml") for name in ("door", "floor")),
+    *(parse_yaml((EXAMPLES / f"{name}.yaml").read_text("utf-8")) for name in ("door", "floor")),
+    {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["...", "..@"], "cell_size": "1/2", "y": "up", "origin": [-3.25, "1/3"]},
+        "units": {"length": "m", "time": "s"},
+        "robots": [{"name": "R1", "home": {"x": -3, "y": 1}, "target": {"x": -1.8, "y": "1.2"}}],
+    },
     {
         "format": "rightofway-scenario/1",
         "map": {"file": "hall.map"},

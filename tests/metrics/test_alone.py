@@ -113,6 +113,18 @@ def test_a_place_without_a_way_back_is_named(length: int) -> None:
     )
 
 
+def test_every_robot_without_a_way_is_named() -> None:
+    """N2 is on the right; R0 and R3 live on the left of the wall, R2 on the right."""
+    robots = tuple(
+        Robot(name=f"R{home}", home=VertexId(home), stops=(Stop(at=VertexId(1)),))
+        for home in (0, 2, 3)
+    )
+    scenario = Scenario(roadmap=roadmap_of_grid([".@..", ".@.."]), robots=robots)
+    with pytest.raises(NoPlanExists) as raised:
+        alone_completions(scenario)
+    assert raised.value.robots == ("R0", "R3")
+
+
 @st.composite
 def fleets(draw: st.DrawFn) -> tuple[Scenario, Scenario]:
     """Draw a fleet on one-way edges of equal length; then with an edge apart, of another length."""

@@ -71,7 +71,7 @@ def under(place: str) -> Iterator[None]:
     except InputError as error:
         if error.source:  # the fault lies in another file, which the document names
             raise InputError(
-                InputFault(place, f"{error.source}: {each}") for each in error.faults
+                InputFault(place, each.after(error.source)) for each in error.faults
             ) from None
         raise InputError(each.within(place) if place else each for each in error.faults) from None
 
@@ -136,9 +136,27 @@ def _said(details: ErrorDetails, model: type[BaseModel]) -> str:
     return f"{shown(value)} does not fit (give {remedy})"
 
 
+MEANT = {
+    "one_way": "both_ways: false",
+    "oneway": "both_ways: false",
+    "directed": "both_ways: false",
+    "bidirectional": "both_ways: true",
+    "start": "home",
+    "goal": "target",
+    "goals": "stops",
+    "tasks": "stops",
+    "velocity": "speed",
+    "resolution": "cell_size",
+}
+"""Words of other programs, and what to write here."""
+
+
 def _unknown_key(key: int | str, owner: type[BaseModel]) -> str:
     known = list(_fields(owner))
-    near = nearest(key, known)
+    meant = MEANT.get(str(key).lower(), "")
+    if meant.partition(":")[0] in known:
+        return f"unknown key (write {meant})"
+    near = nearest(str(key).lower(), known)
     return (
         f"unknown key (did you mean {near}?)"
         if near

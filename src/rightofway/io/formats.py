@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, nearest, shown
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
@@ -12,12 +12,17 @@ SUITE_FORMAT = "rightofway-suite/1"
 
 
 def checked_format(document: Any, known: str) -> dict[str, Any]:
-    """Return a document of a known format; InputError, and no other fault, for one that is not."""
+    """Return a document of a known format; InputError, and no other fault, for one that is not.
+
+    A document whose key ``format`` is misspelt counts as one of the known format.
+    """
     line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
         found = "nothing is in it" if document is None else f"{shown(document)} is no document"
         raise InputError.at("", f"{found} (begin with {line})")
     if "format" not in document:
+        if any(nearest(str(key).lower(), ["format"]) for key in document):
+            return {**document, "format": known}  # the misspelt key is reported with all else
         raise InputError.at("format", f"is missing (put {line} at the top)")
     found = document["format"]
     if found != known:

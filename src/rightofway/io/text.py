@@ -57,9 +57,8 @@ _WORDS = {
 }
 
 
-def read_document(path: Path) -> Any:
+def parse_document(text: str, path: Path) -> Any:
     """Return the data of a YAML or JSON file, recognized by its name, else by its start."""
-    text = read_text(path)
     suffix = path.suffix.lower()
     if suffix == ".map":
         message = "a map has no robots (write a scenario with map: {file: ...}, or give a .scen)"
@@ -86,7 +85,7 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
         If there is no such file, or no list of texts in it.
     """
     with blaming(str(path)):
-        found = read_document(Path(path))
+        found = parse_document(read_text(Path(path)), Path(path))
         if isinstance(found, dict) and list(found) == ["delays"]:
             found = found["delays"]
         if not (isinstance(found, list) and all(isinstance(one, str) for one in found)):
@@ -133,8 +132,8 @@ def _decoded(data: bytes, source: str) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        message = f"line {line}: byte {data[error.start]:#x} is not UTF-8 (save the file as UTF-8)"
-        raise InputError.at("", message, source) from None
+        message = f"byte {data[error.start]:#x} is not UTF-8 (save the file as UTF-8)"
+        raise InputError([InputFault("", message, line)], source) from None
 
 
 def whole(token: str) -> int | str:
@@ -170,8 +169,7 @@ def parse_json(text: str) -> Any:
             parse_constant=str,  # NaN and Infinity: words, and refused as words
         )
     except json.JSONDecodeError as error:
-        message = f"line {error.lineno}: {error.msg} (check the JSON there)"
-        raise InputError.at("", message) from None
+        raise _fault(error.lineno, f"{error.msg} (check the JSON there)") from None
     except RecursionError:
         raise _too_deep() from None
     _check_depth(data)
@@ -251,7 +249,7 @@ def parse_yaml(text: str) -> Any:
 
 
 def _fault(line: int, message: str) -> InputError:
-    return InputError.at("", f"line {line}: {message}")
+    return InputError([InputFault("", message, line)])
 
 
 @dataclass(slots=True)

@@ -17,7 +17,7 @@ from itertools import chain, count, groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import NoPlanExists
+from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
 
 Leg = tuple[VertexId, VertexId]
@@ -55,7 +55,7 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     Raises
     ------
     NoPlanExists
-        If no way leads from one place of a robot's trip to the next.
+        If no way leads from one place of a robot's trip to the next; with all such robots.
 
     Notes
     -----
@@ -71,9 +71,20 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
         len(roadmap.lengths) <= 1 and np.bincount(roadmap.heads).max(initial=0) <= MOST_EDGES_IN
     )
     ways = (_by_edges if is_lattice else _by_ticks)(roadmap, wanted)
-    return tuple(
-        Tick(_driving(scenario, robot, ways[itinerary.edge_ticks]) + least_dwell_of_trip(itinerary))
+    blockages = [
+        _missing_way(scenario, robot, leg)
         for robot, itinerary in enumerate(itineraries)
+        for leg in dict.fromkeys(_legs(itinerary))
+        if leg not in ways[itinerary.edge_ticks]
+    ]
+    if blockages:
+        raise NoPlanExists(blockages)
+    return tuple(
+        Tick(
+            sum(ways[itinerary.edge_ticks][leg] for leg in _legs(itinerary))
+            + least_dwell_of_trip(itinerary)
+        )
+        for itinerary in itineraries
     )
 
 
@@ -95,17 +106,12 @@ def least_dwell_of_trip(itinerary: Itinerary) -> int:
     return moving + least_dwell(visits[-1], leaves=False)
 
 
-def _driving(scenario: Scenario, robot: int, ways: Mapping[Leg, int]) -> int:
-    driving = 0
-    for leg in _legs(scenario.problem.itineraries[robot]):
-        if leg not in ways:
-            tail, head = map(scenario.roadmap.name, leg)
-            raise NoPlanExists(
-                f"{scenario.robots[robot].name}: no way leads from {tail} to {head}"
-                " (open one, or give the robot other places)"
-            )
-        driving += ways[leg]
-    return driving
+def _missing_way(scenario: Scenario, robot: int, leg: Leg) -> Blockage:
+    name, (tail, head) = scenario.robots[robot].name, map(scenario.roadmap.name, leg)
+    reason = (
+        f"{name}: no way leads from {tail} to {head} (open one, or give the robot other places)"
+    )
+    return Blockage(reason, (name,), (tail, head))
 
 
 def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:

@@ -236,7 +236,7 @@ def roadmap_of_grid(
     size = length(cell_size, "cell_size")
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
-        raise InputError.at("", f"no free cell in {free.size} (free cells are . G S)")
+        raise InputError.at("", f"no free cell in {free.size} ({_meant_by(lines)})")
     rows, columns = free.shape
     cells = np.flatnonzero(free).astype(np.int32)
     vertex_at = np.full(rows * columns, -1, np.int32)
@@ -268,11 +268,28 @@ def _check_lines(lines: Sequence[str]) -> None:
         raise InputError.at("", f"{shown(lines)} is no list of rows (give a list of text)")
     if not lines or not lines[0]:
         raise InputError.at("", "the grid is empty (give at least one row of one cell)")
+    spaced = [line.rstrip() for line in lines]
+    if all(set(line[1::2]) <= {" "} and " " not in line[::2] for line in spaced) and any(
+        " " in line for line in spaced
+    ):
+        message = f"{shown(lines[0])} has spaces between cells (write {shown(spaced[0][::2])})"
+        raise InputError.at("", message)
     width = len(lines[0])
     for row, line in enumerate(lines):
         if len(line) != width:
             message = f"{len(line)} cells, but row 0 has {width} (make all rows equally long)"
             raise InputError.at(f"[{row}]", message)
+
+
+def _meant_by(lines: Sequence[str]) -> str:
+    """Return how to write a grid that has no free cell."""
+    found = sorted(set("".join(lines)))
+    if set(found) <= set("01"):
+        return "write . for free and @ for blocked, not 0 and 1"
+    others = [character for character in found if character not in "@#TOWX"]
+    if len(others) == 1 and len(found) > 1:
+        return f"free cells are . G S; {shown(others[0])} is blocked here: write . for it"
+    return "free cells are . G S, all other characters are blocked"
 
 
 def _neighbours(vertex_at: NDArray[np.int32], free: NDArray[np.bool_]) -> NDArray[np.int32]:

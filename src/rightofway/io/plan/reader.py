@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
+from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import LoadedMap
 from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario, refuse_count
-from rightofway.io.text import read_document
 from rightofway.model import (
     Decision,
     Plan,
@@ -54,8 +54,8 @@ def load_plan(path: Path | str) -> Plan:
         at fault here: `rightofway.check` judges it.
     """
     path = Path(path)
-    with blaming(str(path)):
-        return plan_of(read_document(path))
+    with document_of(path) as document:
+        return plan_of(document)
 
 
 def load_either(path: Path | str, count: int | None = None) -> Plan | Loaded:
@@ -76,9 +76,8 @@ def load_either(path: Path | str, count: int | None = None) -> Plan | Loaded:
     path = Path(path)
     if path.suffix.lower() == ".scen":
         return load_with_notes(path, count)
-    with blaming(str(path)):
+    with document_of(path) as document:
         refuse_count(count)
-        document = read_document(path)
         kind = document.get("format") if isinstance(document, dict) else None
         is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
         return plan_of(document) if is_plan else read_scenario(document, path.parent)

@@ -1,6 +1,6 @@
 """Scenario documents, read: every fault at once, or a scenario that is valid by construction.
 
-A file becomes plain data (`read_document`), the data become checked parts (`shape`), the parts a
+A file becomes plain data (`document_of`), the data become checked parts (`shape`), the parts a
 `Scenario`. Each step notes its faults and goes on with the parts that have none.
 """
 
@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
+from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
-from rightofway.io.text import read_document
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
@@ -85,11 +85,12 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         As for `load`.
     """
     path = Path(path)
-    with blaming(str(path)):
-        if path.suffix.lower() == ".scen":
+    if path.suffix.lower() == ".scen":
+        with blaming(str(path)):
             return _classic(path, count)
+    with document_of(path) as document:
         refuse_count(count)
-        return read_scenario(read_document(path), path.parent)
+        return read_scenario(document, path.parent)
 
 
 def refuse_count(count: int | None) -> None:
@@ -361,7 +362,11 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        yield f"floor cut into {cells} cells of {grid.cell_size}"
+        yield f"floor cut into {cells} cells of {scenario.quantities.length(grid.cell_size)}"
+    spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
+    if spaces:
+        count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
+        yield f"{count} as blocked in the grid (write . for a free cell)"
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding

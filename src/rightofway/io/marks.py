@@ -1,0 +1,124 @@
+"""Faults of a document with the line of its text that they stand in, and the names of list items.
+
+Marks are taken only when there is a fault: the text is then read once more, by the YAML library,
+which knows the line of each value. JSON is read in the same way, because it is YAML as well.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rightofway.errors import InputError, InputFault, is_printable
+from rightofway.io.faults import blaming
+from rightofway.io.text import parse_document, read_text
+
+if TYPE_CHECKING:
+    import yaml
+
+MAX_CHARACTERS = 500_000
+"""Faults in a longer text are reported without lines: to find them would take seconds."""
+
+LONGEST_NAME = 40
+"""A longer name is not shown beside a place."""
+
+_STEP = re.compile(r"\.?(?P<key>[^\W\d]\w*)|\[(?P<index>\d+)\]|\[(?P<text>'[^']*'|\"[^\"]*\")\]")
+_JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
+
+
+@contextmanager
+def document_of(path: Path) -> Iterator[Any]:
+    """Yield the data of a YAML or JSON file; faults raised inside name the file and the line."""
+    with blaming(str(path)):
+        text = read_text(path)
+        data = parse_document(text, path)
+        try:
+            yield data
+        except InputError as error:
+            if error.source:
+                raise
+            raise InputError(marked(error.faults, text)) from None
+
+
+def marked(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
+    """Yield faults of a document with lines and names, as far as its text shows them.
+
+    Parameters
+    ----------
+    faults
+        The faults, with places in the document.
+    text
+        The text that the document was read from.
+    """
+    root = _root(text)
+    for fault in faults:
+        yield _marked(fault, root) if root and fault.place and fault.line is None else fault
+
+
+def _root(text: str) -> yaml.Node | None:
+    import yaml
+
+    if len(text) > MAX_CHARACTERS:
+        return None
+    if text.lstrip().startswith(("{", "[")):
+        text = _JSON_ONLY.sub(" ", text)  # what YAML reads otherwise; lines stay as they are
+    try:
+        root: yaml.Node | None = yaml.compose(
+            text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        )
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return None
+    return root
+
+
+def _marked(fault: InputFault, root: yaml.Node) -> InputFault:
+    """Follow a fault's place from the root of the document, as far as there are values."""
+    node, line, named, reached = root, root.start_mark.line, "", 0
+    for step in _STEP.finditer(fault.place):
+        found = _child(node, step) if step.start() == reached else None
+        if found is None:
+            break
+        node, line = found
+        reached = step.end()
+        named += step[0].removeprefix(".") if named.endswith(": ") else step[0]
+        name = _name(node) if step["index"] else ""
+        named += f" ({name}): " if name else ""
+    rest = fault.place[reached:]
+    named += rest.removeprefix(".") if named.endswith(": ") else rest
+    return replace(fault, line=line + 1, named=named.removesuffix(": "))
+
+
+def _child(node: yaml.Node, step: re.Match[str]) -> tuple[yaml.Node, int] | None:
+    """Return the value that a step of a place leads to, and its line, from 0; None without one."""
+    import yaml
+
+    if step["index"]:
+        index = int(step["index"])
+        if isinstance(node, yaml.SequenceNode) and index < len(node.value):
+            item: yaml.Node = node.value[index]
+            return item, item.start_mark.line
+        if isinstance(node, yaml.ScalarNode) and node.style == "|":  # rows of a grid
+            return node, node.start_mark.line + 1 + index
+        return None
+    key = step["key"] or ast.literal_eval(step["text"])
+    if isinstance(node, yaml.MappingNode):
+        for name, value in node.value:
+            if isinstance(name, yaml.ScalarNode) and name.value == key:
+                return value, name.start_mark.line
+    return None
+
+
+def _name(node: yaml.Node) -> str:
+    """Return the name of a list's item, where it has one that can be shown."""
+    import yaml
+
+    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+        if key.value == "name" and isinstance(value, yaml.ScalarNode):
+            name: str = value.value
+            return name if is_printable(name) and len(name) <= LONGEST_NAME else ""
+    return ""
