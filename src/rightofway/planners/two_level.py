@@ -147,8 +147,6 @@ def movement_groups(
         When time ran out.
     """
     options = {"routes": "clear", "swaps": "resolve", **plan.run.options}
-    if plan.run.name == "paper":
-        options = {"routes": "shortest", "swaps": "leave"}
     task = Task(scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit))
     groups: list[MovementGroup | None] = []
 
