@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 FOR_SPHINX = re.compile(r"^<!-- sphinx\n(.*?)^-->$", re.MULTILINE | re.DOTALL)
 FOR_CODE_HOSTS = re.compile(r"^<!-- not sphinx -->$.*?^<!-- end -->$", re.MULTILINE | re.DOTALL)
 ROOT_PAGE = re.compile(r"\]\(((?:\.\./)*)\.\./(CONTRIBUTING|CHANGELOG)\.md")
+OUTSIDE = re.compile(r"\[([^\]]*)\]\((?:\.\./)+(benchmarks/README\.md)\)")
 EQUATION = re.compile(r"^( *)```math$", re.MULTILINE)
 
 
@@ -23,6 +24,7 @@ def reveal(_app: Sphinx, _page: str, source: list[str]) -> None:
     """Give Sphinx its own Markdown, and links to the pages that include those of the root."""
     text = FOR_SPHINX.sub(r"\1", FOR_CODE_HOSTS.sub("", source[0]))
     text = ROOT_PAGE.sub(lambda link: f"]({link[1]}{link[2].lower()}.md", text)
+    text = OUTSIDE.sub(r"\1 (`\2`)", text)
     source[0] = EQUATION.sub(r"\1```{math}", text)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.examples import examples_folder, first_sentence
-from rightofway.cli.terminal import as_json_option, put_json, wrapped
+from rightofway.cli.terminal import as_json_option, put_json, put_report, wrapped
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -75,7 +75,7 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
     else:
         for table in found:
             _print(table, log=log)
-        click.echo(f"{equal} of {len(verdicts)} published rows equal" if verdicts else UNRECORDED)
+        put_report(f"{equal} of {len(verdicts)} published rows equal" if verdicts else UNRECORDED)
     return 0 if equal == len(verdicts) else 1
 
 
@@ -109,19 +109,19 @@ def _print(table: _Table, *, log: bool) -> None:
     ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))
     cells = [str(cell) for row in table.rows for cell in row.ours]
     width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
-    click.echo("\n".join(wrapped(f"{title} ({table.scenario}).")) + "\n")
-    click.echo(_line("tick", "", ticks, width))
+    put_report("\n".join(wrapped(f"{title} ({table.scenario}).")) + "\n")
+    put_report(_line("tick", "", ticks, width))
     for row in table.rows:
         head = f"{row.robot} {row.kind}"
         if row.published is not None:
-            click.echo(_line(head, "published", row.published, width))
+            put_report(_line(head, "published", row.published, width))
             head = ""
-        click.echo(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
+        put_report(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
     for fault in check(table.plan).faults:
-        click.echo("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
+        put_report("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
     if log:
-        click.echo("\n" + decision_log(table.plan))
-    click.echo()
+        put_report("\n" + decision_log(table.plan))
+    put_report("")
 
 
 def _line(head: str, whose: str, cells: Sequence[object], width: int) -> str:

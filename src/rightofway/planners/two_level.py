@@ -41,6 +41,7 @@ from rightofway.planners.conflict_resolution import (
 from rightofway.planners.routing import chosen_routes
 from rightofway.planners.task import Deadline, Draft, Task
 from rightofway.precedence import Meeting, Segment
+from rightofway.search import Distances
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,9 +74,14 @@ def two_level(task: Task) -> Draft:
 
 def paper(task: Task) -> Draft:
     """Plan a fleet by the method as published; the plan may hold swaps. It has no options."""
-    distances, routes = chosen_routes(replace(task, options={"routes": "shortest"}))
-    plan = PartialPlan(task, routes, sees_swaps=False)
+    distances, plan = _as_published(task)
     return plan_on_routes(task, distances, plan, by_two_levels)
+
+
+def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
+    """Return a fleet on shortest routes, in which swaps are no conflicts."""
+    distances, routes = chosen_routes(replace(task, options={"routes": "shortest"}))
+    return distances, PartialPlan(task, routes, sees_swaps=False)
 
 
 def by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
@@ -141,8 +147,6 @@ def movement_groups(
         When time ran out.
     """
     options = {"routes": "clear", "swaps": "resolve", **plan.run.options}
-    if plan.run.name == "paper":
-        options = {"routes": "shortest", "swaps": "leave"}
     task = Task(scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit))
     groups: list[MovementGroup | None] = []
 
@@ -152,11 +156,14 @@ def movement_groups(
             groups.extend(_temporary_group(partial, meeting, on_tie) for on_tie in (0, 1))
         return resolution
 
-    _, routes = chosen_routes(task)
-    replayed = PartialPlan(task, routes, sees_swaps=options["swaps"] != "leave")
+    if plan.run.name == "paper" or options["swaps"] == "leave":
+        _, replayed = _as_published(task)
+    else:
+        _, routes = chosen_routes(task)
+        replayed = PartialPlan(task, routes)
     replayed.resolve_all(by_two_levels_again)
     if not groups:
-        message = f"{plan.run.name} has no movement groups (plan with two-level, or auto)"
+        message = f"{plan.run.name} has no movement groups (plan with paper, two-level or auto)"
         raise InputError.at("planner", message)
     return groups[0], groups[1]
 
