@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.examples import examples_folder, first_sentence
-from rightofway.cli.terminal import as_json_option, put_json, put_report, wrapped
+from rightofway.cli.terminal import as_json_option, put_json, put_report, quantities_of, wrapped
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -120,7 +120,9 @@ def _print(table: _Table, *, log: bool) -> None:
     for fault in check(table.plan).faults:
         put_report("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
     if log:
-        put_report("\n" + decision_log(table.plan))
+        put_report(
+            "\n" + decision_log(table.plan, quantities_of(table.plan.scenario, in_ticks=True))
+        )
     put_report("")
 
 
