@@ -120,7 +120,7 @@ def _print(table: _Table, *, log: bool) -> None:
     for fault in check(table.plan).faults:
         put_report("\n" + "\n".join(wrapped(f"The published method leaves this: {fault}.")))
     if log:
-        put_report("\n" + decision_log(table.plan))
+        put_report("\n" + decision_log(table.plan, table.plan.scenario.quantities))
     put_report("")
 
 
