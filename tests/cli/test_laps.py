@@ -33,10 +33,10 @@ def test_the_report_sets_the_first_lap_against_the_later_ones(cli: Cli, slower: 
     ended = cli("laps", slower)
     assert ended.code == 0
     assert max(map(len, ended.out.splitlines())) <= 80
-    assert "2 robots: period 30, from time 8 on" in ended.out
-    assert "R1               1        30        20    33.3%" in ended.out
-    assert "  N7: R1 waits for R2, first lap at 12; each period at 19" in ended.out
-    assert "  N1: R2 waits for R1, first lap at 3\n" in ended.out
+    assert "2 robots: period 30 time units, from time 8 on\n" in ended.out
+    assert "R1               1        30     20  33.3%\n" in ended.out
+    assert "  N7: R1 waits for R2, first lap at time 12; each period at time 19\n" in ended.out
+    assert "  N1: R2 waits for R1, first lap at time 3\n" in ended.out
     assert "bottleneck: R2's own lap: it waits for no robot" in ended.out
 
 
@@ -44,20 +44,38 @@ def test_the_report_for_programs_has_exact_times(cli: Cli, slower: Path) -> None
     ended = cli("laps", slower, "--json")
     [group] = json.loads(ended.out)["groups"]
     assert group["robots"] == ["R1", "R2"]
-    assert (group["transient"], group["period"]) == ("8", "30")
+    assert (group["transient"], group["period"]) == (8, 30)
     assert group["laps_per_period"] == {"R1": 1, "R2": 1}
-    assert group["mean_lap"] == {"R1": "30", "R2": "30"}
-    assert group["waiting_share"] == {"R1": "1/3", "R2": "0"}
+    assert group["mean_lap"] == {"R1": 30, "R2": 30}
+    assert group["waiting_share"] == {"R1": "1/3", "R2": 0}
     assert group["conflicts"] == [
-        {"vertex": "N1", "robots": ["R1", "R2"], "waits": "R1", "offset": "4", "for": "5"},
-        {"vertex": "N7", "robots": ["R1", "R2"], "waits": "R1", "offset": "19", "for": "5"},
+        {"vertex": "N1", "robots": ["R1", "R2"], "waits": "R1", "offset": 4, "for": 5},
+        {"vertex": "N7", "robots": ["R1", "R2"], "waits": "R1", "offset": 19, "for": 5},
     ]
     assert {piece["robot"] for piece in group["bottleneck"]} == {"R2"}
 
 
+def test_times_are_in_the_units_of_the_scenario_or_in_ticks(cli: Cli, slower: Path) -> None:
+    slower.write_text(SLOWER + "units: {length: m, time: s}\n", encoding="utf-8")
+    ended = cli("laps", slower)
+    assert "throughput  240 laps per hour\n" in ended.out
+    assert "2 robots: period 30 s, from 8 s on\n" in ended.out
+    assert "robot  laps/period  mean lap [s]  alone [s]  waits\n" in ended.out
+    assert "  N7: R1 waits for R2, first lap at 12 s; each period at 19 s\n" in ended.out
+    assert "2 robots: period 30 ticks, from tick 8 on\n" in cli("laps", slower, "--ticks").out
+    data = json.loads(cli("laps", slower, "--json").out)
+    assert (data["tick"], data["units"]) == (1, {"length": "m", "time": "s"})
+    assert data["throughput_per_hour"] == 240
+
+
+def test_throughput_is_per_hour_whatever_the_unit_of_time(cli: Cli, slower: Path) -> None:
+    slower.write_text(SLOWER + "units: {time: min}\n", encoding="utf-8")
+    assert "throughput  4 laps per hour\n" in cli("laps", slower).out
+
+
 def test_a_robot_that_waits_for_ever_never_makes_a_lap(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--rule", "fixed-order")
-    assert "R2               0     never        30\n" in ended.out
+    assert "R2               0     never     30\n" in ended.out
 
 
 def test_a_run_becomes_a_plan_that_check_accepts(cli: Cli, slower: Path) -> None:
@@ -144,8 +162,8 @@ def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:
     [group] = json.loads(ended.out)["groups"]
     # R2's own lap decides: 24 of its 30 are driving, 6 are turning at home and away.
     assert [(lever["kind"], lever["gain"]) for lever in group["sensitivity"]] == [
-        ("speed", "24"),
-        ("turn", "6"),
+        ("speed", 24),
+        ("turn", 6),
     ]
     assert group["sensitivity"][0]["ten_per_cent"] == str(Fraction(30) - Fraction(24, 11))
 

@@ -6,6 +6,7 @@ south (N7); the door (N4) is in the middle. R1 goes in and comes out, then R2.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.cyclic.bottleneck import bottleneck_of, in_words
@@ -55,8 +56,8 @@ def test_a_bottleneck_reads_as_work_ways_and_places() -> None:
     scenario = crossing()
     found = bottleneck_of(graph_of(scenario))
     assert in_words(found, scenario) == (
-        "R1's way to N1, then R1's work at N1, then R1's way home, then N4, then "
-        "R2's way to N7, then R2's work at N7, then R2's way home, then N4"
+        "R1 enters N4, drives to N1, works, drives home;"
+        " R2 enters N4, drives to N7, works, drives home"
     )
     assert found.cycle_time == 12
     assert found.periods == 1
@@ -67,7 +68,31 @@ def test_a_bottleneck_reads_as_work_ways_and_places() -> None:
 def test_a_long_bottleneck_is_cut_short_and_says_so() -> None:
     scenario = crossing()
     found = bottleneck_of(graph_of(scenario))
-    assert in_words(found, scenario, most=2) == "R1's way to N1, then R1's work at N1, then 6 more"
+    assert in_words(found, scenario, most=2) == "R1 enters N4, drives to N1; and 6 more steps"
+
+
+def test_laps_that_a_robot_makes_without_waiting_are_counted() -> None:
+    """R1 enters the door, works and comes home three times before R2 gets in between."""
+    scenario = crossing()
+    found = bottleneck_of(graph_of(scenario))
+    first, second = found.pieces[:3], found.pieces[3:]
+    thrice = replace(found, pieces=(*first * 3, *second))
+    assert in_words(thrice, scenario) == (
+        "R1 enters N4, drives to N1, works, drives home, makes 2 laps of its own;"
+        " R2 enters N4, drives to N7, works, drives home"
+    )
+
+
+def test_a_way_through_home_ends_a_lap_too() -> None:
+    """Where robots do not turn at home, the way home and the way out are one piece."""
+    scenario = crossing()
+    found = bottleneck_of(graph_of(scenario))
+    out, work, home = found.pieces[:3]
+    through = replace(home, places=(*home.places, *out.places[1:]))
+    pieces = (out, work, through, work, through, work, home, *found.pieces[3:])
+    assert in_words(replace(found, pieces=pieces), scenario).startswith(
+        "R1 enters N4, drives to N1, works, drives home, makes 2 laps of its own; R2"
+    )
 
 
 def test_a_robot_that_waits_for_nobody_is_its_own_bottleneck() -> None:

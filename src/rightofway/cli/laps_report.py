@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, measures, short, wrapped
+from rightofway.cli.terminal import COLUMNS, further, measures, short, wrapped
 from rightofway.cyclic import (
     Comparison,
     CyclicResult,
@@ -277,10 +277,8 @@ def _sites(waits: Sequence[LapWait]) -> Sites:
 
 def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
-    write = quantities.duration
-    if quantities.in_ticks or not quantities.time_unit:
-        write = quantities.cell
-    listed = ", ".join([quantities.moment(ticks[0]), *map(write, ticks[1:MAX_TIMES])])
+    others = map(further(quantities), ticks[1:MAX_TIMES])
+    listed = ", ".join([quantities.moment(ticks[0]), *others])
     more = len(ticks) - MAX_TIMES
     return f"{listed} and {more} more time{'s' * (more > 1)}" if more > 0 else listed
 

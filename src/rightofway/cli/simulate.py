@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
@@ -13,20 +14,26 @@ from rightofway.cli.terminal import (
     COLUMNS,
     ListingCommand,
     as_json_option,
+    further,
     json_text,
+    measures,
     progress,
     put_json,
     put_report,
+    quantities_of,
     row,
     say,
     seed_option,
     short,
+    ticks_option,
     writable,
 )
 from rightofway.files import write_whole
+from rightofway.model import decimal
 
 if TYPE_CHECKING:
-    from rightofway.execution import Outcome, Quantiles
+    from rightofway.execution import Outcome, PolicyGain, Quantiles
+    from rightofway.model import Quantities
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
@@ -34,8 +41,8 @@ MAX_ROBOTS = 20
 MAX_SOURCES = 8
 """Places in the report where lateness began; --json has them all."""
 
-LEAST_LATENESS = 0.05
-"""Lateness that the report does not show as 0.0 [ticks]."""
+LEAST_SHARE = 0.01
+"""The report names a robot that causes at least this share of another one's lateness."""
 
 EXAMPLES = """\b
 Examples:
@@ -80,6 +87,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
 @click.option("--run", type=click.IntRange(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",
               )  # fmt: skip
+@ticks_option
 @as_json_option("outcome")
 def simulate(
     *,
@@ -92,6 +100,7 @@ def simulate(
     output: str | None,
     page: str | None,
     run: int | None,
+    in_ticks: bool,
     as_json: bool,
 ) -> int:
     """Execute a PLAN many times with robots that are late, and report how late.
@@ -112,12 +121,13 @@ def simulate(
     found = load_plan(plan)
     with progress() as reported:
         outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
+    data = {**measures(found.scenario), **outcome.as_dict()}
     if as_json or output == "-":
-        put_json(outcome.as_dict())
+        put_json(data)
     else:
-        put_report(report(outcome))
+        put_report(report(outcome, quantities_of(found.scenario, in_ticks=in_ticks)))
     if output not in {None, "-"}:
-        write_whole(str(output), json_text(outcome.as_dict()) + "\n")
+        write_whole(str(output), json_text(data) + "\n")
         say(f"wrote {output}")
     if page:
         from rightofway.viz import write_page
@@ -128,99 +138,130 @@ def simulate(
     return 1 if outcome.collisions or outcome.deadlocks else 0
 
 
-def report(outcome: Outcome) -> str:
+def report(outcome: Outcome, quantities: Quantities) -> str:
     """Return how often robots collided, how late each one was, and where lateness began."""
-    return "\n".join([*_totals(outcome), "", *_robots(outcome), *_sources(outcome)])
+    totals, robots = _totals(outcome, quantities), _robots(outcome, quantities)
+    return "\n".join([*totals, "", *robots, *_sources(outcome, quantities)])
 
 
-def _totals(outcome: Outcome) -> Iterator[str]:
+def _totals(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     runs, late, clock, gain = outcome.runs, outcome.lateness, outcome.by_clock, outcome.gain
     collisions = _count(outcome.collisions, "collision")
     by_clock = "no run collides"
-    if clock.runs:
+    if clock.runs and clock.first.median is not None:
         by_clock = (
-            f"{clock.runs / runs:.1%} of runs collide, {clock.total / runs:.1f} times per run on"
-            f" average, first at tick {clock.first.median:g} (median)"
+            f"{clock.runs / runs:.1%} of runs collide, {_per_run(clock.total, runs)},"
+            f" first at {quantities.moment(clock.first.median)} (median)"
         )
     rows = [
         ("runs", f"{runs} with {', '.join(outcome.delays)}; seed {outcome.seed}"),
         ("right of way", f"{collisions}, {_count(outcome.deadlocks, 'deadlock')}"),
         ("by the clock", by_clock),
-        ("late", _quantiles(late.all)),
+        ("late", _lateness(late.all, quantities, "by")),
     ]
     if late.flowtime.mean is not None:
-        rows.append(("flowtime", f"later by {_quantiles(late.flowtime)}"))
-        rows.append(("makespan", f"later by {_quantiles(late.makespan)}"))
+        rows.append(("flowtime", _lateness(late.flowtime, quantities)))
+        rows.append(("makespan", _lateness(late.makespan, quantities)))
     if outcome.switches:
-        rows.append(("switched", f"{outcome.switches / runs:.1f} times per run"))
+        rows.append(("switched", _per_run(outcome.switches, runs)))
     if outcome.replans:
-        rows.append(("replanned", f"{outcome.replans / runs:.1f} times per run"))
-    if gain and gain.runs:
-        saved = (  # a loss is below zero
-            f"{gain.flowtime.mean:.1f} ticks of flowtime per run on average, compared with the"
-            f" plan's rights of way in the same runs; {gain.earlier / gain.runs:.0%} of runs"
-            f" earlier, {gain.later / gain.runs:.0%} later"
-        )
-        rows.append(("gain", saved))
+        rows.append(("replanned", _per_run(outcome.replans, runs)))
+    if gain and gain.runs and gain.flowtime.mean is not None:
+        rows.append(("gain", _gain(gain, gain.flowtime.mean, quantities)))
     if outcome.broken:
         broken = (
-            f"{outcome.broken / runs:.2f} robots per run break down,"
-            f" {outcome.stranded / runs:.2f} wait for them for ever"
+            f"robots per run: {_mean(outcome.broken, runs)} break down,"
+            f" {_mean(outcome.stranded, runs)} wait for them for ever"
         )
         if outcome.replans:
-            broken += f", {outcome.cut_off / runs:.2f} are cut off from a place"
+            broken += f", {_mean(outcome.cut_off, runs)} are cut off from a place"
         rows.append(("broken", broken))
     for key, text in rows:
         yield row(key, text, 14)
+
+
+def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
+    """Compare runs with the plan's rights of way in the same runs; a loss is below zero."""
+    if not (gain.earlier or gain.later):
+        return "none"
+    return (
+        f"flowtime {quantities.duration(abs(saved))} {'less' if saved >= 0 else 'more'} on average"
+        " than with the plan's rights of way in the same runs;"
+        f" {gain.earlier / gain.runs:.0%} of runs earlier, {gain.later / gain.runs:.0%} later"
+    )
 
 
 def _count(number: int, what: str) -> str:
     return f"{number or 'no'} {what}" + "s" * (number != 1)
 
 
-def _quantiles(found: Quantiles) -> str:
-    if found.mean is None:
+def _mean(number: int, runs: int) -> str:
+    return decimal(Fraction(number, runs))
+
+
+def _per_run(number: int, runs: int) -> str:
+    mean = _mean(number, runs)
+    return f"{mean} time{'s' * (mean != '1')} per run on average"
+
+
+def _lateness(found: Quantiles, quantities: Quantities, later: str = "later by") -> str:
+    mean, most = found.mean, found.max
+    if mean is None or most is None:
         return "no robot ever completes"
-    return (
-        f"{found.mean:.1f} ticks on average; median {found.median:g},"
-        f" 90 % {found.p90:g}, 95 % {found.p95:g}, most {found.max}"
-    )
+    write = further(quantities)
+    quantiles = (("median", found.median), ("90% within", found.p90), ("95% within", found.p95))
+    parts = [f"{words} {write(ticks)}" for words, ticks in quantiles if ticks is not None]
+    average = f"{later if mean >= 0 else 'earlier by'} {quantities.duration(abs(mean))} on average"
+    return f"{average}; {', '.join(parts)}, at most {write(most)}"
 
 
-def _robots(outcome: Outcome) -> Iterator[str]:
+def _robots(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     names = [short(robot.name) for robot in outcome.plan.scenario.robots]
-    robots = outcome.lateness.robots
+    robots, cell = outcome.lateness.robots, quantities.cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     listed = sorted(latest[:MAX_ROBOTS])
-    width = max(len("robot"), *(len(names[robot]) for robot in listed))
-    yield f"{'robot':{width}}  late     95 %   most  own    waiting for"
+    rows = [("mean", "95%", "most", "own", "waiting for")]
     for number in listed:
         robot, late = robots[number], robots[number].quantiles
-        if late.mean is None:
-            yield f"{names[number]:{width}}  never completes"
+        if late.mean is None or late.p95 is None or late.max is None:
+            rows.append(("", "", "", "", ""))
             continue
-        times = f"{late.mean:<7.1f}  {late.p95:<5g}  {late.max:<4}  {robot.own:<5.1f}"
         waiting = [
-            f"{names[other]} {ticks:.1f}"
+            f"{names[other]} {cell(ticks)}"
             for other, ticks in robot.waiting.items()
-            if ticks >= LEAST_LATENESS
+            if ticks >= LEAST_SHARE * late.mean
         ]
-        line = f"{names[number]:{width}}  {times}  {', '.join(waiting[:3])}"
-        yield line.rstrip() if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
+        times = (cell(late.mean), cell(late.p95), cell(late.max), cell(robot.own))
+        rows.append((*times, ", ".join(waiting[:3])))
+    yield quantities.heading("how late each robot is")
+    for line in _table(["robot", *(names[number] for number in listed)], rows):
+        yield line if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
     if len(robots) > len(listed):
         yield f"… and {len(robots) - len(listed)} more robots, which are less late"
 
 
-def _sources(outcome: Outcome) -> Iterator[str]:
+def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     sources = outcome.lateness.sources
     if not sources:
         return
     robots, place = outcome.plan.scenario.robots, outcome.plan.scenario.roadmap.name
+    listed, cell = sources[:MAX_SOURCES], quantities.cell
+    names = [f"{short(robots[one.robot].name)} at {place(one.vertex)}" for one in listed]
+    rows = [("itself", "others"), *((cell(one.own), cell(one.of_others)) for one in listed)]
     yield ""
-    yield "Most lateness begins here [ticks per run]"
-    for source in sources[:MAX_SOURCES]:
-        where = f"{short(robots[source.robot].name)} at {place(source.vertex)}"
-        total, others = source.own + source.of_others, source.of_others
-        yield f"  {where}: {total:.2f}, of which {others:.2f} falls on other robots"
-    if len(sources) > MAX_SOURCES:
-        yield f"  … and {len(sources) - MAX_SOURCES} more places (--json lists all)"
+    yield quantities.heading("where most lateness begins, mean per run")
+    yield from _table(["robot", *names], rows)
+    if len(sources) > len(listed):
+        yield f"… and {len(sources) - len(listed)} more places (--json lists all)"
+
+
+def _table(names: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of a table of times; a robot without times never completes."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    width = max(map(len, names))
+    for name, cells in zip(names, rows, strict=True):
+        line = "  ".join(
+            f"{text:{'<' if heading == 'waiting for' else '>'}{space}}"
+            for text, space, heading in zip(cells, widths, rows[0], strict=True)
+        )
+        yield f"{name:{width}}  {line if any(cells) else 'never completes'}".rstrip()

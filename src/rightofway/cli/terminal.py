@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.model.quantities import decimal
+from rightofway.model.quantities import Value, decimal
 from rightofway.model.values import written
 
 if TYPE_CHECKING:
@@ -288,6 +288,15 @@ ticks_option = click.option(
 def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
     """Return how a report writes times: in the scenario's units, or in ticks on request."""
     return replace(scenario.quantities, in_ticks=in_ticks)
+
+
+def further(quantities: Quantities) -> Callable[[Value], str]:
+    """Return how times after the first one of a sentence are written.
+
+    Where all times are in one unit, ``time 4`` goes on with ``13``, ``8 ticks`` with ``9``.
+    """
+    is_one_unit = quantities.in_ticks or not quantities.time_unit
+    return quantities.cell if is_one_unit else quantities.duration
 
 
 def measures(scenario: Scenario) -> dict[str, Any]:

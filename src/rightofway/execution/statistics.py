@@ -35,7 +35,7 @@ class Quantiles:
         """Return the quantiles of values; int64[K]."""
         if not values.size:
             return cls(mean=None, median=None, p90=None, p95=None, max=None)
-        median, p90, p95 = np.percentile(values, [50, 90, 95]).tolist()
+        median, p90, p95 = np.percentile(values, [50, 90, 95]).round(6).tolist()
         mean = round(float(values.mean()), 6)
         return cls(mean=mean, median=median, p90=p90, p95=p95, max=int(values.max()))
 
