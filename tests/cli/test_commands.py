@@ -52,7 +52,7 @@ def test_json_and_page_show_the_robots_that_block_each_other(cli: Cli) -> None:
     found = json.loads(ended.out)["no_plan"]
     assert found["robots"] == ["R1", "R2"]
     assert found["vertices"] == ["N0", "N1", "N2", "N3"]
-    assert '"noPlan":{"reasons":' in Path("stuck.html").read_text(encoding="utf-8")
+    assert '"noPlan":true' in Path("stuck.html").read_text(encoding="utf-8")
 
 
 def test_the_log_says_which_level_decided_and_by_which_numbers(cli: Cli, door: Path) -> None:

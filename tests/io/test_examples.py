@@ -17,7 +17,7 @@ def test_door_and_crossroad_are_cases_of_the_paper() -> None:
 
 def test_the_floor_is_cut_for_its_fastest_robot() -> None:
     loaded = load_with_notes(EXAMPLES / "floor.yaml")
-    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 1/2",)
+    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 0.5 m",)
     assert [robot.name for robot in loaded.scenario.robots] == [
         "porter",
         "runner",

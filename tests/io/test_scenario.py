@@ -195,7 +195,7 @@ def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path:
     floor = document(map={"floor": {"size": [12, 8]}, "cell_size": 0.5}, robots=robots)
     path.write_text(json.dumps(floor), encoding="utf-8")
     loaded = load_with_notes(path)
-    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 1/2",)
+    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 0.5 length units",)
     # A cell takes R1 1000/1999 = 2000/3998 and R2 1999/3998: too many ticks to be exact.
     robots[0]["speed"] = "1999/2000"
     path.write_text(json.dumps(floor), encoding="utf-8")

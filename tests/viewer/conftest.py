@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from rightofway.errors import NoPlanExists
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz import write_page
 
@@ -98,10 +99,11 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         *,
         steady: Sequence[SteadyState] = (),
         actual: ExecutionTrace | None = None,
+        no_plan: NoPlanExists | None = None,
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
-        write_page(plan, path, steady=steady, actual=actual)
+        write_page(plan, path, steady=steady, actual=actual, no_plan=no_plan)
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

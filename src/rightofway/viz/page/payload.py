@@ -100,17 +100,26 @@ def payload_of(
     if actual is not None:
         payload["floor"] = _execution(plan, actual, trips)
     if no_plan is not None:
-        payload["noPlan"] = _no_plan(scenario, no_plan)
+        payload["noPlan"] = True
+        payload["faults"] = _blockages(scenario, no_plan)
     return payload
 
 
-def _no_plan(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
-    """Return why there is no plan, with the robots and vertices that block each other."""
+def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
+    """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
     return {
-        "reasons": [blockage.reason for blockage in no_plan.blockages],
-        "robots": [robot_of[name] for name in no_plan.robots],
-        "vertices": [int(scenario.roadmap.vertex(name)) for name in no_plan.vertices],
+        "count": len(no_plan.blockages),
+        "listed": [
+            {
+                "kind": "no plan",
+                "reason": blockage.reason,
+                "tick": 0,
+                "robots": [robot_of[name] for name in blockage.robots],
+                "vertices": [int(scenario.roadmap.vertex(name)) for name in blockage.vertices],
+            }
+            for blockage in no_plan.blockages[:LISTED_FAULTS]
+        ],
     }
 
 

@@ -118,7 +118,7 @@ class Card {
       this.#header(...robots.slice(0, 3).map(swatch), title),
       element("p", { className: "name wrong" }, `${this.words.fault(fault)}.`),
       element("p", {}, this.words.remedy(fault)),
-      element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`)),
+      ...(fault.reason ? [] : [element("ol", {}, this.#moment(fault.tick, `the fault (${fault.kind})`))]),
     ];
   }
 

@@ -25,7 +25,7 @@ class FaultList {
   #item(fault, index) {
     return {
       head: this.words.fault(fault),
-      detail: `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
+      detail: fault.reason ? this.words.remedy(fault) : `at ${this.words.moment(fault.tick)} · ${fault.kind}`,
       choose: () => {
         this.clock.pause();
         this.clock.seek(fault.tick);

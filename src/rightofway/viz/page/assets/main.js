@@ -104,5 +104,6 @@ new ResizeObserver(() => frames.ask()).observe(diagram.canvas);
 const linked = deepLink.read();
 mapView.viewport.fit();
 if (plan.faultCount) tabs.show(2);
+if (plan.noPlan && !linked) choice.chooseFault(0);
 frames.ask();
 if (!linked && !plan.faultCount && !EMBEDDED && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();

@@ -18,7 +18,8 @@ class Summary {
 
   /** What cannot be told in figures: faults, robots that are stuck, what repeats itself. */
   #outcome() {
-    const { faultCount, happened, steady, robots } = this.plan;
+    const { faultCount, noPlan, happened, steady, robots } = this.plan;
+    if (noPlan) return "no plan exists";
     if (faultCount) return `${counted(faultCount, "fault")}: do not run this plan`;
     if (happened) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
@@ -42,7 +43,8 @@ class Summary {
 
   /** Terms, values and explanations. */
   get figures() {
-    const { happened, steady } = this.plan;
+    const { noPlan, happened, steady } = this.plan;
+    if (noPlan) return [];
     const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
     return figures.filter(([, value]) => value);
   }

@@ -98,7 +98,8 @@ class Words {
   }
 
   /** What is wrong, in a sentence. */
-  fault({ kind, robots, vertices }) {
+  fault({ kind, robots, vertices, reason }) {
+    if (reason) return reason.replace(/ \([^()]*\)$/, "");
     const names = robots.map((robot) => this.robot(robot));
     const places = vertices.map((vertex) => this.vertex(vertex));
     const [who, where] = [several(names), several(places) ?? "a place that is not on the map"];
@@ -119,7 +120,9 @@ class Words {
   }
 
   /** What would be right, in a sentence. */
-  remedy({ kind }) {
+  remedy({ kind, reason }) {
+    const [, advice] = reason?.match(/ \(([^()]*)\)$/) ?? [];
+    if (advice) return `${advice[0].toUpperCase()}${advice.slice(1)}.`;
     return {
       "vertex conflict": "A place holds one robot: let one come when the other has left.",
       headway: "Let the second robot come later: the rules ask for a headway.",

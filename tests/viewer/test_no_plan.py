@@ -1,0 +1,24 @@
+"""The page of a fleet that has no plan: who blocks whom, and where."""
+
+import pytest
+
+import rightofway
+from rightofway.errors import NoPlanExists
+from rightofway.planners.impossible import fleet_at_home
+from tests.builders.fleets import grid_fleet
+from tests.viewer.conftest import Opener
+
+
+def test_the_page_of_a_blocked_fleet_marks_robots_and_places_and_says_why(show: Opener) -> None:
+    """R1 and R2 change places in the upper corridor; R3 is alone in the lower one."""
+    scenario = grid_fleet(["...", "@@@", "..."], [("N0", "N2"), ("N2", "N0"), ("N6", "N8")])
+    with pytest.raises(NoPlanExists) as caught:
+        rightofway.solve(scenario)
+    viewer = show(fleet_at_home(scenario), no_plan=caught.value)
+    assert "no plan exists" in viewer.text("#headline")
+    assert viewer.ask("choice.faulty") == [0, 1]
+    assert viewer.ask("choice.fault.vertices") == [0, 1, 2]
+    card = viewer.text("#card")
+    assert "both have to pass N0, N1 and N2." in card
+    assert "Give more room there." in card
+    assert viewer.complaints == []
