@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.viz import write_page
+from rightofway.viz import Background, write_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -98,10 +98,11 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         *,
         steady: Sequence[SteadyState] = (),
         actual: ExecutionTrace | None = None,
+        background: Background | None = None,
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
-        write_page(plan, path, steady=steady, actual=actual)
+        write_page(plan, path, steady=steady, actual=actual, background=background)
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")
