@@ -58,7 +58,7 @@ if _TYPE_CHECKING:
     from rightofway.execution import Outcome, simulate
     from rightofway.io import load, load_plan, write_plan, write_scenario
     from rightofway.metrics import Metrics, lost_time, measure, waits
-    from rightofway.viz import Film, write_gif, write_page, write_png
+    from rightofway.viz import Background, Film, write_gif, write_page, write_png
     from rightofway.viz.palette import Theme
 
 __version__ = "0.1.0"
@@ -68,13 +68,14 @@ _ROOMS = {
     "execution": ("Outcome", "simulate"),
     "io": ("load", "load_plan", "write_plan", "write_scenario"),
     "metrics": ("Metrics", "lost_time", "measure", "waits"),
-    "viz": ("Film", "write_gif", "write_page", "write_png"),
+    "viz": ("Background", "Film", "write_gif", "write_page", "write_png"),
     "viz.palette": ("Theme",),
 }
 _LATER = {name: room for room, names in _ROOMS.items() for name in names}
 
 __all__ = [
     "AutoOptions",
+    "Background",
     "CyclicResult",
     "Decision",
     "ExecutionTrace",

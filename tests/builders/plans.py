@@ -20,6 +20,7 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
+    Units,
     VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
@@ -36,6 +37,7 @@ __all__ = [
     "door",
     "hostile",
     "loop",
+    "yard",
 ]
 
 DOOR = ("...", "@.@", "...")
@@ -246,4 +248,30 @@ def delayed(plan: Plan, every: int = 9) -> ExecutionTrace:
         drive=tuple(drives),
         completion=tuple(Tick(int(track.enter[-1])) for track in tracks),
         stoppages=tuple(stoppages),
+    )
+
+
+def yard() -> Plan:
+    """Return two robots on a roadmap in metres: dock to gate both ways, then round one way."""
+    lengths = {
+        ("dock", "gate"): 4, ("gate", "dock"): 4, ("gate", "press"): 3, ("press", "paint"): 4,
+        ("paint", "dock"): 3,
+    }  # fmt: skip
+    roadmap = roadmap_of_edges(
+        {"dock": (0, 0), "gate": (4, 0), "press": (4, 3), "paint": (0, 3)},
+        [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
+    )
+    robots = (
+        Robot(
+            name="porter", home=roadmap.vertex("dock"), stops=(Stop(at=roadmap.vertex("press")),)
+        ),
+        Robot(name="runner", home=roadmap.vertex("gate"), stops=(Stop(at=roadmap.vertex("dock")),)),
+    )
+    return Plan(
+        scenario=Scenario(roadmap=roadmap, robots=robots, units=Units(length="m", time="s")),
+        tracks=(
+            Track.of([0, 1, 2, 3, 0], [0, 8, 11, 15, 18]),
+            Track.of([1, 0, 1], [0, 4, 8]),
+        ),
+        run=PlannerRun(name="by hand"),
     )

@@ -191,6 +191,8 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", "nowhere.yaml", "-o", "-", "--json"], "--json and -o - both go to"),
         (["plan", "nowhere.yaml", "--json", "--table"], "--table is for people, --json for"),
         (["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"], "--tick and --diagram are for"),
+        (["show", "nowhere.yaml", "-o", "a.gif", "--background", "b.png"], "is for pages (give"),
+        (["show", "nowhere.yaml", "--page", "a.html", "--background-scale", "2"], "needs --back"),
         (["plan", EXAMPLES / "door.yaml", "--page", "no/page.html"], "no/page.html"),
         (["show", EXAMPLES / "door.yaml", "-o", "door.jpg"], "'door.jpg' does not end in .html,"),
         (["table", EXAMPLES / "door.yaml"], "is a scenario, not a plan (plan it first)"),
@@ -216,6 +218,13 @@ def test_every_fault_of_a_scenario_is_told_with_its_file(cli: Cli) -> None:
     assert len(lines) == 2
     assert lines[0].startswith("bad.yaml:4: robots[0] (R1): speed: 0 is not positive")
     assert lines[1].startswith("bad.yaml:5: robots[1] (R2): home: ")
+
+
+def test_show_lays_a_picture_under_the_map_of_the_page(cli: Cli, door: Path) -> None:
+    cli("show", door, "-o", "hall.png")
+    options = ("--background", "hall.png", "--background-scale", "0.01")
+    assert cli("show", door, "--page", "a.html", *options).code == 0
+    assert '"background":{"href":"data:image/png;base64,' in Path("a.html").read_text("utf-8")
 
 
 def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:

@@ -18,7 +18,7 @@ import pytest
 
 from rightofway.errors import NoPlanExists
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.viz import write_page
+from rightofway.viz import Background, write_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -100,10 +100,13 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         steady: Sequence[SteadyState] = (),
         actual: ExecutionTrace | None = None,
         no_plan: NoPlanExists | None = None,
+        background: Background | None = None,
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
-        write_page(plan, path, steady=steady, actual=actual, no_plan=no_plan)
+        write_page(
+            plan, path, steady=steady, actual=actual, no_plan=no_plan, background=background
+        )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

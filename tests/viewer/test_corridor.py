@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 
-from tests.builders.plans import crowd, door, loop
+from tests.builders.plans import crowd, door, loop, yard
 from tests.viewer.conftest import Opener, Viewer
-from tests.viewer.test_map import yard
 
 
 def entries(viewer: Viewer, route: list[int]) -> list[list[Any]]:
@@ -75,6 +74,7 @@ def test_names_of_rows_never_collide(show: Opener, fragment: str, robots: int) -
 def test_a_corridor_is_the_shortest_way_between_two_places(show: Opener) -> None:
     viewer = show(door())
     viewer.page.click("#corridor")
+    viewer.wait_for("!frames.asked")
     assert "press the place on the map where it begins" in viewer.text("#diagram-title")
     box = viewer.page.locator("#map").bounding_box()
     assert box

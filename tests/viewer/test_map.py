@@ -2,53 +2,19 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
-from rightofway.model import (
-    Edge,
-    Plan,
-    PlannerRun,
-    Robot,
-    Scenario,
-    Stop,
-    Track,
-    Units,
-    roadmap_of_edges,
-)
-from tests.builders.plans import crowd, door, loop
-from tests.viewer.conftest import Opener, Viewer
+from rightofway.model import Plan
+from rightofway.viz import Background
+from tests.builders.plans import crowd, door, loop, yard
+from tests.viewer.conftest import Opener, Viewer, pixel
 
 SIZES = [(1600, 1000), (1280, 720), (390, 844)]
-
-
-def yard() -> Plan:
-    """Return two robots on a roadmap in metres: dock to gate both ways, then round one way."""
-    lengths = {
-        ("dock", "gate"): 4, ("gate", "dock"): 4, ("gate", "press"): 3, ("press", "paint"): 4,
-        ("paint", "dock"): 3,
-    }  # fmt: skip
-    roadmap = roadmap_of_edges(
-        {"dock": (0, 0), "gate": (4, 0), "press": (4, 3), "paint": (0, 3)},
-        [Edge(tail=u, head=w, length=Fraction(length)) for (u, w), length in lengths.items()],
-    )
-    robots = (
-        Robot(
-            name="porter", home=roadmap.vertex("dock"), stops=(Stop(at=roadmap.vertex("press")),)
-        ),
-        Robot(name="runner", home=roadmap.vertex("gate"), stops=(Stop(at=roadmap.vertex("dock")),)),
-    )
-    return Plan(
-        scenario=Scenario(roadmap=roadmap, robots=robots, units=Units(length="m", time="s")),
-        tracks=(
-            Track.of([0, 1, 2, 3, 0], [0, 8, 11, 15, 18]),
-            Track.of([1, 0, 1], [0, 4, 8]),
-        ),
-        run=PlannerRun(name="by hand"),
-    )
 
 
 def labels(viewer: Viewer) -> list[dict[str, Any]]:
@@ -79,11 +45,11 @@ def test_no_name_covers_another(show: Opener, plan: Plan, width: int, height: in
 
 
 def test_fifty_robots_have_their_names_at_once(show: Opener) -> None:
-    viewer = show(crowd(50), "#tick=30", viewport={"width": 1600, "height": 1000})
+    viewer = show(crowd(50), "#tick=80", viewport={"width": 1600, "height": 1000})
     named = {label["name"] for label in labels(viewer)}
     assert (
         len([name for name in named if name.startswith("Robot ")]) >= 40
-    )  # some stand one over another
+    )  # some stand one on another
 
 
 def test_robots_and_places_of_a_roadmap_have_their_names(show: Opener) -> None:
@@ -173,3 +139,16 @@ def test_a_heat_map_leaves_tools_and_map_where_they_are(show: Opener) -> None:
     viewer.page.keyboard.press("h")
     assert viewer.page.locator("#heat-legend").is_visible()
     assert viewer.ask(where) == before
+
+
+def test_a_picture_lies_under_the_map(show: Opener, tmp_path: Path) -> None:
+    """The right half of the picture is black; cells are white without it."""
+    picture = Image.new("L", (30, 30), 255)
+    picture.paste(0, (15, 0, 30, 30))
+    picture.save(tmp_path / "hall.png")
+    viewer = show(door(), background=Background(picture=tmp_path / "hall.png", opacity=1))
+    viewer.wait_for("mapView.base.paintings > 1 && !frames.asked")
+    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
+    floor = {x: pixel(viewer, "map", left + x * scale, top + scale)[0] for x in (0.7, 1.3)}
+    assert floor == {0.7: 255, 1.3: 0}
+    assert viewer.requests == []  # the picture is in the page

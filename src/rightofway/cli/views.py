@@ -23,6 +23,7 @@ from rightofway.cli.terminal import (
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
+    from rightofway.viz import Background
 
 LIMIT = 10
 """Time limit of planning a scenario that is to be shown [s]."""
@@ -106,6 +107,12 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.option("--tick", type=click.IntRange(0), metavar="TICK",
               help="Tick that the picture shows; the start by default.")  # fmt: skip
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
+@click.option("--background", type=click.Path(), metavar="PICTURE",
+              help="Picture under the map of the page, its lower left corner on the map's.",
+              )  # fmt: skip
+@click.option("--background-scale", type=float, metavar="LENGTH",
+              help="Length of a pixel of the background; by default it is as wide as the map.",
+              )  # fmt: skip
 def show(
     *,
     plan: str,
@@ -114,6 +121,8 @@ def show(
     page: str | None,
     tick: int | None,
     diagram: bool,
+    background: str | None,
+    background_scale: float | None,
 ) -> None:
     """Show a plan as a page that plays it, a picture or a film.
 
@@ -128,27 +137,42 @@ def show(
     is_picture = Path(output or "").suffix.lower() == ".png"
     if not is_picture and (diagram or tick is not None):
         raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
+    under = _background(background, background_scale, [page, output])
     found = read_either(plan, count)
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
             found = solve(found, time_limit=LIMIT, report=report)
         say(f"{plan}: {planning(found, found.scenario.quantities)}")
     if page:
-        _write(found, page)
+        _write(found, page, under)
     if output == "-":
         from rightofway.viz import page_of
 
-        click.echo(page_of(found), nl=False)
+        click.echo(page_of(found, background=under), nl=False)
     elif is_picture:
         from rightofway.viz import write_png
 
         write_png(found, output or "", tick, diagram=diagram)
         say(f"wrote {output}")
     elif output:
-        _write(found, output)
+        _write(found, output, under)
 
 
-def _write(found: Plan, path: str) -> None:
+def _background(
+    picture: str | None, scale: float | None, outputs: list[str | None]
+) -> Background | None:
+    from rightofway.viz import Background
+
+    if picture is None:
+        if scale is not None:
+            raise click.UsageError("--background-scale needs --background PICTURE")
+        return None
+    if not any(it and (it == "-" or it.lower().endswith(PAGE_SUFFIXES)) for it in outputs):
+        raise click.UsageError("--background is for pages (give --page FILE)")
+    return Background(picture=picture, scale=scale)
+
+
+def _write(found: Plan, path: str, background: Background | None) -> None:
     """Write a film or a page."""
     from rightofway.viz import write_gif, write_page
 
@@ -156,5 +180,5 @@ def _write(found: Plan, path: str) -> None:
         film = write_gif(found, path)
         say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
     else:
-        write_page(found, path)
+        write_page(found, path, background=background)
     say(f"wrote {path}")

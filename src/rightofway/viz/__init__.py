@@ -10,17 +10,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from rightofway.viz.page.background import Background
     from rightofway.viz.page.document import frame_of, page_of, write_page
     from rightofway.viz.page.payload import payload_of
     from rightofway.viz.raster.picture import Film, write_gif, write_png
 
 _MODULES = {
+    "page.background": ("Background",),
     "page.document": ("frame_of", "page_of", "write_page"),
     "page.payload": ("payload_of",),
     "raster.picture": ("Film", "write_gif", "write_png"),
 }
 
 __all__ = [
+    "Background",
     "Film",
     "frame_of",
     "page_of",

@@ -19,6 +19,7 @@ from importlib.resources import files
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
+from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.palette import DARK, LIGHT
 
@@ -49,6 +50,7 @@ def page_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
+    background: Background | None = None,
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
 
@@ -65,6 +67,8 @@ def page_of(
         Why the fleet has no plan; ``plan`` then holds every robot at its home.
     title
         What the page is about, usually the name of the file; its heading begins with it.
+    background
+        A picture under the map.
 
     Returns
     -------
@@ -74,7 +78,7 @@ def page_of(
     Raises
     ------
     InputError
-        If ``steady`` or ``actual`` are not of this plan.
+        If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
     """
     themes = (
         f":root{{{LIGHT.css()}}}",
@@ -86,7 +90,14 @@ def page_of(
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
     allowed = " ".join(map(_hash, scripts))
-    payload = payload_of(plan, steady=steady, actual=actual, no_plan=no_plan, title=title)
+    payload = payload_of(
+        plan,
+        steady=steady,
+        actual=actual,
+        no_plan=no_plan,
+        title=title,
+        background=background,
+    )
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": "default-src 'none'; img-src data:; "
@@ -107,12 +118,13 @@ def write_page(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
+    background: Background | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title
+    plan, steady, actual, no_plan, title, background
         As for `page_of`.
     path
         Where, usually ``….html``.
@@ -122,7 +134,14 @@ def write_page(
     InputError
         As for `page_of`, or if the file cannot be written.
     """
-    page = page_of(plan, steady=steady, actual=actual, no_plan=no_plan, title=title)
+    page = page_of(
+        plan,
+        steady=steady,
+        actual=actual,
+        no_plan=no_plan,
+        title=title,
+        background=background,
+    )
     write_whole(path, page)
 
 

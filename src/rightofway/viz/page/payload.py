@@ -32,6 +32,7 @@ from rightofway.model import (
 )
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
+from rightofway.viz.page.background import Background, background_data
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import Plane, edge_length, plane_of, vertices_in_line
 
@@ -55,12 +56,13 @@ def payload_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
+    background: Background | None = None,
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title
+    plan, steady, actual, no_plan, title, background
         As for `page_of`; times in the result are ticks.
 
     Raises
@@ -97,6 +99,8 @@ def payload_of(
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
+    if background is not None:
+        payload["map"]["background"] = background_data(scenario.roadmap, background)
     if actual is not None:
         payload["floor"] = _execution(plan, actual, trips)
     if no_plan is not None:

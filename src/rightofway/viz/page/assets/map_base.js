@@ -17,7 +17,10 @@ class MapBase {
     context.translate(left, top);
     context.scale(scale, scale);
     if (this.plan.roadmap.rows) this.#grid(context);
-    else this.#network(context);
+    else {
+      this.#picture(context);
+      this.#network(context);
+    }
     if (this.choice.heat) this.#heat(context);
     this.bottleneck.paintMap(context, scale);
     this.#corridor(context, this.choice.corridor ?? this.choice.picked ?? []);
@@ -31,18 +34,37 @@ class MapBase {
     return length / this.viewport.scale;
   }
 
+  /** The picture under the map; the map is painted again once that is there. */
+  #picture(context) {
+    const { background } = this.plan.roadmap;
+    if (!background) return;
+    if (!this.image) {
+      this.image = new Image();
+      this.image.addEventListener("load", () => this.viewport.tell("view"));
+      this.image.src = background.href;
+    }
+    if (!this.image.complete) return;
+    const isDark = inkOn(this.theme.paper) === "#ffffff"; // a white floor plan would glare there
+    context.globalAlpha = background.opacity * (isDark ? 0.4 : 1);
+    context.drawImage(this.image, background.x, background.y, background.width, background.height);
+    context.globalAlpha = 1;
+  }
+
   #grid(context) {
     const { width, height, rows } = this.plan.roadmap;
     context.fillStyle = this.theme.floor;
     context.fillRect(-0.5, -0.5, width, height);
+    this.#picture(context);
     if (this.viewport.scale >= RULED_CELL) this.#rules(context, width, height);
     context.fillStyle = this.theme.wall;
+    context.globalAlpha = this.plan.roadmap.background ? 0.6 : 1;
     rows.forEach((row, y) => {
       for (const run of row.matchAll(/[^.]+/g)) {
         const more = y + 1 < height ? this.#pixels(0.6) : 0; // no hairline between two rows
         context.fillRect(run.index - 0.5, y - 0.5, run[0].length, 1 + more * (rows[y + 1]?.[run.index] !== "."));
       }
     });
+    context.globalAlpha = 1;
     context.strokeStyle = this.theme.wall;
     context.lineWidth = this.#pixels(1);
     context.strokeRect(-0.5, -0.5, width, height);
