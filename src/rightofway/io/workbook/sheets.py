@@ -278,7 +278,8 @@ def _keep(sheet: Sheet, position: Position, value: Any, kind: str, faults: Fault
         faults.note(place, f"holds the error {value} (mend it)")
     elif isinstance(value, datetime | date | time | timedelta):
         message = (
-            f"{str(value).removesuffix(' 00:00:00')} is a date or a time; spreadsheets make dates of entries like 1/2"
+            f"{str(value).removesuffix(' 00:00:00')} is a date or a time; spreadsheets make dates"
+            " of entries like 1/2"
             " (format the cell as text and write 1/2, or write 0.5)"
         )
         faults.note(place, message)
