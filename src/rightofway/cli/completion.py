@@ -18,7 +18,7 @@ from rightofway.planners import PlannerSpec, registered
 
 Completer = Callable[[click.Context, click.Parameter, str], list[CompletionItem[str]]]
 
-SCENARIOS = (".yaml", ".yml", ".json", ".scen")
+SCENARIOS = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 """Endings of the files that have a scenario."""
 
 PLANS = (".json",)

@@ -36,7 +36,17 @@ def _write_commented(path: str) -> None:
     write_whole(path, template.replace("{file}", path))
 
 
-TEMPLATES: dict[str, Callable[[str], None]] = {".yaml": _write_commented, ".yml": _write_commented}
+def _write_workbook(path: str) -> None:
+    from rightofway.io.workbook import write_template
+
+    write_template(path)
+
+
+TEMPLATES: dict[str, Callable[[str], None]] = {
+    ".yaml": _write_commented,
+    ".yml": _write_commented,
+    ".xlsx": _write_workbook,
+}
 """For each ending of a scenario file the function that writes its template."""
 
 

@@ -21,7 +21,7 @@ Examples:
   rightofway convert hall.yaml -o hall.scen
 """
 
-SUFFIXES = (".yaml", ".yml", ".json", ".scen")
+SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
 
 @click.command(epilog=EXAMPLES, short_help="Write a scenario in another format.")
@@ -31,10 +31,10 @@ SUFFIXES = (".yaml", ".yml", ".json", ".scen")
 @click.option("-o", "--output", metavar="TARGET", callback=writable(*SUFFIXES),
               help="File to write, the same as the argument TARGET; - prints YAML.")  # fmt: skip
 def convert(source: str, target: str | None, count: int | None, output: str | None) -> None:
-    """Write the scenario SOURCE as .yaml, .json, or .scen with its .map beside it.
+    """Write the scenario SOURCE as .yaml, .json, .xlsx, or .scen with its .map.
 
-    A .yaml or .json file contains the map. A .scen file has no speeds, work times, turning times
-    and ways home; the command reports which of these it left out.
+    A .yaml, .json or .xlsx file contains the map. A .scen file has no speeds, work times, turning
+    times and ways home; the command reports which of these it left out.
     """
     from rightofway.io import scenario_text, write_scenario
 

@@ -24,7 +24,16 @@ def _write_json(plan: Plan, path: str) -> None:
     write_plan(plan, path)
 
 
-PLAN_WRITERS: dict[str, Callable[[Plan, str], None]] = {".json": _write_json}
+def _write_result(plan: Plan, path: str) -> None:
+    from rightofway.viz.table.result import write_result
+
+    write_result(plan, path)
+
+
+PLAN_WRITERS: dict[str, Callable[[Plan, str], None]] = {
+    ".json": _write_json,
+    ".xlsx": _write_result,
+}
 """For each ending of -o, where the result is a plan, the function that writes it.
 
 The functions import what they need when they are called: help and completion read this table.
@@ -36,7 +45,6 @@ INSTEAD = {
     ".png": "for a picture: rightofway show PLAN -o {}",
     ".gif": "for a film: rightofway show PLAN -o {}",
     ".csv": "for a table: rightofway table PLAN -o {}",
-    ".xlsx": "for a table: rightofway table PLAN -o {}",
 }
 """What to do for an ending that -o does not take where the result is a plan."""
 

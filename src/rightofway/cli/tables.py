@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import as_json_option, put_json, read_either, say, width, writable
+from rightofway.cli.completion import PLANS, SCENARIOS, files, planners
+from rightofway.cli.terminal import (
+    as_json_option,
+    put_json,
+    quantities_of,
+    read_either,
+    say,
+    ticks_option,
+    width,
+    writable,
+)
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,6 +35,7 @@ Examples:
   rightofway table plan.json -o plan.xlsx --robots R1,R2
   rightofway table plan.json --events -o events.csv
   rightofway table plan.json --decision 1
+  rightofway table plan.json --all -o result.xlsx
 """
 
 COLLISIONS_EXAMPLES = """\b
@@ -53,25 +64,14 @@ class _Time(click.ParamType[Fraction]):
         return number
 
 
-def _file(*suffixes: str) -> Callable[[click.Context, click.Parameter, Any], Any]:
-    """Return the callback of ``-o``: a file with one of these endings, or ``-``."""
-    check = writable(*suffixes)
-
-    def callback(context: click.Context, parameter: click.Parameter, path: str | None) -> Any:
-        return path if path == "-" else check(context, parameter, path)
-
-    return callback
-
-
 def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that choose what is shown."""
     for option in (
-        click.option("--ticks", "in_ticks", is_flag=True,
-                     help="Write and read times in ticks, the program's unit of time."),
+        ticks_option,
         click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
         click.option("--to", "last", type=_Time(), metavar="TIME", help="Last time shown."),
         click.option("--from", "first", type=_Time(), default="0", metavar="TIME",
-                     help="First time shown, in the scenario's unit."),
+                     help="First time shown, in the scenario's unit, or in ticks with --ticks."),
     ):  # fmt: skip
         command = option(command)
     return command
@@ -92,7 +92,7 @@ def _shown(
 ) -> _Shown:
     from rightofway.viz.table import end_of
 
-    quantities = replace(plan.scenario.quantities, in_ticks=in_ticks)
+    quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
     names = [name.strip() for name in robots.split(",")] if robots else None
     tick = Fraction(1) if in_ticks else quantities.tick
     end = end_of(plan, names)
@@ -110,9 +110,9 @@ def _shown(
 
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is, when.")
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @click.option("-o", "--output", metavar="FILE",
-              callback=_file(".txt", ".csv", ".xlsx", ".parquet"),
+              callback=writable(".txt", ".csv", ".xlsx", ".parquet"),
               help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
                    " output.")  # fmt: skip
 @click.option("--events", is_flag=True,
@@ -120,6 +120,9 @@ def _shown(
                    " waits for.")  # fmt: skip
 @click.option("--decision", type=click.IntRange(1), metavar="N",
               help="Show both movement groups of the planner's N-th decision.")  # fmt: skip
+@click.option("--all", "everything", is_flag=True,
+              help="Write everything to a workbook: summary, table, diagram, events, collisions,"
+                   " decisions.")  # fmt: skip
 @_shown_options
 @as_json_option("table")
 def table(
@@ -128,6 +131,7 @@ def table(
     output: str | None,
     events: bool,
     decision: int | None,
+    everything: bool,
     as_json: bool,
     **given: Any,
 ) -> None:
@@ -138,13 +142,21 @@ def table(
     """
     from rightofway.io import load_plan
 
-    if events and decision is not None:
-        raise click.UsageError("--events and --decision are two tables: choose one")
+    if events + everything + (decision is not None) > 1:
+        raise click.UsageError("--all, --events and --decision are different: choose one")
+    if everything and Path(output or "").suffix.lower() != ".xlsx":
+        raise click.UsageError("--all is for a workbook (add -o FILE.xlsx)")
     if Path(output or "").suffix.lower() == ".parquet" and not events:
         raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
     if as_json and output == "-":
         raise click.UsageError("--json and -o - both go to standard output")
     found = load_plan(plan)
+    if everything:
+        from rightofway.viz.table.result import write_result
+
+        write_result(found, output or "")
+        say(f"wrote {output}")
+        return
     if events:
         _events(found, _shown(found, **given), output, as_json=as_json)
         return
@@ -312,14 +324,15 @@ def _group_words(
 
 
 @click.command(epilog=COLLISIONS_EXAMPLES, short_help="List where robots meet that never wait.")
-@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN")
-@click.option("-o", "--output", metavar="FILE", callback=_file(".txt", ".csv", ".xlsx"),
+@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
+@click.option("-o", "--output", metavar="FILE", callback=writable(".txt", ".csv", ".xlsx"),
               help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
 @click.option("--each-tick", is_flag=True,
               help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
-@click.option("--planner", metavar="NAME",
+@click.option("--planner", metavar="NAME", shell_complete=planners(improving=False),
               help="Plan a scenario first, and list each decision too.")  # fmt: skip
-@click.option("--ticks", "in_ticks", is_flag=True, help="Write times in ticks.")
+@ticks_option
 @as_json_option("list")
 def collisions(
     *,
@@ -348,7 +361,7 @@ def collisions(
     plan = None if isinstance(found, Scenario) else found
     scenario = found if isinstance(found, Scenario) else found.scenario
     tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
-    quantities = replace(scenario.quantities, in_ticks=in_ticks)
+    quantities = quantities_of(scenario, in_ticks=in_ticks)
     listed = meetings(scenario, tracks)
     if each_tick:
         end = max(completions_of(scenario, tracks))

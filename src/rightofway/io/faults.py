@@ -47,6 +47,11 @@ class Faults:
         """Note one fault."""
         self._faults.append(InputFault(place, message))
 
+    @property
+    def found(self) -> tuple[InputFault, ...]:
+        """The faults noted so far."""
+        return tuple(self._faults)
+
     def stop(self, order: Iterable[str] = ()) -> None:
         """Raise the noted faults, if there are any: each once, in the order of the keys given."""
         if not self._faults:

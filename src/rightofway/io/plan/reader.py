@@ -13,7 +13,13 @@ from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
 from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import LoadedMap
-from rightofway.io.scenario.reader import Loaded, load_with_notes, read_scenario, refuse_count
+from rightofway.io.scenario.reader import (
+    WORKBOOKS,
+    Loaded,
+    load_with_notes,
+    read_scenario,
+    refuse_count,
+)
 from rightofway.model import (
     Decision,
     Plan,
@@ -54,6 +60,9 @@ def load_plan(path: Path | str) -> Plan:
         at fault here: `rightofway.check` judges it.
     """
     path = Path(path)
+    if path.suffix.lower() in WORKBOOKS:
+        message = "a workbook holds a scenario, not a plan (plan it first)"
+        raise InputError.at("", message, str(path))
     with document_of(path) as document:
         return plan_of(document)
 
@@ -64,7 +73,7 @@ def load_either(path: Path | str, count: int | None = None) -> Plan | Loaded:
     Parameters
     ----------
     path
-        A plan or scenario as JSON, or a scenario as YAML or `.scen`.
+        A plan or scenario as JSON, or a scenario as YAML, workbook or `.scen`.
     count
         As for `load`.
 
@@ -74,7 +83,7 @@ def load_either(path: Path | str, count: int | None = None) -> Plan | Loaded:
         As `load_plan` and `load` do.
     """
     path = Path(path)
-    if path.suffix.lower() == ".scen":
+    if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
     with document_of(path) as document:
         refuse_count(count)

@@ -19,6 +19,7 @@ from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
+from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -33,6 +34,9 @@ MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
 
 DEFAULT_SPEED = Fraction(1)
+
+WORKBOOKS = (".xlsx", ".xlsm")
+"""How the names of workbooks end."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -60,8 +64,8 @@ def load(path: Path | str, count: int | None = None) -> Scenario:
     Parameters
     ----------
     path
-        A scenario as YAML or JSON; or a `.scen` file, which is classic MAPF: unit speeds, no work,
-        no turning, no way back, the map beside it or in ``../maps``.
+        A scenario as YAML or JSON; a workbook (`.xlsx`); or a `.scen` file, which is classic MAPF:
+        unit speeds, no work, no turning, no way back, the map beside it or in ``../maps``.
     count
         Number of robots: the first rows of a `.scen` file; None for all. Other files say
         themselves how many robots they have.
@@ -80,7 +84,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     Parameters
     ----------
     path
-        A scenario as YAML or JSON, or a `.scen` file.
+        A scenario as YAML or JSON, a workbook or a `.scen` file.
     count
         As for `load`.
     """
@@ -88,6 +92,11 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     if path.suffix.lower() == ".scen":
         with blaming(str(path)):
             return _classic(path, count)
+    if path.suffix.lower() in WORKBOOKS:
+        from rightofway.io.workbook import load_workbook_scenario
+
+        refuse_count(count)
+        return load_workbook_scenario(path)
     with document_of(path) as document:
         refuse_count(count)
         return read_scenario(document, path.parent)
@@ -148,6 +157,11 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         return found and replace(found, units=units)
 
     document = checked_format(document, SCENARIO_FORMAT)
+    given = document.get("robots")
+    if isinstance(given, dict) and "table" in given:
+        table = _robots_in_table(given, base)
+        with table.naming_cells():
+            return read_scenario({**document, "robots": table.part}, base)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", rules_of) or Rules()
@@ -166,6 +180,17 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
+
+
+def _robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
+    """Return the robots of a CSV file that the document names."""
+    from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
+
+    with under("robots"):
+        name = checked(RobotTableDocument, data).table
+        with under("table"):
+            known = [field.alias or key for key, field in RobotDocument.model_fields.items()]
+            return robots_of_csv(file_beside(base, name), known)
 
 
 def _classic(path: Path, count: int | None) -> Loaded:
@@ -218,7 +243,8 @@ def _written_robots(data: Any, base: Path | None) -> Sequence[Any] | _Rows:
     if isinstance(data, list) and data:
         return data
     if not isinstance(data, dict):
-        message = f"{shown(data)} is no fleet (give a list of robots, or {{scen: a file}})"
+        remedy = "give a list of robots, {scen: a file} or {table: a file}"
+        message = f"{shown(data)} is no fleet ({remedy})"
         raise InputError.at("", message)
     document = checked(FleetDocument, data)
     with under("scen"):

@@ -212,6 +212,12 @@ class FleetDocument(TripDocument):
     work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
 
 
+class RobotTableDocument(Document):
+    """Robots from the rows of a CSV file, with the keys of a robot as headings."""
+
+    table: Name = Field(description="a .csv file, relative to the scenario's own")
+
+
 class RulesDocument(TripDocument):
     """What holds for the whole fleet."""
 
@@ -233,7 +239,7 @@ class ScenarioFrame(Document):
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     units: Any = optional("{length, time}: how reports write quantities")
-    robots: Any = Field(description="a list of robots, or {scen: file}")
+    robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
     rules: Any = optional("classic, or rules for the whole fleet")
 
 
@@ -242,7 +248,9 @@ class ScenarioDocument(ScenarioFrame):
 
     map: MapDocument = Field(description="where the fleet drives")
     units: UnitsDocument = optional("how reports write quantities")
-    robots: list[RobotDocument] | FleetDocument = Field(description="the fleet")
+    robots: list[RobotDocument] | FleetDocument | RobotTableDocument = Field(
+        description="the fleet"
+    )
     rules: Literal["classic"] | RulesDocument = optional(
         "classic (no turning, no way back), or rules for the whole fleet"
     )

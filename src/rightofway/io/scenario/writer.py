@@ -38,14 +38,14 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
 
 
 def write_scenario(scenario: Scenario, path: Path | str) -> None:
-    """Write a scenario as YAML or JSON, by the suffix of the path.
+    """Write a scenario as YAML, JSON or a workbook, by the suffix of the path.
 
     Parameters
     ----------
     scenario
         The scenario.
     path
-        A name that ends in .yaml, .yml or .json.
+        A name that ends in .yaml, .yml, .json or .xlsx.
 
     Raises
     ------
@@ -58,8 +58,13 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
         write_whole(path, json_text(document))
     elif path.suffix.lower() in {".yaml", ".yml"}:
         write_whole(path, _yaml_of(document))
+    elif path.suffix.lower() == ".xlsx":
+        from rightofway.io.workbook.writer import workbook_of
+
+        write_whole(path, workbook_of(document))
     else:
-        message = f"the suffix {path.suffix!r} is no scenario's (end the name in .yaml or .json)"
+        endings = "end the name in .yaml, .json or .xlsx"
+        message = f"the suffix {path.suffix!r} is no scenario's ({endings})"
         raise InputError.at("", message, str(path))
 
 

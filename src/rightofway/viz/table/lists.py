@@ -124,7 +124,9 @@ def meetings(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Meeting, ...]
     return tuple(sorted(rows, key=lambda row: row.start))
 
 
-def collision_list(found: Sequence[Meeting], quantities: Quantities) -> Listing:
+def collision_list(
+    found: Sequence[Meeting], quantities: Quantities, title: str = "collisions"
+) -> Listing:
     """Return collisions and swaps as a list of intervals.
 
     Parameters
@@ -133,10 +135,12 @@ def collision_list(found: Sequence[Meeting], quantities: Quantities) -> Listing:
         The rows of `meetings`.
     quantities
         How times are written.
+    title
+        A name for the list.
     """
     until = [row.until if row.until is not None else "for ever" for row in found]
     return Listing(
-        title="collisions",
+        title=title,
         columns=(
             Column(heading="robot i", values=[row.i for row in found]),
             Column(heading="robot j", values=[row.j for row in found]),

@@ -44,8 +44,8 @@ UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 def workbook_of(table: TimeSpaceTable) -> bytes:
     """Return the workbook of a table that fits into a sheet."""
     workbook = openpyxl.Workbook(write_only=True)
-    _write_table(workbook.create_sheet("time and space"), table)
-    _write_legend(workbook.create_sheet("legend"), table)
+    write_table(workbook.create_sheet("time and space"), table)
+    write_legend(workbook.create_sheet("legend"), table)
     content = io.BytesIO()
     workbook.save(content)
     return content.getvalue()
@@ -87,35 +87,37 @@ def write_list(sheet: Any, listing: Listing) -> None:
     )
     for number, (heading, column) in enumerate(zip(headings, listing.columns, strict=True), 1):
         texts = {str(value) for value in column.values if isinstance(value, str)}
-        _widen(sheet, number, number, {heading, *texts})
-    sheet.append([_cell(sheet, heading, font=BOLD) for heading in headings])
+        widen(sheet, number, number, {heading, *texts})
+    sheet.append([cell_of(sheet, heading, font=BOLD) for heading in headings])
     for row in listing.rows():
-        sheet.append([None if value is None else _cell(sheet, value) for value in row])
+        sheet.append([None if value is None else cell_of(sheet, value) for value in row])
 
 
-def _write_table(sheet: Any, table: TimeSpaceTable) -> None:
+def write_table(sheet: Any, table: TimeSpaceTable) -> None:
+    """Write a time/space table into an empty sheet, collisions, swaps and waits coloured."""
     sheet.freeze_panes = "C2"  # robots, kinds of row and ticks stay in sight
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
-    _widen(sheet, 1, 1, {"robot", *(row.robot for row in table.rows)})
-    _widen(sheet, 2, 2, set(FONTS))
-    _widen(sheet, 3, len(table.ticks) + 2, {table.time(table.last_tick), *places})
+    widen(sheet, 1, 1, {"robot", *(row.robot for row in table.rows)})
+    widen(sheet, 2, 2, set(FONTS))
+    widen(sheet, 3, len(table.ticks) + 2, {table.time(table.last_tick), *places})
     times = (_number(table.time(tick)) for tick in table.ticks)
-    sheet.append([_cell(sheet, title, font=BOLD) for title in ("robot", "row", *times)])
+    sheet.append([cell_of(sheet, title, font=BOLD) for title in ("robot", "row", *times)])
     for row in table.rows:
         font = FONTS[row.kind]
-        names = [_cell(sheet, row.robot, font=BOLD), _cell(sheet, row.kind, font=font)]
+        names = [cell_of(sheet, row.robot, font=BOLD), cell_of(sheet, row.kind, font=font)]
         cells = (
-            _cell(sheet, place, font=None if mark else font, mark=mark)
+            cell_of(sheet, place, font=None if mark else font, mark=mark)
             for place, mark in row.cells(table.first_tick, table.last_tick)
         )
         sheet.append([*names, *cells])
 
 
-def _write_legend(sheet: Any, table: TimeSpaceTable) -> None:
-    _widen(sheet, 1, 1, {name for name, *_ in LEGEND})
-    _widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
+def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
+    """Write what fonts and colours of a table mean."""
+    widen(sheet, 1, 1, {name for name, *_ in LEGEND})
+    widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     for name, meaning, font, mark in LEGEND:
-        sheet.append([_cell(sheet, name, font=font, mark=mark), meaning])
+        sheet.append([cell_of(sheet, name, font=font, mark=mark), meaning])
     lasts = replace(table.quantities, in_ticks=False).duration(1)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
 
@@ -124,7 +126,8 @@ def _number(text: str) -> int | float:
     return float(text) if "." in text else int(text)
 
 
-def _cell(sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | None = None) -> Any:
+def cell_of(sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | None = None) -> Any:
+    """Return a cell of a sheet that is written row by row; text is never a formula."""
     text = UNPRINTABLE.sub("\ufffd", value) if isinstance(value, str) else value
     cell = openpyxl.cell.WriteOnlyCell(sheet, text)
     if isinstance(text, str):
@@ -136,7 +139,7 @@ def _cell(sheet: Any, value: Place | float, *, font: Any = None, mark: Mark | No
     return cell
 
 
-def _widen(sheet: Any, first: int, last: int, texts: set[str]) -> None:
+def widen(sheet: Any, first: int, last: int, texts: set[str]) -> None:
     """Make columns as wide as their longest text."""
     letter = openpyxl.utils.get_column_letter(first)
     width = max(map(len, texts)) + 2

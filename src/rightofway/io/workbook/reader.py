@@ -1,0 +1,248 @@
+"""A workbook read as a scenario: sheets map (or vertices and edges), robots and rules."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rightofway.errors import InputError, nearest, shown
+from rightofway.io.faults import Faults, blaming, place_of
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.robot_table import Located, heading_key, robots_of_rows, value_of
+from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
+
+if TYPE_CHECKING:
+    from rightofway.io.scenario.reader import Loaded
+
+SHEETS = ("map", "robots", "rules", "vertices", "edges")
+"""Sheets that are read, by lower-case name."""
+
+MAX_CELLS = 1_000_000
+"""Cells of a map, at most."""
+
+YES_NO = {"true": True, "yes": True, "false": False, "no": False}
+
+UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}
+"""Rows of the rules sheet that are units, and their keys there."""
+
+MAP_KEYS = ("cell_size", "y", "origin", "spacing")
+"""Rows of the rules sheet that are a part of the map."""
+
+
+def load_workbook_scenario(path: Path | str) -> Loaded:
+    """Return the scenario of a workbook with the notes of its reader.
+
+    Parameters
+    ----------
+    path
+        A file that ends in .xlsx.
+
+    Raises
+    ------
+    InputError
+        With every independent fault, its sheet and cell, its value and the remedy.
+    """
+    from rightofway.io.scenario.reader import Loaded, read_scenario
+
+    path = Path(path)
+    with blaming(str(path)):
+        faults, notes = Faults(), list[str]()
+        found = _document(read_sheets(path, SHEETS, faults), faults, notes)
+        with found.naming_cells():
+            loaded = read_scenario(found.part, path.parent)
+        return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
+
+
+def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> Located:
+    """Return the scenario document of the sheets, and where each place of it stands."""
+    document: dict[str, Any] = {"format": SCENARIO_FORMAT}
+    cells: dict[str, str] = {}
+    offset = (1, 1)
+    if "map" in sheets and "vertices" in sheets:
+        faults.note("map", "a map and vertices are given (take one of the two sheets out)")
+    elif "map" in sheets:
+        grid = faults.attempt("", _grid, sheets["map"], notes)
+        if grid is not None:
+            lines, offset, grid_cells = grid
+            document["map"] = {"grid": lines}
+            cells |= grid_cells
+    elif "vertices" in sheets and "edges" in sheets:
+        drawn = faults.attempt("", _roadmap, sheets["vertices"], sheets["edges"], cells)
+        if drawn is not None:
+            document["map"] = {"roadmap": drawn}
+    else:
+        missing = "edges" if "vertices" in sheets else "map"
+        faults.note("", f"the sheet {missing} is missing (add it; `rightofway new` writes one)")
+    if "robots" in sheets:
+        robots = _robots(sheets["robots"], offset)
+        document["robots"] = robots.part
+        cells |= {"robots": sheets["robots"].name, **robots.cells}
+        for fault in robots.faults:
+            faults.note(fault.place, fault.message)
+    else:
+        faults.note("", "the sheet robots is missing (add it; `rightofway new` writes one)")
+    if "rules" in sheets:
+        _add_rules(sheets["rules"], document, cells, faults)
+        cells["rules"] = sheets["rules"].name
+    if not document.get("robots") or "map" not in document:
+        faults.stop()
+    return Located(part=document, cells=cells, faults=faults.found)
+
+
+def _grid(
+    sheet: Sheet, notes: list[str]
+) -> tuple[list[str], tuple[int, int], dict[str, str]] | None:
+    """Return the rows of a map, its first row and column, and the cells of its rows."""
+    used = sheet.values.keys() | sheet.dark.keys()
+    if not used:
+        message = "the map is empty (write . for free and @ for blocked, or fill cells)"
+        raise InputError.at(sheet.name, message)
+    top, left = min(row for row, _ in used), min(column for _, column in used)
+    bottom, right = max(row for row, _ in used), max(column for _, column in used)
+    count = (bottom - top + 1) * (right - left + 1)
+    if count > MAX_CELLS:
+        last = sheet.cell(*max(used, key=lambda each: (each[0] + each[1], each)))
+        message = (
+            f"the map reaches from {sheet.cell(top, left)} to here: {count} cells, more than"
+            f" {MAX_CELLS} (clear what stands beside the map)"
+        )
+        raise InputError.at(last, message)
+    faults, empty = Faults(), []
+    lines = []
+    for row in range(top, bottom + 1):
+        line = ""
+        for column in range(left, right + 1):
+            value = sheet.values.get((row, column))
+            if value is None:
+                dark = sheet.dark.get((row, column))
+                if dark is None:
+                    empty.append((row, column))
+                line += "@" if dark else "."
+            elif isinstance(value, str) and len(value) == 1:
+                line += value
+            else:
+                message = f"{shown(value)} is no cell of a map (write . or @, or fill the cell)"
+                faults.note(sheet.cell(row, column), message)
+        lines.append(line)
+    faults.stop()
+    if empty:
+        count_as = (
+            "empty cell of the map counts" if len(empty) == 1 else "empty cells of the map count"
+        )
+        notes.append(f"{len(empty)} {count_as} as free, the first is {sheet.cell(*empty[0])}")
+    cells = {"map": sheet.name, "map.grid": sheet.name}
+    cells |= {f"map.grid[{k}]": sheet.cell(top + k, left) for k in range(len(lines))}
+    return lines, (top, left), cells
+
+
+def _robots(sheet: Sheet, offset: tuple[int, int]) -> Located:
+    from rightofway.io.scenario.shape import RobotDocument
+
+    known = [field.alias or name for name, field in RobotDocument.model_fields.items()]
+    rows = (
+        (number, {column: _in_map(value, offset) for column, value in values.items()})
+        for number, values in sheet.rows()
+    )
+    return robots_of_rows(rows, sheet.cell, known)
+
+
+def _in_map(value: Any, offset: tuple[int, int]) -> Any:
+    """Return what a cell holds; for a reference to a cell of the map its row and column there."""
+    cell = reference(value) if isinstance(value, str) else None
+    if cell is None:
+        return value
+    return f"[{cell[0] - offset[0]}, {cell[1] - offset[1]}]"
+
+
+def _add_rules(
+    sheet: Sheet, document: dict[str, Any], cells: dict[str, str], faults: Faults
+) -> None:
+    """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
+    from rightofway.io.scenario.shape import RulesDocument
+
+    rules = [field.alias or name for name, field in RulesDocument.model_fields.items()]
+    known = [*rules, *MAP_KEYS, *UNIT_KEYS]
+    seen = set[str]()
+    parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
+    for row, values in sheet.rows():
+        name, value = values.get(1), values.get(2)
+        key = heading_key(name)
+        if key in {"rule", "rules", "key"} or name is None:
+            continue
+        if key not in known:
+            near = nearest(key, known)
+            hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
+            faults.note(sheet.cell(row, 1), f"{shown(name)} is no rule ({hint})")
+            continue
+        if key in seen:
+            faults.note(sheet.cell(row, 1), f"the rule {key} is given twice (take one out)")
+            continue
+        seen.add(key)
+        part = "units" if key in UNIT_KEYS else "map" if key in MAP_KEYS else "rules"
+        cells[f"{part}.{UNIT_KEYS.get(key, key)}"] = sheet.cell(row, 2)
+        read = (
+            faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
+        )
+        if read is not None:
+            is_word = isinstance(read, str) and key in {"rotations", "both_ways"}
+            parts[part][UNIT_KEYS.get(key, key)] = (
+                YES_NO.get(read.lower(), read) if is_word else read
+            )
+    if parts["rules"]:
+        document["rules"] = parts["rules"]
+    if parts["units"]:
+        document["units"] = parts["units"]
+    if "map" in document:
+        document["map"] |= parts["map"]
+
+
+def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, Any]:
+    """Return the roadmap of a sheet of vertices and a sheet of edges."""
+    from rightofway.io.scenario.shape import EdgeDocument
+
+    faults, positions, first_row = Faults(), dict[str, Any](), dict[str, int]()
+    for row, found in faults.attempt("", _table, vertices, ("name", "x", "y")) or ():
+        name = str(found.get("name", ""))
+        for key in ("name", "x", "y"):
+            if key not in found:
+                faults.note(vertices.cell(row, 1), f"has no {key} (give name, x and y)")
+        if name in first_row:
+            at = vertices.cell(first_row[name], 1)
+            faults.note(vertices.cell(row, 1), f"{shown(name)} is in {at} already (take one out)")
+        first_row.setdefault(name, row)
+        positions[name] = [found.get("x", 0), found.get("y", 0)]
+        cells[place_of(("map", "roadmap", "vertices", name))] = vertices.cell(row, 1)
+    known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
+    ways = list[dict[str, Any]]()
+    for row, found in faults.attempt("", _table, edges, known) or ():
+        cells[f"map.roadmap.edges[{len(ways)}]"] = edges.cell(row, 1)
+        way = {key: str(found[key]) if key in {"from", "to"} else found[key] for key in found}
+        both = way.get("both_ways")
+        if isinstance(both, str):
+            way["both_ways"] = YES_NO.get(both.lower(), both)
+        ways.append(way)
+    faults.stop()
+    cells |= {"map": vertices.name, "map.roadmap.vertices": vertices.name}
+    cells |= {"map.roadmap": vertices.name, "map.roadmap.edges": edges.name}
+    return {"vertices": positions, "edges": ways}
+
+
+def _table(sheet: Sheet, known: Any) -> list[tuple[int, dict[str, Any]]]:
+    """Return the rows of a sheet by the keys of its headings."""
+    faults, rows = Faults(), sheet.rows()
+    first, headings = next(rows, (1, {}))
+    columns = {column: heading_key(heading) for column, heading in headings.items()}
+    for column, key in columns.items():
+        if key not in known and key not in {"note", "notes", "hint"}:
+            near = nearest(key, known)
+            hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
+            faults.note(sheet.cell(first, column), f"{shown(headings[column])} is unknown ({hint})")
+    faults.stop()
+    return [
+        (
+            row,
+            {columns[each]: value for each, value in values.items() if columns.get(each) in known},
+        )
+        for row, values in rows
+    ]

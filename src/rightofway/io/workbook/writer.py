@@ -1,0 +1,226 @@
+"""Scenarios written as a workbook, with hints and lists of choices where a user fills it in."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from rightofway.files import write_whole
+from rightofway.io.formats import SCENARIO_FORMAT
+
+WALL, FREE, HEAD = "404040", "FFFFFF", "D9E2EF"
+"""Fills of blocked and free cells, and of headings."""
+
+ROWS = 1000
+"""Rows with hints, below the headings."""
+
+Hint = tuple[str, str, str]
+"""A key, what it is, and the choices with commas between, if it has a few."""
+
+ROBOT_HINTS: tuple[Hint, ...] = (
+    ("name", "a name of its own", ""),
+    ("home", "where it begins and ends: a cell of the map like map!A1, or N0, [0, 2], a name", ""),
+    ("target", "where it works, written like home; for several places use stop 1, stop 2, …", ""),
+    ("work", "how long it works there; empty is 0", ""),
+    ("speed", "length units in a time unit; empty is 1", ""),
+    ("turn", "how long it turns at a stop: cell, or a time; empty: as the rules say", ""),
+    ("return", "whether it drives home; empty: as the rules say", "home,none"),
+    ("laps", "how often it makes its round trip; empty: as the rules say", ""),
+)
+
+RULE_HINTS: tuple[Hint, ...] = (
+    ("occupancy", "both: a robot books the next place before it starts to drive there", "one,both"),
+    ("headway", "least time between two robots at one place", ""),
+    ("turn", "how long robots turn at a stop: cell (the time to drive one cell), or a time", ""),
+    ("return", "none: robots stay at their last stop", "home,none"),
+    ("laps", "how often each robot makes its round trip", ""),
+    ("rotations", "whether a ring of robots may move on at one instant", "true,false"),
+    ("cell_size", "side of a cell of the map", ""),
+    ("y", "which way y grows", "down,up"),
+    ("origin", "[x, y] of the map's lower left corner on the site", ""),
+    ("length unit", "what lengths are measured in", "mm,cm,m"),
+    ("time unit", "what times are measured in", "ms,s,min,h"),
+)
+
+HELP = (
+    "Fill in the sheets map, robots and rules, save the file, then run:",
+    "    rightofway plan FILE.xlsx --page plan.html",
+    "    rightofway plan FILE.xlsx -o result.xlsx",
+    "map: one cell of the sheet is one cell of the floor. Write . for free and @ for blocked, or",
+    "fill cells: a dark colour is blocked, no colour or a light one is free.",
+    "robots: one robot in a row. Select a cell to see what belongs there. A place is a cell of the",
+    "map (write map!A1, or type = and click on the cell), its number (N0 is the first cell, they",
+    "are counted row by row), its [row, column] from 0, or the name of a vertex.",
+    "Several stops: replace target and work by the columns stop 1, work 1, stop 2, work 2, …",
+    "Instead of map, the sheets vertices (name, x, y) and edges (from, to, length, both_ways).",
+    "rules: an empty value stands for the default. Other sheets are not read.",
+)
+
+TEMPLATE: dict[str, Any] = {
+    "format": SCENARIO_FORMAT,
+    "map": {"grid": ["...", "@.@", "..."]},
+    "robots": [
+        {"name": "R1", "home": "map!A1", "target": "map!A3"},
+        {"name": "R2", "home": "map!C1", "target": "map!C3", "speed": "1/2", "work": 3},
+    ],
+    "rules": {},
+}
+
+
+def write_template(path: Path | str) -> None:
+    """Write a small scenario as a workbook to be edited: a door, and two robots.
+
+    Parameters
+    ----------
+    path
+        Where.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    write_whole(path, workbook_of(TEMPLATE))
+
+
+def workbook_of(document: dict[str, Any]) -> bytes:
+    """Return the workbook of a scenario document.
+
+    Parameters
+    ----------
+    document
+        A document with its map inlined.
+    """
+    import openpyxl  # type: ignore[import-untyped]
+
+    workbook = openpyxl.Workbook()
+    workbook.remove(workbook.active)
+    where = document["map"]
+    if "grid" in where:
+        _write_grid(workbook.create_sheet("map"), where["grid"])
+    else:
+        _write_roadmap(workbook, where["roadmap"])
+    _write_robots(workbook.create_sheet("robots"), document["robots"])
+    given = {**document.get("rules", {}), **{key: where[key] for key in where if key != "grid"}}
+    given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
+    _write_rules(workbook.create_sheet("rules"), given)
+    sheet = workbook.create_sheet("how to")
+    sheet.column_dimensions["A"].width = 100
+    for line in HELP:
+        sheet.append([line])
+    content = io.BytesIO()
+    workbook.save(content)
+    return content.getvalue()
+
+
+def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
+    from openpyxl.styles import (  # type: ignore[import-untyped]
+        Alignment,
+        Border,
+        Font,
+        PatternFill,
+        Side,
+    )
+    from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
+
+    side = Side(style="thin", color="BFBFBF")
+    border, centre = Border(side, side, side, side), Alignment("center", "center")
+    wall, faint = PatternFill("solid", fgColor=WALL), Font(color="A6A6A6")
+    for row, line in enumerate(lines, 1):
+        for column, character in enumerate(line, 1):
+            cell = sheet.cell(row, column, character)
+            cell.border, cell.alignment, cell.font = border, centre, faint
+            if character not in ".GS":
+                cell.fill = wall
+    for column in range(1, len(lines[0]) + 1):
+        sheet.column_dimensions[get_column_letter(column)].width = 4
+    last = f"{get_column_letter(len(lines[0]))}{len(lines)}"
+    hint = "Write . for free and @ for blocked, or fill the cell: dark is blocked."
+    _add_hint(sheet, f"A1:{last}", "map", hint, ".,@", strict=False)
+
+
+def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
+    most = max((len(robot.get("stops", ())) for robot in robots), default=0)
+    stops = [f"{what} {number}" for number in range(1, most + 1) for what in ("stop", "work")]
+    hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
+    usual = [key for key in hints if not (stops and key in {"target", "work"})]
+    keys = [*usual[:2], *stops, *usual[2:]]
+    keys += sorted({key for robot in robots for key in robot} - {*keys, "stops", "target", "work"})
+    rows = []
+    for robot in robots:
+        cells = {key: _cell(value) for key, value in robot.items() if key != "stops"}
+        trip = robot.get("stops") or [{"at": robot.get("target"), "work": robot.get("work")}]
+        for number, stop in enumerate(trip if stops else (), 1):
+            cells[f"stop {number}"], cells[f"work {number}"] = stop["at"], stop.get("work")
+        rows.append([cells.get(key) for key in keys])
+    _write_table(sheet, keys, rows)
+    for column, key in enumerate(keys, 1):
+        text, choices = hints.get(key.rstrip(" 0123456789"), ("a place to work at, in order", ""))
+        letter = sheet.cell(1, column).column_letter
+        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, choices)
+
+
+def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
+    _write_table(sheet, ["rule", "value", "what it is"], [])
+    for row, (key, text, choices) in enumerate(RULE_HINTS, 2):
+        sheet.cell(row, 1, key)
+        sheet.cell(row, 2, _cell(given.get(key))).number_format = "@"
+        sheet.cell(row, 3, f"{text} ({choices.replace(',', ', ')})" if choices else text)
+        _add_hint(sheet, f"B{row}", key, text, choices)
+    for letter, width in zip("ABC", (14, 14, 80), strict=True):
+        sheet.column_dimensions[letter].width = width
+
+
+def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
+    vertices, edges = workbook.create_sheet("vertices"), workbook.create_sheet("edges")
+    rows = [[name, *position] for name, position in roadmap["vertices"].items()]
+    _write_table(vertices, ["name", "x", "y"], rows)
+    keys = ["from", "to", "length", "both_ways"]
+    ways = [[_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
+    _write_table(edges, keys, ways)
+    hint = "true: it can be driven back"
+    _add_hint(edges, f"D2:D{max(ROWS, len(ways) + 1)}", "both_ways", hint, "true,false")
+
+
+def _write_table(sheet: Any, keys: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+    """Write headings that stay in sight, and rows; columns are text, so that 1/2 is no date."""
+    from openpyxl.styles import Font, PatternFill
+
+    sheet.append(list(keys))
+    for cell in sheet[1]:
+        cell.font, cell.fill = Font(bold=True), PatternFill("solid", fgColor=HEAD)
+        sheet.column_dimensions[cell.column_letter].width = 14
+        sheet.column_dimensions[cell.column_letter].number_format = "@"
+    sheet.freeze_panes = "A2"
+    for number, row in enumerate(rows, 2):
+        for column, value in enumerate(row, 1):
+            if value is None:
+                continue
+            cell = sheet.cell(number, column, value)
+            cell.number_format = "@"
+            if isinstance(value, str):
+                cell.data_type = "s"  # a name that begins with = is no formula
+
+
+def _add_hint(
+    sheet: Any, cells: str, title: str, text: str, choices: str, *, strict: bool = True
+) -> None:
+    """Show a hint when a cell is selected, and a list of choices where there are a few."""
+    from openpyxl.worksheet.datavalidation import DataValidation  # type: ignore[import-untyped]
+
+    rule = DataValidation(type="list" if choices else None, allow_blank=True)
+    if choices:
+        rule.formula1, rule.showErrorMessage = f'"{choices}"', strict
+        rule.errorTitle, rule.error = title, f"give one of: {choices.replace(',', ', ')}"
+    rule.promptTitle, rule.prompt, rule.showInputMessage = title, text, True
+    sheet.add_data_validation(rule)
+    rule.add(cells)
+
+
+def _cell(value: Any) -> Any:
+    """Return a value of a document as a cell holds it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"[{', '.join(map(str, value))}]" if isinstance(value, list | tuple) else value

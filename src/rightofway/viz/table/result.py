@@ -1,0 +1,245 @@
+"""All of a plan in one workbook: summary, time/space table, diagram, events, collisions, decisions.
+
+The diagram is a chart of the spreadsheet itself: places over time, a line for each robot.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import openpyxl  # type: ignore[import-untyped]  # it ships no types
+from openpyxl.chart import Reference, ScatterChart, Series  # type: ignore[import-untyped]
+from openpyxl.chart.label import DataLabelList  # type: ignore[import-untyped]
+from openpyxl.chart.legend import LegendEntry  # type: ignore[import-untyped]
+
+from rightofway.errors import InputError, NoPlanExists
+from rightofway.files import write_whole
+from rightofway.metrics import free_running, lost_time, measure
+from rightofway.model import Plan
+from rightofway.viz.motion import Activity, trips_of
+from rightofway.viz.palette import robot_colours
+from rightofway.viz.placement import vertices_in_line
+from rightofway.viz.table.listing import Column, Listing
+from rightofway.viz.table.lists import collision_list, decision_list, event_list, meetings
+from rightofway.viz.table.timespace import table_of
+from rightofway.viz.table.workbook import (
+    BOLD,
+    cell_of,
+    widen,
+    write_legend,
+    write_list,
+    write_table,
+)
+from rightofway.viz.table.writing import MAX_TICKS_OF_SHEET
+
+MOST_LINES = 100
+"""Robots in the chart; a chart has 255 series, and nobody can tell more lines apart."""
+
+MOST_POINTS = 32_000
+"""Points of a line that spreadsheets draw."""
+
+CHART_SIZE = (32, 17)
+"""Width and height of the chart [cm]."""
+
+LABEL_GREY, GRID_GREY = "5D646C", "E3E1DA"
+
+
+def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
+    """Write all that is known of a plan as an Excel workbook.
+
+    Parameters
+    ----------
+    plan
+        The plan; its faults are marked in the table and listed with the collisions.
+    path
+        Where.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written; one that was there before is untouched.
+
+    Notes
+    -----
+    A sheet that would be too large is left out, and the summary says so.
+    """
+    write_whole(path, result_of(plan))
+
+
+def result_of(plan: Plan) -> bytes:
+    """Return the workbook of `write_result`."""
+    workbook = openpyxl.Workbook(write_only=True)
+    summary = workbook.create_sheet("summary")
+    left_out: list[tuple[str, str]] = []
+    try:
+        table = table_of(plan)
+        table.refuse_more_than(MAX_TICKS_OF_SHEET)
+        write_table(workbook.create_sheet("time and space"), table)
+        write_legend(workbook.create_sheet("legend"), table)
+    except InputError as error:
+        left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
+    _write_diagram(workbook, plan)
+    quantities = plan.scenario.quantities
+    free = meetings(plan.scenario, free_running(plan))
+    for listing in (
+        event_list(plan),
+        collision_list(free, quantities),
+        collision_list(meetings(plan.scenario, plan.tracks), quantities, "left in the plan"),
+        decision_list(plan),
+    ):
+        try:
+            write_list(workbook.create_sheet(listing.title), listing)
+        except InputError as error:
+            left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
+    _write_summary(summary, plan, left_out)
+    content = io.BytesIO()
+    workbook.save(content)
+    return content.getvalue()
+
+
+def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> None:
+    """Write what the plan costs, then a row for each robot: where its completion time goes."""
+    rows, robots = [*_figures(plan), *more], _robots(plan)
+    headings = robots.headings()
+    widen(sheet, 1, 1, {*(key for key, _ in rows), *map(str, robots.columns[0].values)})
+    for number, heading in enumerate(headings[1:], 2):
+        widen(sheet, number, number, {heading})
+    for key, text in rows:
+        sheet.append([cell_of(sheet, key, font=BOLD), cell_of(sheet, text)])
+    sheet.append([])
+    sheet.append([cell_of(sheet, heading, font=BOLD) for heading in headings])
+    for row in robots.rows():
+        sheet.append([None if value is None else cell_of(sheet, value) for value in row])
+
+
+def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
+    quantities, count = plan.scenario.quantities, len(plan.tracks)
+    yield "planner", f"{plan.run.name}: {plan.run.status}"
+    yield "robots", str(count)
+    yield "all done after", quantities.duration(plan.makespan)
+    yield "sum of completion times", quantities.duration(plan.flowtime)
+    try:
+        metrics = measure(plan)
+    except NoPlanExists:
+        return
+    yield "at least", f"{quantities.duration(metrics.lower_bound)} ({metrics.gap:.1%} below)"
+    yield "waiting in all", quantities.duration(metrics.waiting)
+
+
+def _robots(plan: Plan) -> Listing:
+    names = [robot.name for robot in plan.scenario.robots]
+    times = {"completes": list(plan.completions)}
+    try:
+        lost = lost_time(plan)
+    except NoPlanExists:  # a robot has no way, so there is nothing to compare with
+        lost = ()
+    if lost:
+        times |= {
+            "alone": [each.alone for each in lost],
+            "detours": [each.detours for each in lost],
+            "making room": [each.making_room for each in lost],
+            "waiting": [each.waiting for each in lost],
+        }
+    columns = (Column(heading=key, values=each, kind="time") for key, each in times.items())
+    return Listing(
+        title="robots",
+        columns=(Column(heading="robot", values=names), *columns),
+        quantities=plan.scenario.quantities,
+    )
+
+
+def _write_diagram(workbook: Any, plan: Plan) -> None:
+    """Write the points of each robot's line in a sheet, and a chart of them in another one."""
+    sheet, data = workbook.create_sheet("diagram"), workbook.create_sheet("diagram data")
+    trips, scenario = trips_of(plan)[:MOST_LINES], plan.scenario
+    line = vertices_in_line([trip.vertices for trip in trips])
+    rows = {vertex: row for row, vertex in enumerate(line)}
+    grid = scenario.roadmap.grid
+    cells = grid.cells.tolist() if grid is not None and scenario.roadmap.labels is None else None
+    chart = ScatterChart()
+    chart.style, chart.scatterStyle = 13, "lineMarker"
+    chart.width, chart.height = CHART_SIZE
+    chart.title = None
+    chart.x_axis.title = scenario.quantities.heading("time")
+    chart.x_axis.delete = False
+    chart.x_axis.scaling.min = 0
+    chart.x_axis.majorGridlines = None
+    chart.y_axis.delete = bool(line)  # the names of the places stand there instead
+    chart.y_axis.title = None if line else "place"
+    chart.y_axis.majorGridlines.spPr = _stroke(GRID_GREY)
+    if line:
+        chart.y_axis.scaling.min, chart.y_axis.scaling.max = -0.5, len(line) - 0.5
+        chart.y_axis.majorUnit = 1
+    elif cells is not None:
+        chart.y_axis.number_format = '"N"0'
+    tick = scenario.quantities.tick
+    columns: list[list[float | str]] = []
+    for trip, robot, colour in zip(trips, scenario.robots, robot_colours(len(trips)), strict=False):
+        points = [
+            (float(at * tick), rows.get(vertex, cells[vertex] if cells else vertex))
+            for at, vertex in _line(trip)
+        ][:MOST_POINTS]
+        first = len(columns) + 1
+        columns += [[f"{robot.name} time", *(x for x, _ in points)]]
+        columns += [[robot.name, *(y for _, y in points)]]
+        series = _series(data, first, 2, len(points) + 1)
+        series.graphicalProperties.line.solidFill = colour.lstrip("#").upper()
+        series.graphicalProperties.line.width = 22_000  # EMU, 12 700 to a point
+        chart.series.append(series)
+    _name_places(chart, data, columns, [scenario.roadmap.name(vertex) for vertex in line])
+    height = max(map(len, columns))
+    for row in range(height):
+        data.append([cell_of(data, each[row]) if row < len(each) else None for each in columns])
+    chart.legend.position = "t"
+    sheet.add_chart(chart, "A2")
+    shown = len(trips)
+    words = f"{shown} robots" if shown == len(plan.tracks) else f"the first {shown} robots"
+    sheet.append([f"Places over time, {words}. A robot that stands still is a level line."])
+
+
+def _line(trip: Any) -> Iterator[tuple[int, int]]:
+    """Yield the corners of a robot's line: when, and at which vertex."""
+    yield trip.enter[0], trip.vertices[0]
+    for visit, begin, end, activity in trip.all_phases():
+        if activity is Activity.DRIVE:
+            yield begin, trip.vertices[visit]
+            yield end, trip.vertices[visit + 1]
+
+
+def _series(data: Any, column: int, first: int, last: int) -> Any:
+    """Return the series of two columns of a sheet, named by the heading of the second one."""
+    x = Reference(data, min_col=column, min_row=first, max_row=last)
+    y = Reference(data, min_col=column + 1, min_row=first - 1, max_row=last)
+    series = Series(y, x, title_from_data=True)
+    series.marker.symbol, series.smooth = "none", False
+    return series
+
+
+def _name_places(
+    chart: Any, data: Any, columns: list[list[float | str]], names: Sequence[str]
+) -> None:
+    """Add a point at time 0 for each place; its label is the name of the place."""
+    robots = len(chart.series)
+    for row, name in enumerate(names):
+        first = len(columns) + 1
+        columns += [["place", 0], [name, row]]
+        series = _series(data, first, 2, 2)
+        series.graphicalProperties.line.noFill = True
+        series.dLbls = DataLabelList()
+        series.dLbls.showSerName, series.dLbls.position = True, "l"
+        series.dLbls.showVal = series.dLbls.showLegendKey = series.dLbls.showCatName = False
+        chart.series.append(series)
+    chart.legend.legendEntry = [
+        LegendEntry(idx=robots + number, delete=True) for number in range(len(names))
+    ]
+
+
+def _stroke(colour: str) -> Any:
+    from openpyxl.chart.shapes import GraphicalProperties  # type: ignore[import-untyped]
+
+    properties = GraphicalProperties()
+    properties.line.solidFill = colour
+    return properties
