@@ -8,22 +8,23 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import PLANS, files
-from rightofway.cli.outputs import page_option
+from rightofway.cli.outputs import page_option, put_text
 from rightofway.cli.terminal import (
     COLUMNS,
     ListingCommand,
     as_json_option,
+    foreign_options,
     json_text,
     progress,
     put_json,
     put_report,
+    read_plan,
     row,
     say,
     seed_option,
     short,
     writable,
 )
-from rightofway.files import write_whole
 
 if TYPE_CHECKING:
     from rightofway.execution import Outcome, Quantiles
@@ -62,6 +63,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
     short_help="Execute a PLAN many times with robots that are late.",
 )
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
 @click.option("--delays", multiple=True, metavar="DELAYS",
               help="Kinds of delays, see below; or a file with a list of them. May be repeated."
               "  [default: exponential:0.2]")  # fmt: skip
@@ -104,12 +106,12 @@ def simulate(
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.execution import DEFAULT
     from rightofway.execution import simulate as execute
-    from rightofway.io import DELAY_FILES, load_delays, load_plan
+    from rightofway.io import DELAY_FILES, load_delays
 
     texts: list[str] = []
     for text in delays or [DEFAULT]:
         texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
-    found = load_plan(plan)
+    found = read_plan(plan)
     with progress() as reported:
         outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
     if as_json or output == "-":
@@ -117,8 +119,7 @@ def simulate(
     else:
         put_report(report(outcome))
     if output not in {None, "-"}:
-        write_whole(str(output), json_text(outcome.as_dict()) + "\n")
-        say(f"wrote {output}")
+        put_text(json_text(outcome.as_dict()) + "\n", str(output))
     if page:
         from rightofway.viz import write_page
 

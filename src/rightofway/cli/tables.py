@@ -11,7 +11,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import as_json_option, put_json, read_either, say, width, writable
+from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.terminal import (
+    as_json_option,
+    count_option,
+    foreign_options,
+    put_json,
+    read_either,
+    read_plan,
+    say,
+    width,
+    writable,
+)
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:
@@ -110,7 +121,8 @@ def _shown(
 
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is, when.")
-@click.argument("plan", type=click.Path())
+@click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
 @click.option("-o", "--output", metavar="FILE",
               callback=_file(".txt", ".csv", ".xlsx", ".parquet"),
               help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
@@ -136,15 +148,13 @@ def table(
     Planned rows are those of robots that never wait, with their collisions marked; final rows are
     those of the plan. A long table is cut. A PLAN of - is standard input.
     """
-    from rightofway.io import load_plan
-
     if events and decision is not None:
         raise click.UsageError("--events and --decision are two tables: choose one")
     if Path(output or "").suffix.lower() == ".parquet" and not events:
         raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
     if as_json and output == "-":
         raise click.UsageError("--json and -o - both go to standard output")
-    found = load_plan(plan)
+    found = read_plan(plan)
     if events:
         _events(found, _shown(found, **given), output, as_json=as_json)
         return
@@ -312,7 +322,10 @@ def _group_words(
 
 
 @click.command(epilog=COLLISIONS_EXAMPLES, short_help="List where robots meet that never wait.")
-@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN")
+@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
+@count_option
+@foreign_options
 @click.option("-o", "--output", metavar="FILE", callback=_file(".txt", ".csv", ".xlsx"),
               help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
 @click.option("--each-tick", is_flag=True,
@@ -324,6 +337,7 @@ def _group_words(
 def collisions(
     *,
     source: str,
+    count: int | None,
     output: str | None,
     each_tick: bool,
     planner: str | None,
@@ -342,7 +356,7 @@ def collisions(
     from rightofway.solve import solve
     from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
 
-    found = read_either(source)
+    found = read_either(source, count)
     if isinstance(found, Scenario) and planner:
         found = solve(found, planner, report=say)
     plan = None if isinstance(found, Scenario) else found
