@@ -64,7 +64,7 @@ def test_files_are_offered_by_their_endings_and_folders_with_a_slash(offered: Of
     Path("all").mkdir()
     Path("all", "b.scen").touch()
     assert offered("plan", "") == ["a.json", "a.yaml", "all/"]
-    assert offered("check", "a") == ["a.json", "all/"]
+    assert offered("check", "a") == ["a.json", "a.yaml", "all/"]
     assert offered("plan", "all/") == ["all/b.scen"]
     assert offered("plan", "[") == []
 

@@ -335,9 +335,14 @@ def test_a_missing_part_is_told_once() -> None:
     assert [fault.place for fault in caught.value.faults] == [
         "scenario",
         "tick",
-        "planner",
         "robots",
     ]
+
+
+def test_a_plan_of_an_unknown_planner_is_a_plan() -> None:
+    document = dump_plan(door_plan())
+    del document["planner"]
+    assert plan_of(document).run.name == "unknown"
 
 
 def test_a_scenario_is_no_plan() -> None:

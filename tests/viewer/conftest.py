@@ -104,9 +104,7 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
-        write_page(
-            plan, path, steady=steady, actual=actual, no_plan=no_plan, background=background
-        )
+        write_page(plan, path, steady=steady, actual=actual, no_plan=no_plan, background=background)
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

@@ -21,7 +21,7 @@ Completer = Callable[[click.Context, click.Parameter, str], list[CompletionItem[
 SCENARIOS = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 """Endings of the files that have a scenario."""
 
-PLANS = (".json",)
+PLANS = (".json", ".txt", ".yaml")
 """Endings of the files that have a plan."""
 
 

@@ -6,45 +6,128 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
+from click.shell_completion import CompletionItem
 
-from rightofway.cli.completion import SCENARIOS, files
-from rightofway.cli.terminal import count_option, put_json, read_scenario, say, writable
-from rightofway.errors import InputError
+from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.outputs import put_text, write
+from rightofway.cli.terminal import (
+    ListingCommand,
+    count_option,
+    foreign_options,
+    put_json,
+    read_either,
+    say,
+    writable,
+)
+from rightofway.errors import InputError, nearest
 
 if TYPE_CHECKING:
-    from rightofway.model import Scenario
+    from rightofway.model import Plan, Scenario
 
 EXAMPLES = """\b
 Examples:
   rightofway convert examples/warehouse.yaml -o warehouse.json
   rightofway convert maze.scen -k 50 -o maze.yaml
   rightofway convert hall.yaml -o hall.scen
+  rightofway convert paths.txt --map hall.map -o plan.json
+  rightofway convert plan.json --to lns2 -o paths.txt
 """
 
 SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
 
-@click.command(epilog=EXAMPLES, short_help="Write a scenario in another format.")
-@click.argument("source", type=click.Path(), shell_complete=files(*SCENARIOS))
-@click.argument("target", type=click.Path(), required=False, callback=writable(*SUFFIXES))
-@count_option
-@click.option("-o", "--output", metavar="TARGET", callback=writable(*SUFFIXES),
-              help="File to write, the same as the argument TARGET; - prints YAML.")  # fmt: skip
-def convert(source: str, target: str | None, count: int | None, output: str | None) -> None:
-    """Write the scenario SOURCE as .yaml, .json, .xlsx, or .scen with its .map.
+def _list_formats(formatter: click.HelpFormatter) -> None:
+    from rightofway.io import FOREIGN_FORMATS
 
-    A .yaml, .json or .xlsx file contains the map. A .scen file has no speeds, work times, turning
-    times and ways home; the command reports which of these it left out.
+    with formatter.section("Formats of plans of other programs"):
+        formatter.write_dl([(name, each.summary) for name, each in FOREIGN_FORMATS.items()])
+
+
+def _complete_format(
+    _context: click.Context, _parameter: click.Parameter, incomplete: str
+) -> list[CompletionItem[str]]:
+    from rightofway.io import FOREIGN_FORMATS
+
+    return [
+        CompletionItem(name, help=each.summary)
+        for name, each in FOREIGN_FORMATS.items()
+        if name.startswith(incomplete)
+    ]
+
+
+@click.command(
+    cls=ListingCommand,
+    listing=_list_formats,
+    epilog=EXAMPLES,
+    short_help="Write a scenario or a plan in another format.",
+)
+@click.argument("source", type=click.Path(), shell_complete=files(*SCENARIOS, *PLANS))
+@click.argument("target", type=click.Path(), required=False, callback=writable())
+@click.option("-o", "--output", metavar="TARGET", callback=writable(),
+              help="File to write, the same as the argument TARGET; - for standard output.",
+              )  # fmt: skip
+@click.option("--to", "name", metavar="FORMAT", shell_complete=_complete_format,
+              help="Write a plan in the format of another program; see below.")  # fmt: skip
+@count_option
+@foreign_options
+def convert(
+    *, source: str, target: str | None, output: str | None, name: str | None, count: int | None
+) -> None:
+    """Write the scenario or plan SOURCE in another format.
+
+    A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or .xlsx
+    file contains the map. A .scen file has no speeds, work times, turning times and ways home; the
+    command reports which of these it left out. A plan is written as .json, or with --to.
     """
-    from rightofway.io import scenario_text, write_scenario
+    from rightofway.model import Plan
 
     if (target is None) == (output is None):
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
-    scenario = read_scenario(source, count)
+    _check_target(path, name)
+    found = read_either(source, count)
+    if isinstance(found, Plan):
+        _write_plan(found, path, name)
+    elif name:
+        raise click.UsageError(f"--to is for plans, and {source} is a scenario (plan it first)")
+    else:
+        _write_scenario(found, path)
+
+
+def _check_target(path: str, name: str | None) -> None:
+    """Refuse, before any work, a format or an ending that is not known."""
+    from rightofway.io import FOREIGN_FORMATS
+
+    if name is None:
+        if path != "-" and Path(path).suffix.lower() not in SUFFIXES:
+            endings = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+            remedy = "give a name that does, or with --to the format of another program"
+            raise click.UsageError(f"{path!r} does not end in {endings} ({remedy})")
+    elif name not in FOREIGN_FORMATS:
+        meant, known = nearest(name, FOREIGN_FORMATS), ", ".join(FOREIGN_FORMATS)
+        hint = f"did you mean {meant}?" if meant else f"give one of {known}"
+        raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
+
+
+def _write_plan(plan: Plan, path: str, name: str | None) -> None:
+    from rightofway.io import foreign_text
+
+    if name is not None:
+        put_text(foreign_text(plan, name), path)
+        if plan.scenario.problem.clock.tick != 1:
+            say(f"{path}: a step lasts {plan.scenario.quantities.duration(1)}")
+    elif path == "-" or path.lower().endswith((".json", ".xlsx")):
+        write(plan, path)
+    else:
+        _write_scenario(plan.scenario, path)
+
+
+def _write_scenario(scenario: Scenario, path: str) -> None:
+    from rightofway.io import scenario_text, write_scenario
+
     if path == "-":
         click.echo(scenario_text(scenario), nl=False)
-    elif Path(path).suffix.lower() == ".scen":
+    elif path.lower().endswith(".scen"):
         _write_pair(scenario, Path(path))
     else:
         write_scenario(scenario, path)

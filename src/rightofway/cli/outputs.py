@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.terminal import say, writable
+from rightofway.files import write_whole
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -81,6 +82,15 @@ def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:
         raise click.UsageError("--json and -o - both go to standard output")
     if output and output != "-" and Path(output).resolve() == Path(source).resolve():
         raise click.UsageError(f"-o {output} would replace {source} (give another name)")
+
+
+def put_text(text: str, path: str) -> None:
+    """Write a text to a file, or to standard output."""
+    if path == "-":
+        click.echo(text, nl=False)
+    else:
+        write_whole(path, text)
+        say(f"wrote {path}")
 
 
 def write(found: Plan, output: str | None) -> None:

@@ -18,11 +18,13 @@ from rightofway.cli.terminal import (
     as_json_option,
     complain,
     count_option,
+    foreign_options,
     measures,
     progress,
     put_json,
     put_report,
     quantities_of,
+    read_plan,
     read_scenario,
     say,
     seed_option,
@@ -127,16 +129,16 @@ def plan(*, scenario: str, count: int | None, **given: Any) -> int:
 
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
 @_planning_options(IMPROVER)
 def improve(*, plan: str, **given: Any) -> int:
     """Improve a PLAN of any planner, and check the result.
 
     The result is never worse than the PLAN. A PLAN of - is standard input.
     """
-    from rightofway.io import load_plan
     from rightofway.solve import improve as improved
 
-    return _run(plan, load_plan, improved, **given)
+    return _run(plan, read_plan, improved, **given)
 
 
 BOUND_EXAMPLES = """\b

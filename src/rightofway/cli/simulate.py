@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import PLANS, files
-from rightofway.cli.outputs import page_option
+from rightofway.cli.outputs import page_option, put_text
 from rightofway.cli.terminal import (
     COLUMNS,
     ListingCommand,
     as_json_option,
+    foreign_options,
     further,
     json_text,
     measures,
@@ -21,6 +22,7 @@ from rightofway.cli.terminal import (
     put_json,
     put_report,
     quantities_of,
+    read_plan,
     row,
     say,
     seed_option,
@@ -28,7 +30,6 @@ from rightofway.cli.terminal import (
     ticks_option,
     writable,
 )
-from rightofway.files import write_whole
 from rightofway.model import decimal
 
 if TYPE_CHECKING:
@@ -69,6 +70,7 @@ def _list_delays(formatter: click.HelpFormatter) -> None:
     short_help="Execute a PLAN many times with robots that are late.",
 )
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
 @click.option("--delays", multiple=True, metavar="DELAYS",
               help="Kinds of delays, see below; or a file with a list of them. May be repeated."
               "  [default: exponential:0.2]")  # fmt: skip
@@ -113,12 +115,12 @@ def simulate(
         raise click.UsageError(f"--run {run} is not among the {runs} runs (0 is the first)")
     from rightofway.execution import DEFAULT
     from rightofway.execution import simulate as execute
-    from rightofway.io import DELAY_FILES, load_delays, load_plan
+    from rightofway.io import DELAY_FILES, load_delays
 
     texts: list[str] = []
     for text in delays or [DEFAULT]:
         texts += load_delays(text) if text.lower().endswith(DELAY_FILES) else [text]
-    found = load_plan(plan)
+    found = read_plan(plan)
     with progress() as reported:
         outcome = execute(found, texts, runs, seed, switch=switch, replan=replan, report=reported)
     data = {**measures(found.scenario), **outcome.as_dict()}
@@ -127,8 +129,7 @@ def simulate(
     else:
         put_report(report(outcome, quantities_of(found.scenario, in_ticks=in_ticks)))
     if output not in {None, "-"}:
-        write_whole(str(output), json_text(data) + "\n")
-        say(f"wrote {output}")
+        put_text(json_text(data) + "\n", str(output))
     if page:
         from rightofway.viz import write_page
 

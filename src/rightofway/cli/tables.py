@@ -14,9 +14,12 @@ import click
 from rightofway.cli.completion import PLANS, SCENARIOS, files, planners
 from rightofway.cli.terminal import (
     as_json_option,
+    count_option,
+    foreign_options,
     put_json,
     quantities_of,
     read_either,
+    read_plan,
     say,
     ticks_option,
     width,
@@ -111,6 +114,7 @@ def _shown(
 
 @click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is, when.")
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
+@foreign_options
 @click.option("-o", "--output", metavar="FILE",
               callback=writable(".txt", ".csv", ".xlsx", ".parquet"),
               help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
@@ -140,8 +144,6 @@ def table(
     Planned rows are those of robots that never wait, with their collisions marked; final rows are
     those of the plan. A long table is cut. A PLAN of - is standard input.
     """
-    from rightofway.io import load_plan
-
     if events + everything + (decision is not None) > 1:
         raise click.UsageError("--all, --events and --decision are different: choose one")
     if everything and Path(output or "").suffix.lower() != ".xlsx":
@@ -150,7 +152,7 @@ def table(
         raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
     if as_json and output == "-":
         raise click.UsageError("--json and -o - both go to standard output")
-    found = load_plan(plan)
+    found = read_plan(plan)
     if everything:
         from rightofway.viz.table.result import write_result
 
@@ -326,6 +328,8 @@ def _group_words(
 @click.command(epilog=COLLISIONS_EXAMPLES, short_help="List where robots meet that never wait.")
 @click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
                 shell_complete=files(*SCENARIOS))  # fmt: skip
+@count_option
+@foreign_options
 @click.option("-o", "--output", metavar="FILE", callback=writable(".txt", ".csv", ".xlsx"),
               help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
 @click.option("--each-tick", is_flag=True,
@@ -337,6 +341,7 @@ def _group_words(
 def collisions(
     *,
     source: str,
+    count: int | None,
     output: str | None,
     each_tick: bool,
     planner: str | None,
@@ -355,7 +360,7 @@ def collisions(
     from rightofway.solve import solve
     from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
 
-    found = read_either(source)
+    found = read_either(source, count)
     if isinstance(found, Scenario) and planner:
         found = solve(found, planner, report=say)
     plan = None if isinstance(found, Scenario) else found

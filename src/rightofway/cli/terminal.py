@@ -45,6 +45,9 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 UNIT = re.compile(r"(?<=\d) (?=[a-z])|(?<=\d h) (?=\d)|(?<=\d min) (?=\d)")
 """The spaces within ``2 min 34.3 s``."""
 
+FILES = "rightofway.files."
+"""Where a command keeps the files that belong to a plan of another program."""
+
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
 
@@ -172,11 +175,38 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     return _noted(load_with_notes(path, count=count), path)
 
 
+def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
+    context.meta[f"{FILES}{parameter.name}"] = given
+
+
+def foreign_options(command: Any) -> Any:
+    """Add the files that a plan of another program may need; `read_plan` finds them."""
+    for name, what in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
+        command = click.option(
+            f"--{name}", metavar="FILE", expose_value=False, callback=_keep_file,
+            help=f"The {what} of a plan of another program.",
+        )(command)  # fmt: skip
+    return command
+
+
+def _files() -> dict[str, str | None]:
+    """Return the files of `foreign_options`."""
+    meta = click.get_current_context().meta
+    return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
+
+
+def read_plan(path: str) -> Plan:
+    """Read a plan, ours or of another program; ``-`` is standard input."""
+    from rightofway.io import load_plan
+
+    return load_plan(path, **_files())
+
+
 def read_either(path: str, count: int | None = None) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
-    found = load_either(path, count=count)
+    found = load_either(path, count=count, **_files())
     return _noted(found, path) if isinstance(found, Loaded) else found
 
 

@@ -12,10 +12,12 @@ from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import (
     as_json_option,
     count_option,
+    foreign_options,
     progress,
     put_json,
     put_report,
     read_either,
+    read_plan,
     say,
     writable,
 )
@@ -46,6 +48,7 @@ Examples:
 @click.command(epilog=CHECK_EXAMPLES)
 @click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...",
                 shell_complete=files(*PLANS))  # fmt: skip
+@foreign_options
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
               help="Faults to list for each plan; all are counted.")  # fmt: skip
 @as_json_option("report")
@@ -58,11 +61,10 @@ def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
     plans, --json prints a list.
     """
     from rightofway.check import check as judge
-    from rightofway.io import load_plan
 
     faulty, reports = False, []
     for path in plans:
-        found = load_plan(path)
+        found = read_plan(path)
         report = judge(found, limit=limit)
         faulty |= not report.ok
         if as_json:
@@ -98,6 +100,7 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
                 shell_complete=files(*SCENARIOS))  # fmt: skip
 @count_option
+@foreign_options
 @click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
               help="Write a page (.html), picture (.png) or film (.gif); - prints the page.",
               )  # fmt: skip

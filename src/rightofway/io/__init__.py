@@ -5,6 +5,7 @@
 else in the package.
 """
 
+from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text
 from rightofway.io.formats import schema
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
@@ -15,9 +16,11 @@ from rightofway.io.text import DELAY_FILES, load_delays
 
 __all__ = [
     "DELAY_FILES",
+    "FOREIGN_FORMATS",
     "Loaded",
     "dump_plan",
     "dump_scenario",
+    "foreign_text",
     "load",
     "load_delays",
     "load_either",

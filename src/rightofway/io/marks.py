@@ -32,10 +32,18 @@ _JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
 
 
 @contextmanager
-def document_of(path: Path) -> Iterator[Any]:
-    """Yield the data of a YAML or JSON file; faults raised inside name the file and the line."""
+def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
+    """Yield the data of a YAML or JSON file; faults raised inside name the file and the line.
+
+    Parameters
+    ----------
+    path
+        The file.
+    text
+        Its content, where that is known already.
+    """
     with blaming(str(path)):
-        text = read_text(path)
+        text = read_text(path) if text is None else text
         data = parse_document(text, path)
         try:
             yield data

@@ -107,7 +107,7 @@ class PlannerRun:
     Attributes
     ----------
     name, options, seed
-        The planner, the options it was given and the seed.
+        The planner, the options it was given and the seed; ``unknown`` for a plan from elsewhere.
     status
         What it did, in words: ``waits only``, ``re-routed R3, R7``, ``optimal``, …
     seconds
@@ -126,7 +126,7 @@ class PlannerRun:
         not compute it. Files do not keep it.
     """
 
-    name: str
+    name: str = "unknown"
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
     status: str = ""

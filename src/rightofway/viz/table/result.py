@@ -21,7 +21,7 @@ from rightofway.metrics import free_running, lost_time, measure
 from rightofway.model import Plan
 from rightofway.viz.motion import Activity, trips_of
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import vertices_in_line
+from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.table.listing import Column, Listing
 from rightofway.viz.table.lists import collision_list, decision_list, event_list, meetings
 from rightofway.viz.table.timespace import table_of
@@ -155,7 +155,8 @@ def _write_diagram(workbook: Any, plan: Plan) -> None:
     """Write the points of each robot's line in a sheet, and a chart of them in another one."""
     sheet, data = workbook.create_sheet("diagram"), workbook.create_sheet("diagram data")
     trips, scenario = trips_of(plan)[:MOST_LINES], plan.scenario
-    line = vertices_in_line([trip.vertices for trip in trips])
+    routes = [trip.vertices for trip in trips]
+    line = list(vertices_in_line(routes, edge_length(scenario.roadmap)))
     rows = {vertex: row for row, vertex in enumerate(line)}
     grid = scenario.roadmap.grid
     cells = grid.cells.tolist() if grid is not None and scenario.roadmap.labels is None else None

@@ -1,0 +1,15 @@
+"""Plans that other programs write and read: one module a format, told apart by their content.
+
+==========  ========================================================================
+name        programs
+==========  ========================================================================
+lacam       lacam, lacam3, pypibt, mapf-visualizer: one line for each step
+lns2        MAPF-LNS2, EECBS, CBSH2: one line for each agent
+planviz     PlanViz and the League of Robot Runners, rounds 2023, 2024 and 2026
+schedule    multi_agent_path_planning (atb033), libMultiRobotPlanning: a YAML schedule
+==========  ========================================================================
+"""
+
+from rightofway.io.foreign.formats import FOREIGN_FORMATS, foreign_text, read_foreign, recognized
+
+__all__ = ["FOREIGN_FORMATS", "foreign_text", "read_foreign", "recognized"]

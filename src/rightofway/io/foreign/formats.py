@@ -1,0 +1,118 @@
+"""Which formats of other programs there are, and how a file is recognized."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rightofway.errors import InputError
+from rightofway.io.foreign import lacam, lns2, planviz, schedule
+from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
+from rightofway.io.marks import marked
+from rightofway.model import Plan
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForeignFormat:
+    """A format of other programs.
+
+    Attributes
+    ----------
+    summary
+        Which programs write it, and how it looks.
+    is_document
+        Whether it is YAML or JSON, so that places of faults have lines.
+    recognizes
+        Returns whether a text is probably of this format.
+    read
+        Returns the plan of a text.
+    write
+        Returns the text of a plan.
+    """
+
+    summary: str
+    is_document: bool = False
+    recognizes: Callable[[str], bool]
+    read: Callable[[str], ForeignPlan]
+    write: Callable[[Plan], str]
+
+
+FOREIGN_FORMATS: dict[str, ForeignFormat] = {
+    "lacam": ForeignFormat(
+        summary="lacam, pypibt, mapf-visualizer: a line of cells for each step",
+        recognizes=lacam.recognizes, read=lacam.read, write=lacam.write,
+    ),
+    "lns2": ForeignFormat(
+        summary="MAPF-LNS2, EECBS: a line of cells for each agent",
+        recognizes=lns2.recognizes, read=lns2.read, write=lns2.write,
+    ),
+    "planviz": ForeignFormat(
+        summary="PlanViz, League of Robot Runners: actions of each agent as JSON",
+        is_document=True, recognizes=planviz.recognizes, read=planviz.read, write=planviz.write,
+    ),
+    "schedule": ForeignFormat(
+        summary="multi_agent_path_planning, libMultiRobotPlanning: a YAML schedule",
+        is_document=True, recognizes=schedule.recognizes, read=schedule.read, write=schedule.write,
+    ),
+}  # fmt: skip
+"""The formats by name."""
+
+
+def recognized(text: str) -> ForeignFormat | None:
+    """Return the format of another program that a text is in, or None.
+
+    Parameters
+    ----------
+    text
+        The content of a file.
+    """
+    return next((each for each in FOREIGN_FORMATS.values() if each.recognizes(text)), None)
+
+
+def read_foreign(
+    text: str, path: Path, map_file: Path | None = None, scen: Path | None = None
+) -> Plan | None:
+    """Return the plan of a text in a format of another program, or None for any other text.
+
+    Parameters
+    ----------
+    text
+        The content of a file.
+    path
+        The file; a map that the plan names is looked for beside it.
+    map_file, scen
+        The map, and the starts and goals, where the user names files.
+
+    Raises
+    ------
+    InputError
+        With every fault, its line and remedy.
+    """
+    found = recognized(text)
+    if found is None:
+        return None
+    try:
+        return plan_of_trajectories(found.read(text), path, map_file, scen)
+    except InputError as error:
+        if error.source or not found.is_document:
+            raise
+        raise InputError(marked(error.faults, text)) from None
+
+
+def foreign_text(plan: Plan, name: str) -> str:
+    """Return a plan as the text of a file for another program.
+
+    Parameters
+    ----------
+    plan
+        A plan on a grid.
+    name
+        A key of `FOREIGN_FORMATS`.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid.
+    """
+    return FOREIGN_FORMATS[name].write(plan)

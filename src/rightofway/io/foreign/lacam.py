@@ -1,0 +1,120 @@
+"""Text of lacam, lacam3, pypibt and mapf-visualizer: for each step the cells of all agents.
+
+::
+
+    map_file=random-32-32-10.map
+    goals=(3,1),(0,2),
+    solution=
+    0:(0,0),(2,2),
+    1:(1,0),(2,2),
+
+A cell is (x, y): column and row. A third word, as in ``(0,0,X_PLUS)``, is a heading: a turn is a
+wait. The lines above ``solution=`` may be left out; of these, ``map_file`` and ``goals`` are used.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from rightofway.errors import InputError, shown
+from rightofway.io.faults import Faults
+from rightofway.io.foreign.trajectories import (
+    Cell,
+    ForeignPlan,
+    Trajectory,
+    cells_of_plan,
+    visits_of,
+)
+from rightofway.model import Plan
+
+_STEP = re.compile(r"([0-9]{1,9}):(\(.*)")
+_CELL = re.compile(r"\(([0-9]{1,9}),([0-9]{1,9})(?:,\w{1,20})?\),?")
+
+
+def recognizes(text: str) -> bool:
+    """Return whether a text has a line of cells for a step."""
+    return re.search(r"^[ \t]*[0-9]+[ \t]*:[ \t]*\(", text, re.MULTILINE) is not None
+
+
+def read(text: str) -> ForeignPlan:
+    """Return the plan of a text.
+
+    Raises
+    ------
+    InputError
+        For lines that are no cells, agents that come and go, and steps out of order.
+    """
+    header: dict[str, str] = {}
+    steps: list[list[Cell] | None] = []
+    lines: list[int] = []
+    faults = Faults()
+    for number, line in enumerate(text.split("\n"), start=1):
+        bare = "".join(line.split())
+        key, sign, value = bare.partition("=")
+        match = _STEP.fullmatch(bare)
+        if match:
+            if int(match[1]) != len(steps):
+                message = f"step {match[1]} stands where step {len(steps)} is expected"
+                faults.note(f"line {number}", f"{message} (give every step once, in order)")
+            steps.append(faults.attempt(f"line {number}", _cells, match[2]))
+            lines.append(number)
+        elif sign and not steps:
+            header[key] = value
+        elif bare:
+            message = f"{shown(line.strip())} is no step (write 0:(x,y),(x,y), …)"
+            faults.note(f"line {number}", message)
+    _check_counts(steps, lines, faults)
+    faults.stop()
+    goals = _cells(header["goals"]) if header.get("goals") else []
+    if goals and len(goals) != len(steps[0] or ()):
+        message = f"{len(goals)} for {len(steps[0] or ())} agents (give one for each)"
+        raise InputError.at("goals", message)
+    agents = [
+        Trajectory(
+            name=f"A{index}",
+            visits=visits_of(iter(cells)),
+            lines=lines,
+            stops=goals[index : index + 1],
+        )
+        for index, cells in enumerate(zip(*(step or () for step in steps), strict=True))
+    ]
+    return ForeignPlan(agents=agents, map_name=header.get("map_file"))
+
+
+def _cells(text: str) -> list[Cell]:
+    rest = _CELL.sub("", text)
+    if rest:
+        raise InputError.at("", f"{shown(rest)} is no cell (write cells as (x,y), with commas)")
+    return [(int(y), int(x)) for x, y in _CELL.findall(text)]
+
+
+def _check_counts(steps: list[list[Cell] | None], lines: list[int], faults: Faults) -> None:
+    expected = next((len(cells) for cells in steps if cells), 0)
+    for cells, line in zip(steps, lines, strict=True):
+        if cells is not None and len(cells) != expected:
+            message = f"{len(cells)} agents, the first step has {expected} (give all at each step)"
+            faults.note(f"line {line}", message)
+
+
+def write(plan: Plan) -> str:
+    """Return the text of a plan: one step for each tick.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid.
+    """
+    found = cells_of_plan(plan)
+    starts = list(zip(found.rows[:, 0].tolist(), found.columns[:, 0].tolist(), strict=True))
+    lines = [f"agents={len(found.names)}", f"starts={_text(starts)}", f"goals={_text(found.goals)}"]
+    lines.append("solution=")
+    for step, (rows, columns) in enumerate(
+        zip(found.rows.T.tolist(), found.columns.T.tolist(), strict=True)
+    ):
+        lines.append(f"{step}:{_text(zip(rows, columns, strict=True))}")
+    return "\n".join(lines) + "\n"
+
+
+def _text(cells: Iterable[Cell]) -> str:
+    return "".join(f"({column},{row})," for row, column in cells)

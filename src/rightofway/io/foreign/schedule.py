@@ -1,0 +1,97 @@
+"""YAML schedules of multi_agent_path_planning (atb033) and libMultiRobotPlanning.
+
+::
+
+    schedule:
+      agent0:
+        - {x: 0, y: 0, t: 0}
+        - {x: 1, y: 0, t: 1}
+
+x is the column and y the row. An agent stays where it is until its next time.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from rightofway.errors import InputError, is_printable, shown
+from rightofway.io.faults import Faults
+from rightofway.io.foreign.trajectories import (
+    MAX_STEP,
+    ForeignPlan,
+    Trajectory,
+    Visit,
+    cells_of_plan,
+)
+from rightofway.io.text import json_line, parse_yaml
+from rightofway.model import Plan
+
+
+def recognizes(text: str) -> bool:
+    """Return whether a text has a schedule."""
+    return re.search(r"^schedule:", text, re.MULTILINE) is not None
+
+
+def read(text: str) -> ForeignPlan:
+    """Return the plan of a text.
+
+    Raises
+    ------
+    InputError
+        For agents without a list of {x, y, t}, and times out of order.
+    """
+    document = parse_yaml(text)
+    schedule = document.get("schedule") if isinstance(document, dict) else None
+    if not isinstance(schedule, dict) or not schedule:
+        message = f"{shown(schedule)} is no schedule (give each agent a list of {{x, y, t}})"
+        raise InputError.at("schedule", message)
+    faults, agents = Faults(), list[Trajectory]()
+    for key, states in schedule.items():
+        name = str(key)
+        visits = faults.attempt(f"schedule.{name}", _visits, name, states)
+        if visits:
+            agents.append(Trajectory(name=name, visits=visits, place=f"schedule.{name}"))
+    faults.stop()
+    return ForeignPlan(agents=agents)
+
+
+def _visits(name: str, states: Any) -> list[Visit]:
+    if not is_printable(name):
+        raise InputError.at("", f"{shown(name)} is no name (give characters that can be printed)")
+    if not isinstance(states, list) or not states:
+        raise InputError.at("", f"{shown(states)} is no path (give a list of {{x, y, t}})")
+    faults, visits = Faults(), list[Visit]()
+    latest = -1
+    for index, state in enumerate(states):
+        place = f"[{index}]"
+        numbers: list[Any] = [state.get(key) for key in "xyt"] if isinstance(state, dict) else [""]
+        if not all(type(each) is int and 0 <= each <= MAX_STEP for each in numbers):
+            faults.note(place, f"{shown(state)} is no state (give whole numbers x, y and t)")
+            continue
+        x, y, t = numbers
+        if t <= latest or (latest < 0 < t):
+            remedy = "begin with t 0, and let t grow"
+            faults.note(place, f"t {t} stands after {max(latest, 0)} ({remedy})")
+        latest = t
+        if not visits or visits[-1][0] != (y, x):
+            visits.append(((y, x), t))
+    faults.stop()
+    return visits
+
+
+def write(plan: Plan) -> str:
+    """Return the text of a plan: a state for each tick, until the robot is at its last vertex.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid.
+    """
+    found = cells_of_plan(plan)
+    lines = ["schedule:"]
+    for robot, (name, track) in enumerate(zip(found.names, plan.tracks, strict=True)):
+        lines.append(f"  {json_line(name)}:")
+        for t, (row, column) in enumerate(list(found.path(robot))[: int(track.enter[-1]) + 1]):
+            lines.append(f"    - {{x: {column}, y: {row}, t: {t}}}")
+    return "\n".join(lines) + "\n"

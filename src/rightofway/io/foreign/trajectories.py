@@ -1,0 +1,246 @@
+"""What plans of other programs have in common: agents on the cells of a grid, step by step.
+
+Read as a `Plan`, an agent is a robot of unit speed under the classic rules: a move takes one time
+unit, turns take none, there is no way back. Its home is its first cell. Its stops are the goals and
+tasks that the file names; without any, its last cell. With a ``.scen`` file, home and target are
+those of the agent's row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError, InputFault, shown
+from rightofway.io.faults import Faults
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.movingai import ScenRow, load_map, load_scen
+from rightofway.io.scenario.reader import read_scenario
+from rightofway.model import Grid, Plan, PlannerRun, Scenario, Track
+
+Cell = tuple[int, int]
+"""Row and column, from 0."""
+
+Visit = tuple[Cell, int]
+"""A cell, and the step at which an agent enters it."""
+
+MAX_STEP = 100_000_000
+"""The last step of a plan at most."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trajectory:
+    """Where one agent is, when.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    visits
+        The cells in order, each with the step at which the agent enters it; it stays at the last.
+    place
+        Where the agent stands in the file.
+    lines
+        Where each of its steps stands in the file, if each has a line of its own.
+    stops
+        Goals and tasks in the order in which they are done, the last one at the end.
+    """
+
+    name: str
+    visits: Sequence[Visit]
+    place: str = ""
+    lines: Sequence[int] = ()
+    stops: Sequence[Cell] = ()
+
+    def place_of(self, step: int) -> str:
+        """Return where a step stands in the file."""
+        return f"line {self.lines[step]}" if self.lines else self.place
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForeignPlan:
+    """A plan of another program, as it stands in its file.
+
+    Attributes
+    ----------
+    agents
+        One trajectory for each agent.
+    map_name
+        The name of the map's file, where the plan says it.
+    steps_per_move
+        Steps that a move to the next cell takes.
+    """
+
+    agents: Sequence[Trajectory]
+    map_name: str | None = None
+    steps_per_move: int = 1
+
+
+def visits_of(cells: Iterator[Cell]) -> list[Visit]:
+    """Return the visits of an agent that is at these cells, step by step."""
+    visits, step = list[Visit](), 0
+    for cell, run in groupby(cells):
+        visits.append((cell, step))
+        step += sum(1 for _ in run)
+    return visits
+
+
+def plan_of_trajectories(
+    found: ForeignPlan, path: Path, map_file: Path | None = None, scen: Path | None = None
+) -> Plan:
+    """Return a plan of another program as one of ours.
+
+    Parameters
+    ----------
+    found
+        The plan.
+    path
+        Its file; a map that it names is looked for beside it.
+    map_file, scen
+        The map, and the starts and goals, where the user names files.
+
+    Raises
+    ------
+    InputError
+        If the map is not found, or an agent leaves it.
+    """
+    rows = load_scen(scen) if scen else ()
+    if rows and len(rows) < len(found.agents):
+        message = f"{len(rows)} rows for {len(found.agents)} agents (give the plan's own .scen)"
+        raise InputError.at("", message, str(scen))
+    named = rows[0].map_name if rows else found.map_name
+    # The League of Robot Runners has free cells E, and S as we do.
+    lines = load_map(map_file or _map_beside(scen or path, named))
+    lines = tuple(line.replace("E", ".") for line in lines)
+    scenario = _scenario(found, lines, rows)
+    ticks = 1 / (scenario.problem.clock.tick * found.steps_per_move)  # of a step
+    grid = scenario.roadmap.grid
+    assert grid is not None, "the map has rows"
+    faults = Faults()
+    tracks = [_track(agent, grid, int(ticks), faults) for agent in found.agents]
+    faults.stop()
+    kept = tuple(track for track in tracks if track is not None)
+    return Plan(scenario=scenario, tracks=kept, run=PlannerRun())
+
+
+def _map_beside(path: Path, named: str | None) -> Path:
+    if not named:
+        raise InputError.at("", "the plan does not name its map (give it with --map FILE)")
+    name = Path(named.replace("\\", "/")).name
+    for beside in (path.parent / name, path.parent / ".." / "maps" / name):
+        if beside.is_file():
+            return beside
+    raise InputError.at("", f"its map {shown(name)} is not beside it (give it with --map FILE)")
+
+
+def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:
+    """Return the problem: the agents' own homes and stops, or those of a .scen file."""
+    robots = []
+    for number, agent in enumerate(found.agents):
+        home, stops = agent.visits[0][0], agent.stops or [agent.visits[-1][0]]
+        if rows:
+            home, stops = rows[number].start, [rows[number].goal]
+        robots.append(
+            {"name": agent.name, "home": list(home), "stops": [{"at": list(at)} for at in stops]}
+        )
+    moves = found.steps_per_move
+    if any(step % moves for agent in found.agents for _, step in agent.visits):
+        # Agents move at steps between those of whole moves. The clock of a scenario follows from
+        # its durations; work of one step makes it fine enough.
+        robots[0]["stops"][-1]["work"] = f"1/{moves}"  # type: ignore[index]
+    document = {
+        "format": SCENARIO_FORMAT,
+        "map": {"grid": list(lines)},
+        "robots": robots,
+        "rules": "classic",
+    }
+    try:
+        return read_scenario(document, None).scenario
+    except InputError as error:
+        raise InputError(_renamed(fault, found) for fault in error.faults) from None
+
+
+def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
+    """Return a fault of a robot at the line of its agent."""
+    head, _, rest = fault.place.partition("]")
+    if not head.startswith("robots["):
+        return fault
+    agent = found.agents[int(head.removeprefix("robots["))]
+    return InputFault(agent.place_of(0), f"{agent.name}{rest}: {fault.message}")
+
+
+def _track(agent: Trajectory, grid: Grid, ticks: int, faults: Faults) -> Track | None:
+    """Return the track of an agent; None after noting the first step at which it is in a wall."""
+    vertices = []
+    for (row, column), step in agent.visits:
+        inside = 0 <= row < grid.rows and 0 <= column < grid.columns
+        vertex = grid.vertex_at[row * grid.columns + column] if inside else -1
+        if vertex < 0:
+            where = "is blocked" if inside else f"is outside {grid.rows} x {grid.columns} cells"
+            entered = f"{agent.name} enters [{row}, {column}] at step {step}"
+            message = f"{entered}, which {where} (is it this map?)"
+            faults.note(agent.place_of(step), message)
+            return None
+        vertices.append(vertex)
+    return Track.of(vertices, [step * ticks for _, step in agent.visits])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CellsOfPlan:
+    """A plan as other programs see it: a cell for each robot at each tick.
+
+    Attributes
+    ----------
+    names
+        The robots.
+    rows, columns
+        Where each robot is; int64, shape (R, T + 1).
+    goals
+        The last stop of each robot.
+    """
+
+    names: Sequence[str]
+    rows: NDArray[np.int64]
+    columns: NDArray[np.int64]
+    goals: Sequence[Cell]
+
+    def path(self, robot: int) -> Iterator[Cell]:
+        """Return the cells of a robot, tick by tick."""
+        rows, columns = self.rows[robot].tolist(), self.columns[robot].tolist()
+        return zip(rows, columns, strict=True)
+
+
+def cells_of_plan(plan: Plan) -> CellsOfPlan:
+    """Return the cells of a plan on a grid, for the writers of other programs' files.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid, or the plan has too many ticks for a list of cells.
+    """
+    grid = plan.scenario.roadmap.grid
+    if grid is None:
+        message = "the roadmap is no grid, this format holds nothing else (choose another format)"
+        raise InputError.at("map", message)
+    last = max(int(track.enter[-1]) for track in plan.tracks)
+    if last * len(plan.tracks) > MAX_STEP:
+        message = f"{last} ticks for {len(plan.tracks)} robots are too many for a list of cells"
+        raise InputError.at("robots", f"{message} (write .json)")
+    ticks = np.arange(last + 1)
+    cells = np.stack(
+        [
+            grid.cells[track.vertices[np.searchsorted(track.enter, ticks, side="right") - 1]]
+            for track in plan.tracks
+        ]
+    ).astype(np.int64)
+    return CellsOfPlan(
+        names=[robot.name for robot in plan.scenario.robots],
+        rows=cells // grid.columns,
+        columns=cells % grid.columns,
+        goals=[grid.cell(each.stages[-1].vertex) for each in plan.scenario.problem.itineraries],
+    )
