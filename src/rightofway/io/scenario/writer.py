@@ -150,6 +150,7 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         "home": roadmap.name(robot.home),
         **trip,
         "speed": written(robot.speed),
+        **({"radius": written(robot.radius)} if robot.radius else {}),
         **{key: value for key, value in own.items() if value is not None},
     }
 
@@ -167,4 +168,5 @@ def _rules(rules: Rules) -> dict[str, Any]:
         "return": rules.ends,
         "laps": rules.laps,
         "rotations": rules.rotations,
+        **({"clearance": written(rules.clearance)} if rules.clearance else {}),
     }
