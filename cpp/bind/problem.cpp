@@ -1,5 +1,9 @@
 #include "problem/problem.hpp"
 
+#include <nanobind/stl/optional.h>
+
+#include <optional>
+
 #include "bindings.hpp"
 
 namespace rightofway::bind {
@@ -35,6 +39,10 @@ books_ahead : bool
     Whether a vertex is booked from when a robot starts to drive there.
 rotations : bool
     Whether three or more robots may move round a circle at one instant, where bookings allow it.
+size_of, first, excluded : int32[R], int32[rows + 1], int32[n]
+    Size class of each robot, and for each row the rows from which a booking of it excludes other
+    robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
+    edge as robots of one size class book it; the vertices come first.
 
 Raises
 ------
@@ -47,12 +55,18 @@ using Ticks = ArrayIn<Tick>;
 void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& length_class,
           const Ints& paces, const Ints& pace_of, const Ints& home, const Ints& first_stage,
           const Ints& stage_vertex, const Ticks& stage_work, const Ticks& stage_turn,
-          std::int32_t n_classes, Tick headway, bool books_ahead, bool rotations) {
+          std::int32_t n_classes, Tick headway, bool books_ahead, bool rotations,
+          const std::optional<Ints>& size_of, const std::optional<Ints>& first,
+          const std::optional<Ints>& excluded) {
     const ProblemArrays arrays{view(indptr),      view(heads),        view(length_class),
                                view(paces),       view(pace_of),      view(home),
                                view(first_stage), view(stage_vertex), view(stage_work),
                                view(stage_turn),  n_classes};
-    new (self) Problem(arrays, {headway, books_ahead, rotations});
+    Resources resources;
+    if (size_of && first && excluded) {
+        resources = {view(*size_of), view(*first), view(*excluded)};
+    }
+    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources);
 }
 
 }  // namespace
@@ -63,10 +77,12 @@ void bind_problem(nb::module_& module) {
              array("paces"), array("pace_of"), array("home"), array("first_stage"),
              array("stage_vertex"), array("stage_work"), array("stage_turn"), nb::arg("n_classes"),
              nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
-             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
-             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
-             nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(),
-             nb::keep_alive<1, 11>())
+             array("size_of").none() = nb::none(), array("first").none() = nb::none(),
+             array("excluded").none() = nb::none(), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+             nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+             nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
+             nb::keep_alive<1, 10>(), nb::keep_alive<1, 11>(), nb::keep_alive<1, 16>(),
+             nb::keep_alive<1, 17>(), nb::keep_alive<1, 18>())
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.");
 }

@@ -40,7 +40,7 @@ tuple of (int, int32[n], int64[n])
 using Found = std::tuple<int, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
 void require_vertex(const BookingTable& self, VertexId vertex) {
-    require_id("vertex", vertex, self.n_vertices());
+    require_id("vertex", vertex, self.n_rows());
 }
 
 std::vector<std::tuple<Tick, Tick, RobotId>> at(const BookingTable& self, VertexId vertex) {
@@ -56,8 +56,8 @@ Found earliest_track(const Problem& problem, RobotId robot, const BookingTable& 
                      const std::vector<ArrayIn<std::int32_t>>& stage_tables,
                      std::optional<double> time_limit) {
     require_id("robot", robot, problem.n_robots());
-    require_length("bookings", static_cast<std::size_t>(bookings.n_vertices()),
-                   static_cast<std::size_t>(problem.n_vertices()));
+    require_length("bookings", static_cast<std::size_t>(bookings.n_rows()),
+                   static_cast<std::size_t>(problem.n_rows()));
     Trip trip{problem.itinerary(robot), {}};
     for (std::size_t k = 0; k < stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),

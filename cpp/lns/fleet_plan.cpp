@@ -10,7 +10,7 @@ namespace rightofway {
 
 FleetPlan::FleetPlan(const Problem& problem)
     : problem_(&problem),
-      bookings_(problem.n_vertices()),
+      bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
       held_(tracks_.size(), 0) {}
 
@@ -20,6 +20,32 @@ Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     const Tick end =
         k + 1 < visits.size() ? visits[k + 1].enter + problem_->rules().headway : never;
     return {visits[k].enter - approach, end};
+}
+
+// Calls `use` with each row that visit k books, and when: its vertex, and the edge driven in where
+// robots have sizes.
+template <class Use>
+void FleetPlan::for_each_row(RobotId robot, const TimedTrack& track, std::size_t k,
+                             const Use& use) const {
+    const Visit& visit = track.visits[k];
+    use(problem_->vertex_row(robot, visit.vertex), booking(track, k));
+    if (problem_->has_sizes() && k > 0) {
+        const EdgeId edge = problem_->graph().edge(track.visits[k - 1].vertex, visit.vertex);
+        use(problem_->edge_row(robot, edge),
+            Booking{visit.enter - visit.drive, visit.enter + problem_->rules().headway});
+    }
+}
+
+// Calls `use` with each row from which a booking of a row excludes other robots.
+template <class Use>
+void FleetPlan::for_each_mark(std::int32_t row, const Use& use) const {
+    if (!problem_->has_sizes()) {
+        use(row);
+        return;
+    }
+    for (const std::int32_t other : problem_->excluded(row)) {
+        use(other);
+    }
 }
 
 Tracks FleetPlan::tracks() const {
@@ -37,18 +63,25 @@ Tracks FleetPlan::tracks() const {
 void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
     TimedTrack& own = tracks_[static_cast<std::size_t>(robot)];
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
-        bookings_.erase(own.visits[k].vertex, booking(own, k).start, robot);
+        for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
+            for_each_mark(row,
+                          [&](std::int32_t mark) { bookings_.erase(mark, time.start, robot); });
+        });
     }
     flowtime_ += track.completion - own.completion;
     std::swap(own, track);
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
-        bookings_.insert(own.visits[k].vertex, booking(own, k), robot);
+        for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
+            for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, time, robot); });
+        });
     }
 }
 
 void FleetPlan::retime() {
-    Tracks all = tracks();
-    rightofway::retime(*problem_, all);
+    Tracks all = problem_->has_sizes() ? retimed_with_sizes() : tracks();
+    if (!problem_->has_sizes()) {
+        rightofway::retime(*problem_, all);
+    }
     FleetPlan retimed(*problem_);
     for (RobotId robot = 0; robot < n_robots(); ++robot) {
         TimedTrack one = track(robot);
@@ -61,14 +94,78 @@ void FleetPlan::retime() {
     *this = std::move(retimed);
 }
 
+// One sweep in the order in which the bookings start: a visit begins when its robot is ready and
+// all earlier bookings of other robots that exclude it are over. These are known, because the robot
+// that ends a booking started to drive off earlier.
+Tracks FleetPlan::retimed_with_sizes() const {
+    struct Latest {  // ends of bookings: the latest end, and the latest of any other robot
+        Tick end = 0;
+        Tick end_of_others = 0;
+        RobotId robot = nobody;
+    };
+    Tracks all = tracks();
+    std::vector<Latest> latest(static_cast<std::size_t>(problem_->n_rows()));
+    std::vector<Tick> least(all.enter.size(), 0);  // from this enter to the next
+    std::vector<std::pair<Tick, VisitId>> drives;
+    std::vector<RobotId> robot_of(all.enter.size());
+    std::vector<std::int32_t> stage_after;
+    for (RobotId robot = 0; robot < n_robots(); ++robot) {
+        const auto& visits = track(robot).visits;
+        const VisitId first = all.first_visit[robot];
+        completion(problem_->itinerary(robot), visits, &stage_after);
+        for (std::size_t k = 1; k < visits.size(); ++k) {
+            const VisitId x = first + static_cast<VisitId>(k);
+            least[x - 1] = visits[k].drive;
+            for (std::int32_t stage = k == 1 ? 0 : stage_after[k - 2]; stage < stage_after[k - 1];
+                 ++stage) {
+                least[x - 1] += problem_->stage_dwell(problem_->first_stage(robot) + stage);
+            }
+            drives.emplace_back(visits[k].enter - visits[k].drive, x);
+            robot_of[x] = robot;
+        }
+    }
+    std::sort(drives.begin(), drives.end());
+    for (const auto& [start, x] : drives) {
+        const RobotId robot = robot_of[x];
+        const auto k = static_cast<std::size_t>(x - all.first_visit[robot]);
+        const TimedTrack& old = track(robot);
+        const Tick drive = old.visits[k].drive;
+        Tick enter = all.enter[x - 1] + least[x - 1];
+        for_each_row(robot, old, k, [&](std::int32_t row, const Booking&) {
+            const Latest& one = latest[row];
+            const Tick end = one.robot == robot ? one.end_of_others : one.end;
+            enter = std::max(enter, end + drive);
+        });
+        all.enter[x] = enter;
+        const auto end_booking = [&](std::int32_t row) {
+            for_each_mark(row, [&](std::int32_t mark) {
+                Latest& one = latest[mark];
+                const Tick end = enter + problem_->rules().headway;
+                if (one.robot == robot) {
+                    one.end = std::max(one.end, end);
+                } else if (end > one.end) {
+                    one = {end, one.end, robot};
+                } else {
+                    one.end_of_others = std::max(one.end_of_others, end);
+                }
+            });
+        };
+        end_booking(problem_->vertex_row(robot, old.visits[k - 1].vertex));
+        end_booking(problem_->edge_row(
+            robot, problem_->graph().edge(old.visits[k - 1].vertex, old.visits[k].vertex)));
+    }
+    return all;
+}
+
 void FleetPlan::hold_home(RobotId robot, Tick until) {
+    const std::int32_t row = problem_->vertex_row(robot, problem_->home(robot));
     Tick& held = held_[static_cast<std::size_t>(robot)];
     if (held > 0) {
-        bookings_.erase(problem_->home(robot), 0, robot);
+        for_each_mark(row, [&](std::int32_t mark) { bookings_.erase(mark, 0, robot); });
     }
     held = until;
     if (held > 0) {
-        bookings_.insert(problem_->home(robot), {0, held}, robot);
+        for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, {0, held}, robot); });
     }
 }
 
@@ -76,19 +173,21 @@ void FleetPlan::hold_home(RobotId robot, Tick until) {
 template <class Found>
 void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found) const {
     const bool may_swap = problem_->may_follow();
-    for (std::size_t k = 0; k < track.visits.size(); ++k) {
-        const Booking own = booking(track, k);
-        const auto here = bookings_.at(track.visits[k].vertex);
-        for (std::int32_t j = BookingTable::started(here, own.end - 1);
-             j > 0 && here[j - 1].reach > own.start; --j) {
-            if (here[j - 1].robot != robot && here[j - 1].time.end > own.start &&
-                found(here[j - 1].robot)) {
-                return;
+    bool is_over = false;
+    for (std::size_t k = 0; k < track.visits.size() && !is_over; ++k) {
+        for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
+            const auto there = bookings_.at(row);
+            for (std::int32_t j = BookingTable::started(there, time.end - 1);
+                 j > 0 && there[j - 1].reach > time.start && !is_over; --j) {
+                is_over = there[j - 1].robot != robot && there[j - 1].time.end > time.start &&
+                          found(there[j - 1].robot);
             }
-        }
+        });
         if (!may_swap || k == 0) {
             continue;
         }
+        const Booking own = booking(track, k);
+        const auto here = bookings_.at(track.visits[k].vertex);
         const auto before = bookings_.at(track.visits[k - 1].vertex);
         for (std::int32_t i = BookingTable::started(before, own.start);
              i > 0 && before[i - 1].time.start == own.start; --i) {

@@ -28,6 +28,8 @@ class FleetPlan {
     Tick flowtime() const { return flowtime_; }
     Tracks tracks() const;
 
+    const Problem& problem() const { return *problem_; }
+
     // Swaps a robot's track with `track` and updates the bookings; either track may be empty.
     void exchange(RobotId robot, TimedTrack& track);
 
@@ -40,15 +42,21 @@ class FleetPlan {
     // Books the home of a robot without a track until a tick; 0 removes the booking.
     void hold_home(RobotId robot, Tick until);
 
-    // Shifts each visit to the earliest time that keeps the order at each vertex. Needs all tracks.
+    // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
+    // other. Needs all tracks.
     void retime();
 
     // The booking of visit k of a track.
     Booking booking(const TimedTrack& track, std::size_t k) const;
 
   private:
+    template <class Use>
+    void for_each_row(RobotId robot, const TimedTrack& track, std::size_t k, const Use& use) const;
+    template <class Use>
+    void for_each_mark(std::int32_t row, const Use& use) const;
     template <class Found>
     void meet(RobotId robot, const TimedTrack& track, const Found& found) const;
+    Tracks retimed_with_sizes() const;
 
     const Problem* problem_;
     BookingTable bookings_;

@@ -59,9 +59,10 @@ void Neighbourhoods::add(RobotId robot) {
     }
 }
 
-// Adds the robots with a booking of the vertex that overlaps [start, end).
+// Adds the robots with a booking that overlaps [start, end) and excludes the first robot chosen
+// from the vertex.
 void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t size) {
-    const auto here = plan_.bookings().at(vertex);
+    const auto here = plan_.bookings().at(problem_.vertex_row(chosen_.front(), vertex));
     for (std::int32_t k = BookingTable::started(here, end - 1);
          k > 0 && here[k - 1].reach > start && chosen_.size() < size; --k) {
         if (here[k - 1].time.end > start) {
@@ -217,8 +218,8 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
     const std::size_t end = std::min(middle + visits_around, visits.size() - 1);
     std::vector<std::pair<Tick, RobotId>> opposite;
     for (std::size_t k = begin; k < end; ++k) {
-        const auto here = plan_.bookings().at(visits[k].vertex);
-        const auto there = plan_.bookings().at(visits[k + 1].vertex);
+        const auto here = plan_.bookings().at(problem_.vertex_row(robot, visits[k].vertex));
+        const auto there = plan_.bookings().at(problem_.vertex_row(robot, visits[k + 1].vertex));
         const std::int32_t now = BookingTable::started(here, visits[k].enter);
         const std::int32_t from = std::max(now - 8, 0);
         const std::int32_t to = std::min(now + 8, static_cast<std::int32_t>(here.size()));

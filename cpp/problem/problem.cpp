@@ -30,8 +30,11 @@ void require_durations(const char* name, std::span<const Tick> ticks) {
 
 }  // namespace
 
-Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules)
-    : arrays_(arrays), roads_{{arrays.indptr, arrays.heads}, arrays.length_class}, rules_(rules) {
+Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources)
+    : arrays_(arrays),
+      roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
+      rules_(rules),
+      resources_(resources) {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
     }
@@ -47,6 +50,32 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules)
         }
     }
     check_robots();
+    if (has_sizes()) {
+        check_resources();
+    }
+}
+
+void Problem::check_resources() const {
+    require_length("size_of", resources_.size_of.size(), arrays_.home.size());
+    const std::int32_t n_sizes = n_rows() / n_resources();
+    require_length("first", resources_.first.size(),
+                   static_cast<std::size_t>(n_sizes * n_resources() + 1));
+    require_ids("size_of", resources_.size_of, n_sizes);
+    if (resources_.first.front() != 0) {
+        reject_entry("first", 0, resources_.first.front(), "must be 0");
+    }
+    for (std::size_t row = 0; row + 1 < resources_.first.size(); ++row) {
+        if (resources_.first[row + 1] < resources_.first[row]) {
+            reject_entry("first", row + 1, resources_.first[row + 1],
+                         "is less than the one before");
+        }
+    }
+    require_length("excluded", resources_.excluded.size(),
+                   static_cast<std::size_t>(resources_.first.back()));
+    require_ids("excluded", resources_.excluded, n_rows());
+    if (!rules_.books_ahead) {
+        throw std::invalid_argument("books_ahead: is false, but robots with sizes book ahead");
+    }
 }
 
 void Problem::check_robots() const {
@@ -86,9 +115,12 @@ void Problem::check_robots() const {
 Itinerary Problem::itinerary(RobotId robot) const {
     const auto first = static_cast<std::size_t>(first_stage(robot));
     const std::size_t n = static_cast<std::size_t>(first_stage(robot + 1)) - first;
-    return {home(robot), arrays_.stage_vertex.subspan(first, n),
-            arrays_.stage_work.subspan(first, n), arrays_.stage_turn.subspan(first, n),
-            pace(robot)};
+    return {home(robot),
+            arrays_.stage_vertex.subspan(first, n),
+            arrays_.stage_work.subspan(first, n),
+            arrays_.stage_turn.subspan(first, n),
+            pace(robot),
+            first_row(robot)};
 }
 
 Tick Problem::quickest_edge(RobotId robot) const {

@@ -36,6 +36,17 @@ struct ProblemArrays {
     std::int32_t n_classes;
 };
 
+// Which bookings exclude each other where robots have sizes; empty where none has. A *row* is a
+// resource as robots of one size class book it: row size * (V + E) + resource; resources are the
+// vertices, then the edges. A booking of row r excludes other robots from the rows
+// excluded[first[r]] .. excluded[first[r + 1] - 1]. An edge's list leaves out what the lists of its
+// ends hold, because both ends are booked for as long as the edge.
+struct Resources {
+    std::span<const std::int32_t> size_of;  // size class of each robot
+    std::span<const std::int32_t> first;
+    std::span<const std::int32_t> excluded;
+};
+
 // The stages of one robot and its pace. A visit serves a stage if it is at the stage's vertex and
 // lasts for work plus turn; the last visit of the robot needs no turn.
 struct Itinerary {
@@ -44,6 +55,7 @@ struct Itinerary {
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
     std::span<const std::int32_t> pace;  // ticks per edge of each length class
+    std::int32_t first_row = 0;          // of the robot's size class
 
     std::size_t n_stages() const { return stage_vertex.size(); }
 
@@ -72,7 +84,8 @@ struct Itinerary {
 class Problem {
   public:
     // Borrows the arrays. Throws std::invalid_argument if the arrays do not fit together.
-    Problem(const ProblemArrays& arrays, const BookingRules& rules);
+    Problem(const ProblemArrays& arrays, const BookingRules& rules,
+            const Resources& resources = {});
 
     const Graph& graph() const { return roads_.graph; }
     const Roads& roads() const { return roads_; }
@@ -103,6 +116,28 @@ class Problem {
     // The ticks of a robot's quickest edge; 1 if the graph has no length class.
     Tick quickest_edge(RobotId robot) const;
 
+    bool has_sizes() const { return !resources_.first.empty(); }
+    // Without sizes, the rows are the vertices.
+    std::int32_t n_rows() const {
+        return has_sizes() ? static_cast<std::int32_t>(resources_.first.size()) - 1 : n_vertices();
+    }
+    std::int32_t first_row(RobotId robot) const {
+        return has_sizes() ? resources_.size_of[robot] * n_resources() : 0;
+    }
+    std::int32_t vertex_row(RobotId robot, VertexId vertex) const {
+        return first_row(robot) + vertex;
+    }
+    // Only where robots have sizes.
+    std::int32_t edge_row(RobotId robot, EdgeId edge) const {
+        return first_row(robot) + n_vertices() + edge;
+    }
+    // Only where robots have sizes: the rows from which a booking of a row excludes other robots.
+    std::span<const std::int32_t> excluded(std::int32_t row) const {
+        const auto begin = static_cast<std::size_t>(resources_.first[row]);
+        const auto end = static_cast<std::size_t>(resources_.first[row + 1]);
+        return resources_.excluded.subspan(begin, end - begin);
+    }
+
     // The ticks of a robot's drive along an edge.
     std::int32_t drive(RobotId robot, EdgeId edge) const {
         return arrays_.paces[pace_of(robot) * arrays_.n_classes + roads_.length_class[edge]];
@@ -123,10 +158,15 @@ class Problem {
 
   private:
     void check_robots() const;
+    void check_resources() const;
+    std::int32_t n_resources() const {
+        return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
+    }
 
     ProblemArrays arrays_;
     Roads roads_;
     BookingRules rules_;
+    Resources resources_;
 };
 
 // One visit of a track. The visit ends at the `enter` of the next visit.

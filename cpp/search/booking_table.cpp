@@ -8,11 +8,11 @@
 namespace rightofway {
 namespace {
 
-std::size_t checked_count(VertexId n_vertices) {
-    if (n_vertices < 0) {
-        reject("n_vertices", n_vertices, "is negative");
+std::size_t checked_count(std::int32_t n_rows) {
+    if (n_rows < 0) {
+        reject("n_rows", n_rows, "is negative");
     }
-    return static_cast<std::size_t>(n_vertices);
+    return static_cast<std::size_t>(n_rows);
 }
 
 constexpr std::int32_t smallest_class = 2;
@@ -32,31 +32,31 @@ const BookedBy* overlapping(std::span<const BookedBy> here, const Booking& time,
 
 }  // namespace
 
-BookingTable::BookingTable(VertexId n_vertices) : rows_(checked_count(n_vertices)) {}
+BookingTable::BookingTable(std::int32_t n_rows) : rows_(checked_count(n_rows)) {}
 
-void BookingTable::book(VertexId vertex, const Booking& time, RobotId robot) {
-    require_id("vertex", vertex, n_vertices());
+void BookingTable::book(std::int32_t row, const Booking& time, RobotId robot) {
+    require_id("vertex", row, n_rows());
     if (robot < 0) {
         reject("robot", robot, "is negative");
     }
     if (time.is_empty()) {
         reject("end", time.end, "is not after start, " + std::to_string(time.start));
     }
-    if (const BookedBy* other = overlapping(at(vertex), time, robot)) {
+    if (const BookedBy* other = overlapping(at(row), time, robot)) {
         reject("start", time.start,
-               "overlaps a booking of vertex " + std::to_string(vertex) + " by robot " +
+               "overlaps a booking of vertex " + std::to_string(row) + " by robot " +
                    std::to_string(other->robot));
     }
-    insert(vertex, time, robot);
+    insert(row, time, robot);
 }
 
-void BookingTable::insert(VertexId vertex, const Booking& time, RobotId robot) {
-    Row& row = rows_[static_cast<std::size_t>(vertex)];
-    if (row.size_class < 0 || row.size == (std::int32_t{1} << row.size_class)) {
-        grow(row);
+void BookingTable::insert(std::int32_t row, const Booking& time, RobotId robot) {
+    Row& one = rows_[static_cast<std::size_t>(row)];
+    if (one.size_class < 0 || one.size == (std::int32_t{1} << one.size_class)) {
+        grow(one);
     }
-    BookedBy* here = pool_.data() + row.first;
-    std::int32_t k = row.size++;
+    BookedBy* here = pool_.data() + one.first;
+    std::int32_t k = one.size++;
     for (; k > 0 && here[k - 1].time.start > time.start; --k) {
         here[k] = here[k - 1];
         here[k].reach = std::max(here[k].reach, time.end);
@@ -64,10 +64,10 @@ void BookingTable::insert(VertexId vertex, const Booking& time, RobotId robot) {
     here[k] = {time, k > 0 ? std::max(here[k - 1].reach, time.end) : time.end, robot};
 }
 
-void BookingTable::erase(VertexId vertex, Tick start, RobotId robot) {
-    Row& row = rows_[static_cast<std::size_t>(vertex)];
-    BookedBy* here = pool_.data() + row.first;
-    std::int32_t k = started(at(vertex), start) - 1;
+void BookingTable::erase(std::int32_t row, Tick start, RobotId robot) {
+    Row& one = rows_[static_cast<std::size_t>(row)];
+    BookedBy* here = pool_.data() + one.first;
+    std::int32_t k = started(at(row), start) - 1;
     while (k >= 0 && here[k].time.start == start && here[k].robot != robot) {
         --k;
     }
@@ -75,8 +75,8 @@ void BookingTable::erase(VertexId vertex, Tick start, RobotId robot) {
         return;
     }
     Tick reach = k > 0 ? here[k - 1].reach : -never;
-    --row.size;
-    for (; k < row.size; ++k) {
+    --one.size;
+    for (; k < one.size; ++k) {
         here[k] = here[k + 1];
         reach = here[k].reach = std::max(reach, here[k].time.end);
     }

@@ -1,9 +1,12 @@
-// The bookings of each vertex, by start, for robots with known times.
+// The bookings of each row, by start, for robots with known times.
 //
-// One array has the rows of all vertices. A full row moves to a place of twice the size; a freed
+// A row is a vertex; where robots have sizes, a vertex or an edge as robots of one size see it, and
+// a booking is inserted in every row from which it excludes others (problem.hpp).
+//
+// One array has all rows. A full row moves to a place of twice the size; a freed
 // place is used again. So insert and erase shift a few entries and mostly allocate nothing, and a
 // copy of the table is three copies of memory. A *gap* is the time between two bookings of one
-// vertex. The bookings of a vertex overlap only while the plan has conflicts.
+// row. The bookings of a row overlap while the plan has conflicts, and where robots have sizes.
 #pragma once
 
 #include <array>
@@ -23,24 +26,24 @@ struct BookedBy {
 
 class BookingTable {
   public:
-    // Throws std::invalid_argument if `n_vertices` is negative.
-    explicit BookingTable(VertexId n_vertices);
+    // Throws std::invalid_argument if `n_rows` is negative.
+    explicit BookingTable(std::int32_t n_rows);
 
-    VertexId n_vertices() const { return static_cast<VertexId>(rows_.size()); }
-    std::span<const BookedBy> at(VertexId vertex) const {
-        const Row& row = rows_[static_cast<std::size_t>(vertex)];
-        return {pool_.data() + row.first, static_cast<std::size_t>(row.size)};
+    std::int32_t n_rows() const { return static_cast<std::int32_t>(rows_.size()); }
+    std::span<const BookedBy> at(std::int32_t row) const {
+        const Row& one = rows_[static_cast<std::size_t>(row)];
+        return {pool_.data() + one.first, static_cast<std::size_t>(one.size)};
     }
 
-    // Adds a booking. Throws std::invalid_argument for an unknown vertex, an empty booking, or an
+    // Adds a booking. Throws std::invalid_argument for an unknown row, an empty booking, or an
     // overlap with a booking of another robot.
-    void book(VertexId vertex, const Booking& time, RobotId robot);
+    void book(std::int32_t row, const Booking& time, RobotId robot);
 
     // Adds a booking without checks; bookings may overlap.
-    void insert(VertexId vertex, const Booking& time, RobotId robot);
+    void insert(std::int32_t row, const Booking& time, RobotId robot);
 
-    // Removes the robot's booking with this start, if the vertex has one.
-    void erase(VertexId vertex, Tick start, RobotId robot);
+    // Removes the robot's booking with this start, if the row has one.
+    void erase(std::int32_t row, Tick start, RobotId robot);
 
     // The number of bookings with start <= time.
     static std::int32_t started(std::span<const BookedBy> bookings, Tick time) {

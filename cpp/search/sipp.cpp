@@ -8,6 +8,7 @@ namespace {
 constexpr std::int64_t states_between_questions = 256;
 constexpr std::size_t first_slots = 256;
 constexpr std::int64_t states_per_drive = 8;  // limit for aiming
+constexpr std::span<const BookedBy> no_bookings;
 
 std::uint64_t scatter(std::uint64_t key) {
     key *= 0x9E3779B97F4A7C15U;
@@ -22,6 +23,7 @@ SafeIntervalSearch::SafeIntervalSearch(const Roads& roads, const BookingRules& r
 void SafeIntervalSearch::begin(const SearchRequest& errand) {
     trip_ = &errand.trip;
     bookings_ = &errand.bookings;
+    books_edges_ = bookings_->n_rows() > roads_.graph.n_vertices();
     prices_ = errand.prices;
     limit_ = errand.limit;
     nodes_.clear();
@@ -56,7 +58,7 @@ void SafeIntervalSearch::measure_stages(const Trip& trip) {
 // A lower bound of completion plus prices from the bookings of the last vertex: the robot enters
 // after the end of a booking, or pays for the booking.
 Tick SafeIntervalSearch::least_end() const {
-    const auto last = bookings_->at(trip_->stage_vertex.back());
+    const auto last = at(trip_->stage_vertex.back());
     Tick paid = 0;
     Tick least = never;
     for (std::size_t k = last.size(); k > 0 && paid < least; --k) {
@@ -102,7 +104,7 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopConditi
 // Whether bookings of the last vertex raise the bound above the completion time alone, and the
 // bound is to wait for all of them.
 bool SafeIntervalSearch::is_worth_aiming() const {
-    const auto last = bookings_->at(trip_->stage_vertex.back());
+    const auto last = at(trip_->stage_vertex.back());
     return least_f_ > rest(trip_->home, 0) && least_f_ == free_end(last);
 }
 
@@ -115,7 +117,7 @@ SearchEnd SafeIntervalSearch::aim(const StopCondition& is_over) {
 }
 
 SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopCondition& is_over) {
-    const auto here = bookings_->at(trip_->home);
+    const auto here = at(trip_->home);
     Node first{0,    0, trip_->home, BookingTable::started(here, rules_.headway), 0, none,
                none, 0, false};
     first.cost = price_of_entry(first, 0);
@@ -164,7 +166,7 @@ void SafeIntervalSearch::finish(std::int32_t node) {
     if (after.stage < first_last_ || after.vertex != trip_->stage_vertex.back()) {
         return;
     }
-    const auto here = bookings_->at(after.vertex);
+    const auto here = at(after.vertex);
     for (auto k = static_cast<std::size_t>(after.gap); k < here.size(); ++k) {
         after.cost += price(here[k].robot);
         if (after.cost >= never) {
@@ -186,7 +188,7 @@ void SafeIntervalSearch::serve(std::int32_t node) {
         return;
     }
     after.ready += trip_->stage_work[after.stage] + trip_->stage_turn[after.stage];
-    const auto here = bookings_->at(after.vertex);
+    const auto here = at(after.vertex);
     const std::int32_t n = static_cast<std::int32_t>(here.size());
     for (; after.gap < n && here[after.gap].time.start <= after.ready + rules_.headway;
          ++after.gap) {
@@ -204,7 +206,7 @@ void SafeIntervalSearch::serve(std::int32_t node) {
 // Stays past the start of the next booking and pays its price.
 void SafeIntervalSearch::stay_on(std::int32_t node) {
     Node after = nodes_[static_cast<std::size_t>(node)];
-    const auto here = bookings_->at(after.vertex);
+    const auto here = at(after.vertex);
     if (static_cast<std::size_t>(after.gap) == here.size()) {
         return;
     }
@@ -223,7 +225,7 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
 // Drives along an edge into each gap of its head that the robot can enter before this gap ends.
 void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     const Node& here = nodes_[static_cast<std::size_t>(node)];
-    const auto from = bookings_->at(here.vertex);
+    const auto from = at(here.vertex);
     const std::int32_t ticks = trip_->pace[roads_.length_class[edge]];
     Node candidate = here;
     candidate.vertex = roads_.graph.indices[edge];
@@ -238,22 +240,25 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     }
     const Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - here.cost);
     const Tick approach = rules_.books_ahead ? ticks : 0;
+    const auto along = books_edges_ ? at(roads_.graph.n_vertices() + edge) : no_bookings;
     if (prices_.empty()) {
-        drive_between(candidate, way, in_time, approach);
+        drive_between(candidate, way, in_time, approach, along);
     } else {
-        drive_across(candidate, way, in_time, approach);
+        drive_across(candidate, way, in_time, approach, along);
     }
 }
 
 // Enters each gap between bookings as early as possible.
-void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach) {
-    const auto to = bookings_->at(candidate.vertex);
+void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Tick approach,
+                                       std::span<const BookedBy> along) {
+    const auto to = at(candidate.vertex);
     const std::int32_t n = static_cast<std::int32_t>(to.size());
     for (std::int32_t k = BookingTable::started(to, candidate.ready + rules_.headway); k <= n;
          ++k) {
         if (k > 0) {
             candidate.ready = std::max(candidate.ready, to[k - 1].reach + approach);
         }
+        candidate.ready = free_drive(along, candidate.ready, candidate.drive);
         if (candidate.ready > latest || candidate.ready >= never) {
             return;
         }
@@ -265,10 +270,22 @@ void SafeIntervalSearch::drive_between(Node candidate, Tick way, Tick latest, Ti
     }
 }
 
+// The earliest end of a drive, from `tick` on, that overlaps no booking of its edge.
+Tick SafeIntervalSearch::free_drive(std::span<const BookedBy> along, Tick tick, Tick drive) const {
+    for (;;) {
+        const std::int32_t k = BookingTable::started(along, tick + rules_.headway - 1);
+        if (k == 0 || along[k - 1].reach <= tick - drive || tick >= never) {
+            return tick;
+        }
+        tick = along[k - 1].reach + drive;
+    }
+}
+
 // Enters as early as possible and at each end of a booking, and pays for the bookings that have not
 // ended.
-void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach) {
-    const auto to = bookings_->at(soonest.vertex);
+void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest, Tick approach,
+                                      std::span<const BookedBy> along) {
+    const auto to = at(soonest.vertex);
     const auto enter = [&](Tick tick) {
         Node candidate = soonest;
         candidate.ready = tick;
@@ -276,6 +293,9 @@ void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest
         candidate.cost += price_of_entry(candidate, approach);
         if (candidate.cost < never) {
             candidate.cost += price_of_swaps(candidate);
+        }
+        if (candidate.cost < never) {
+            candidate.cost += price_of_drive(along, tick, candidate.drive);
         }
         if (candidate.cost < never) {
             reach(candidate, way);
@@ -291,11 +311,30 @@ void SafeIntervalSearch::drive_across(const Node& soonest, Tick way, Tick latest
             enter(tick);
         }
     }
+    for (const BookedBy& one : along) {
+        const Tick tick = one.time.end + soonest.drive;
+        if (one.time.end < never && tick > soonest.ready && tick <= latest) {
+            enter(tick);
+        }
+    }
+}
+
+// The price of the bookings of an edge that overlap a drive.
+Tick SafeIntervalSearch::price_of_drive(std::span<const BookedBy> along, Tick tick,
+                                        Tick drive) const {
+    Tick sum = 0;
+    for (std::int32_t k = BookingTable::started(along, tick + rules_.headway - 1);
+         k > 0 && along[k - 1].reach > tick - drive && sum < never; --k) {
+        if (along[k - 1].time.end > tick - drive) {
+            sum += price(along[k - 1].robot);
+        }
+    }
+    return std::min(sum, never);
 }
 
 // The price of the bookings that have not ended at the enter.
 Tick SafeIntervalSearch::price_of_entry(const Node& candidate, Tick approach) const {
-    const auto to = bookings_->at(candidate.vertex);
+    const auto to = at(candidate.vertex);
     const Tick start = candidate.ready - approach;
     Tick sum = 0;
     for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach > start; --k) {
@@ -316,8 +355,8 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
         return 0;
     }
     const Node& before = nodes_[static_cast<std::size_t>(candidate.parent)];
-    const auto from = bookings_->at(before.vertex);
-    const auto to = bookings_->at(candidate.vertex);
+    const auto from = at(before.vertex);
+    const auto to = at(candidate.vertex);
     Tick sum = 0;
     for (auto j = static_cast<std::size_t>(before.gap);
          j < from.size() && from[j].time.start == candidate.ready; ++j) {
@@ -380,7 +419,7 @@ SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
         enlarge_slots();
     }
     const auto place = static_cast<std::uint64_t>(node.stage) *
-                           static_cast<std::uint64_t>(bookings_->n_vertices()) +
+                           static_cast<std::uint64_t>(roads_.graph.n_vertices()) +
                        static_cast<std::uint64_t>(node.vertex);
     const auto gap = static_cast<std::uint64_t>(node.gap);
     const std::uint64_t state = (place << 24) ^ gap;

@@ -13,6 +13,9 @@
 // that are complete at exactly that tick are equally good, and a greedy search, nearest to the end
 // first, looks for one of them within a limited number of states.
 //
+// Where robots have sizes, a drive also needs its edge to be free of bookings: within one gap of
+// the head, the earliest drive that does is the best.
+//
 // One object serves many searches: nodes, heap and state table keep their memory; a generation
 // stamp replaces clearing.
 //
@@ -95,8 +98,12 @@ class SafeIntervalSearch {
     void serve(std::int32_t node);
     void stay_on(std::int32_t node);
     void drive(std::int32_t node, EdgeId edge);
-    void drive_between(Node candidate, Tick way, Tick latest, Tick approach);
-    void drive_across(const Node& soonest, Tick way, Tick latest, Tick approach);
+    void drive_between(Node candidate, Tick way, Tick latest, Tick approach,
+                       std::span<const BookedBy> along);
+    void drive_across(const Node& soonest, Tick way, Tick latest, Tick approach,
+                      std::span<const BookedBy> along);
+    Tick free_drive(std::span<const BookedBy> along, Tick tick, Tick drive) const;
+    Tick price_of_drive(std::span<const BookedBy> along, Tick tick, Tick drive) const;
     Tick price_of_entry(const Node& candidate, Tick approach) const;
     Tick price_of_swaps(const Node& candidate) const;
     Tick price(RobotId robot) const;
@@ -105,12 +112,18 @@ class SafeIntervalSearch {
     void next_generation();
     Slot& slot_of(const Node& node);
     void enlarge_slots();
+    // The bookings of a vertex, or of edge `n_vertices + edge`, as the robot's size class sees
+    // them.
+    std::span<const BookedBy> at(std::int32_t resource) const {
+        return bookings_->at(trip_->first_row + resource);
+    }
     std::int32_t n_stages() const { return static_cast<std::int32_t>(trip_->n_stages()); }
 
     Roads roads_;
     BookingRules rules_;
     const Trip* trip_ = nullptr;
     const BookingTable* bookings_ = nullptr;
+    bool books_edges_ = false;  // robots have sizes
     std::span<const Tick> prices_;
     Tick limit_ = never;
     std::vector<Tick> to_go_;      // least ticks from each stage's vertex to completion

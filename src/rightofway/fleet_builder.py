@@ -26,6 +26,7 @@ from rightofway.model import (
     straight_length,
 )
 from rightofway.model.places import as_place, is_cell, vertex_at
+from rightofway.model.resources import circle_around
 from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
 
@@ -57,7 +58,7 @@ class FleetBuilder:
         What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
-        ``ends``, ``laps``, ``rotations``.
+        ``ends``, ``laps``, ``rotations``, ``clearance``.
 
     Raises
     ------
@@ -195,6 +196,8 @@ class FleetBuilder:
         turn: Number | None = None,
         ends: TripEnd | None = None,
         laps: int | None = None,
+        radius: Number | None = None,
+        size: tuple[Number, Number] | None = None,
     ) -> Self:
         """Add a robot; the map must be complete.
 
@@ -213,6 +216,10 @@ class FleetBuilder:
             Length units per time unit.
         turn, ends, laps
             As for `Robot`, if they differ from the rules.
+        radius
+            Radius of the circle that it needs [length unit]; a point by default.
+        size
+            Its length and width [length unit] instead of ``radius``: the circle around it.
 
         Raises
         ------
@@ -220,6 +227,8 @@ class FleetBuilder:
             For a place that is not on the map, with what is there, and for a value of a wrong kind.
         """
         source = f"robot {shown(name)}"
+        if radius is not None and size is not None:
+            raise InputError.at("", "has both radius and size (give one of them)", source)
         if (target is None) == (stops is None):
             what = "has nowhere to go" if target is None else "has both target and stops"
             raise InputError.at("", f"{what} (give either target or stops)", source)
@@ -239,6 +248,7 @@ class FleetBuilder:
                 turn=turn,  # type: ignore[arg-type]
                 ends=ends,
                 laps=laps,
+                radius=_radius(radius, size),
             )
         except InputError as error:
             raise InputError(error.faults, source) from None
@@ -344,6 +354,14 @@ def _point(place: str, x: Number, y: Number) -> Point:
         return coordinate(x), coordinate(y)
     except ValueError as error:
         raise InputError.at(place, str(error)) from None
+
+
+def _radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
+    """Return the radius of a robot, or of the circle around its sides."""
+    if size is None:
+        return Fraction(0) if radius is None else radius  # type: ignore[return-value]
+    length, width = (exact_length(side, f"size[{k}]") for k, side in enumerate(size))
+    return circle_around(length, width)
 
 
 def _place_and_work(stop: Any) -> tuple[Any, Number]:

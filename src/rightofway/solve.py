@@ -13,6 +13,7 @@ import numpy as np
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
 from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
+from rightofway.model.resources import refuse_sizes
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
@@ -168,6 +169,10 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
     from rightofway.planners.impossible import refuse_stranded
     from rightofway.search import alone_completions
 
+    if not spec.knows_sizes:
+        able = " or ".join(one.name for one in registered().values() if one.knows_sizes)
+        what = f"planner {spec.name}"
+        refuse_sizes(task.scenario.problem.resources, what, f"choose {able}")
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 

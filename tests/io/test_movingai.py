@@ -94,7 +94,7 @@ def test_what_is_wrong_with_a_scen_is_told_with_its_line(
 
 def test_a_scen_by_itself_is_classic_mapf(hall: Path) -> None:
     scenario = load(hall)
-    assert scenario.rules == Rules(turn=Fraction(0), ends="none")
+    assert scenario.rules == Rules(turn=Fraction(0), ends="none", occupancy="one")
     assert [(robot.name, robot.speed) for robot in scenario.robots] == [
         ("R1", Fraction(1)),
         ("R2", Fraction(1)),
@@ -159,7 +159,9 @@ def test_a_map_by_itself_has_no_robots(hall: Path) -> None:
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     fleet = grid_fleet(["..@", "..."], [("N0", "N5"), ("N4", "N1")])
     scenario = Scenario(
-        roadmap=fleet.roadmap, robots=fleet.robots, rules=Rules(turn=Fraction(0), ends="none")
+        roadmap=fleet.roadmap,
+        robots=fleet.robots,
+        rules=Rules(turn=Fraction(0), ends="none", occupancy="one"),
     )
     write_map(scenario.roadmap, tmp_path / "a.map")
     assert write_scen(scenario, tmp_path / "a.scen", map_name="a.map") == ()

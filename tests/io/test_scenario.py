@@ -68,7 +68,7 @@ def test_decimals_of_files_are_exact(tmp_path: Path) -> None:
 
 def test_classic_rules_are_those_of_the_benchmark() -> None:
     assert scenario_of(one_robot() | {"rules": "classic"}).rules == Rules(
-        turn=Fraction(0), ends="none"
+        occupancy="one", turn=Fraction(0), ends="none"
     )
     with pytest.raises(InputError, match=r"rules: 'clasic' is no name of rules \(give classic, or"):
         scenario_of(one_robot() | {"rules": "clasic"})

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
+from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips
 from rightofway.check.visits import visits_of
 from rightofway.model import Plan
@@ -37,6 +38,10 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
 
     Stops are matched to visits greedily: a robot works as early as it can, on several stops in one
     visit if they follow each other at one vertex. A visit too short for that is only passing.
+
+    Robots with a size book the edges that they drive along, too. Bookings of places that are nearer
+    than the radii and the clearance allow must not overlap either, and no two robots may ever be
+    nearer than that, at any instant of stays and straight, uniform drives; both are judged exactly.
     """
     visits = visits_of(plan)
     names = Names(plan.scenario)
@@ -47,4 +52,5 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     judge_swaps(visits, names, collector)
     if not plan.scenario.rules.rotations:
         judge_rotations(visits, names, collector)
+    judge_space(plan, visits, names, collector)
     return collector.report()

@@ -25,6 +25,8 @@ FaultKind = Literal[
     "headway",
     "swap conflict",
     "rotation",
+    "space conflict",
+    "too close",
 ]
 """The ways a plan can be wrong.
 
@@ -41,6 +43,8 @@ FaultKind = Literal[
 ``headway``          they would not without the headway: one comes too soon after the other
 ``swap conflict``    two robots exchange two vertices at the same instant
 ``rotation``         three or more robots move round a circle at one instant, where rules forbid it
+``space conflict``   two robots book places at one time that are too near for their sizes
+``too close``        two robots come nearer to each other than their sizes and the clearance allow
 ===================  ===============================================================================
 """
 
@@ -57,7 +61,8 @@ class Fault:
         Who breaks it, by index, increasing.
     vertices
         Where. For a jump or a drive its tail and head; for a swap the vertex that each robot
-        leaves; for a rotation the circle.
+        leaves; for a rotation the circle; for robots that are too near the vertex or the ends of
+        the edge of the first one, then those of the second one.
     tick
         When it begins [ticks].
     message

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.model.resources import refuse_sizes
 from rightofway.planners import planning_headway
 from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
@@ -188,6 +189,7 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
+    refuse_sizes(scenario.problem.resources, "laps", "give robots without a radius")
     faults = [
         fault.within(f"robots[{index}]")
         for index, robot in enumerate(scenario.robots)

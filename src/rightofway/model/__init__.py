@@ -6,6 +6,7 @@ from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import Decision, Improvement, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
+from rightofway.model.resources import Resources
 from rightofway.model.roadmap import (
     Edge,
     Grid,
@@ -57,6 +58,7 @@ __all__ = [
     "Problem",
     "Quantities",
     "Reroute",
+    "Resources",
     "Roadmap",
     "Robot",
     "RobotPlan",

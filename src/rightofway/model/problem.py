@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 
+from rightofway.model.resources import Resources, resources_of
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
@@ -74,6 +75,8 @@ class Problem:
         it.
     itineraries
         One for each robot.
+    resources
+        Which bookings exclude each other, or None where no robot has a size.
     """
 
     roadmap: Roadmap
@@ -82,6 +85,7 @@ class Problem:
     books_ahead: bool
     rotations: bool
     itineraries: tuple[Itinerary, ...]
+    resources: Resources | None = None
 
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
@@ -117,6 +121,7 @@ def problem_of(
         books_ahead=rules.books_ahead,
         rotations=rules.rotations,
         itineraries=tuple(_itinerary(roadmap, robot, rules, clock) for robot in robots),
+        resources=resources_of(roadmap, [robot.radius for robot in robots], rules.clearance),
     )
 
 

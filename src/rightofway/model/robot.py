@@ -74,6 +74,8 @@ class Robot:
         Whether it returns home, if that differs from the rules.
     laps
         How often it makes its round trip, if that differs from the rules.
+    radius
+        Radius of the circle that it needs [length unit], not negative; 0 for a point.
 
     Raises
     ------
@@ -88,6 +90,7 @@ class Robot:
     turn: Turn | None = None
     ends: TripEnd | None = None
     laps: int | None = None
+    radius: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
         coerced(
@@ -100,6 +103,7 @@ class Robot:
             turn=optional(turning),
             ends=optional(word_of(TripEnd)),
             laps=optional(whole_number),
+            radius=number,
         )
 
     def __repr__(self) -> str:
@@ -121,7 +125,7 @@ class Rules:
     ----------
     occupancy
         ``one``: a robot books a vertex from when it enters. ``both``: from when it starts to drive
-        there, as real fleets do.
+        there, as real fleets do. None means ``both`` where a robot has a radius, else ``one``.
     headway
         Least time between one robot leaving a vertex and the next entering it [time unit].
     turn
@@ -132,6 +136,8 @@ class Rules:
         How often each robot makes its round trip.
     rotations
         Whether three or more robots may move round a circle all at one instant.
+    clearance
+        Least distance between two robots of which one has a radius [length unit].
 
     Raises
     ------
@@ -139,23 +145,25 @@ class Rules:
         With every value of a wrong kind; the ranges are checked by `Scenario`.
     """
 
-    occupancy: Occupancy = "one"
+    occupancy: Occupancy | None = None
     headway: Fraction = Fraction(0)
     turn: Turn | None = None
     ends: TripEnd = "home"
     laps: int = 1
     rotations: bool = True
+    clearance: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
         coerced(
             self,
             "rules",
-            occupancy=word_of(Occupancy),
+            occupancy=optional(word_of(Occupancy)),
             headway=number,
             turn=optional(turning),
             ends=word_of(TripEnd),
             laps=whole_number,
             rotations=truth,
+            clearance=number,
         )
 
     @property

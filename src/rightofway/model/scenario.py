@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.problem import Problem, problem_of
-from rightofway.model.quantities import Quantities, Units
+from rightofway.model.quantities import Quantities, Units, decimal
+from rightofway.model.resources import too_short_edges
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
@@ -49,7 +50,8 @@ class Scenario:
         faults = list(_kind_faults(self))
         if not faults:
             object.__setattr__(self, "robots", tuple(self.robots))
-            faults = [*_rule_faults(self), *_fleet_faults(self)]
+            object.__setattr__(self, "rules", _resolved(self))
+            faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
         if faults:
             raise InputError(faults)
         object.__setattr__(
@@ -65,6 +67,14 @@ class Scenario:
     def quantities(self) -> Quantities:
         """How times, lengths and speeds of this scenario are written for people."""
         return Quantities(units=self.units, tick=self.problem.clock.tick)
+
+
+def _resolved(scenario: Scenario) -> Rules:
+    """Return the rules with the occupancy that the fleet has by default."""
+    if scenario.rules.occupancy is not None:
+        return scenario.rules
+    has_sizes = any(robot.radius > 0 for robot in scenario.robots)
+    return replace(scenario.rules, occupancy="both" if has_sizes else "one")
 
 
 def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -100,6 +110,30 @@ def _turn_faults(turn: Turn | None, place: str, roadmap: Roadmap) -> Iterator[In
             yield InputFault(place, "'cell' needs a grid (give a time, like 0 or 1/2)")
     elif turn is not None and turn < 0:
         yield InputFault(place, f"{turn} is negative (give 0 or more, or 'cell')")
+
+
+def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
+    """Yield what does not fit to robots that have a size, or to a fleet in which none has."""
+    rules = scenario.rules
+    if rules.clearance < 0:
+        yield InputFault("rules.clearance", f"{rules.clearance} is negative (give 0 or more)")
+    if all(robot.radius <= 0 for robot in scenario.robots):
+        if rules.clearance > 0:
+            message = f"{rules.clearance} is for robots with a size (give a robot a radius)"
+            yield InputFault("rules.clearance", message)
+        return
+    if rules.occupancy == "one":
+        remedy = "give both, or leave it out"
+        message = f"'one' is for robots without a size, and a robot has a radius ({remedy})"
+        yield InputFault("rules.occupancy", message)
+    for tail, head, length, about in too_short_edges(scenario.roadmap):
+        name = scenario.roadmap.name
+        yield InputFault(
+            "roadmap",
+            f"the edge from {name(tail)} to {name(head)} is {decimal(length)} long, but its ends"
+            f" are {decimal(about, 6)} apart (robots with a size drive straight: give its length"
+            " or move an end)",
+        )
 
 
 def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -141,6 +175,8 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
         yield InputFault(
             "speed", f"{robot.speed} is not positive (give a speed above 0, like 1 or 1/2)"
         )
+    if robot.radius < 0:
+        yield InputFault("radius", f"{robot.radius} is negative (give 0 or more)")
     if robot.laps is not None and robot.laps < 1:
         yield InputFault("laps", f"{robot.laps} is less than one lap (give 1 or more)")
     if not robot.stops:

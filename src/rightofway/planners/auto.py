@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp
 from rightofway.model import flowtime_of
+from rightofway.model.resources import refuse_sizes
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
 from rightofway.planners.task import Draft, Task
@@ -28,11 +29,14 @@ SHARE = 0.3
 def auto(task: Task) -> Draft:
     """Plan by several methods and improve the best plan; options: `AutoOptions`.
 
-    With ``swaps=leave`` it is `paper`.
+    With ``swaps=leave`` it is `paper`, for points only.
     """
     if task.options["swaps"] == "leave":
+        refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     explained = None
+    if task.scenario.problem.resources is not None:
+        return lns(task)  # two-level does not know robots with a size yet
     if len(task.scenario.robots) <= FEW:
         options = {"swaps": "resolve", "routes": "clear"}
         hurried = replace(task, options=options, deadline=task.deadline.sooner(SHARE))

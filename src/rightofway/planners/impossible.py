@@ -31,6 +31,7 @@ from rightofway.model import (
     Track,
     VertexId,
 )
+from rightofway.model.resources import distance
 from rightofway.planners.task import Deadline
 from rightofway.search import Distances, alone_completions, untimed_lacam
 
@@ -70,7 +71,7 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
     stranded
         The robots that have no way to a place.
     """
-    found = [*_missing_ways(scenario, stranded), *_shared_ends(scenario)]
+    found = [*_missing_ways(scenario, stranded), *_shared_ends(scenario), *_clashes(scenario)]
     if found:
         raise NoPlanExists(found)
 
@@ -103,6 +104,30 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
                 f" (let {others} end elsewhere)",
                 tuple(names),
                 (place,),
+            )
+
+
+def _clashes(scenario: Scenario) -> Iterator[Blockage]:
+    """Yield where two robots with a size would start or end too near to each other."""
+    if scenario.problem.resources is None:
+        return
+    itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
+    length, clearance = scenario.quantities.length, scenario.rules.clearance
+    homes, ends = [one.home for one in itineraries], [one.last for one in itineraries]
+    for when, places in (("start", homes), ("end", ends)):
+        for pair in scenario.problem.resources.clashes(places):
+            here, there = (places[robot] for robot in pair)
+            if here == there:
+                continue  # a shared end
+            one, other = (scenario.robots[robot] for robot in pair)
+            at = roadmap.name(here), roadmap.name(there)
+            yield Blockage(
+                f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
+                f" {length(distance(roadmap, here, there))} apart, but need"
+                f" {length(one.radius + other.radius + clearance)} (let one of them {when}"
+                " elsewhere)",
+                (one.name, other.name),
+                at,
             )
 
 

@@ -19,6 +19,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from rightofway.errors import GaveUp
 from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
@@ -38,6 +39,9 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
+SEARCHES_WITH_SIZES = 30
+"""The same for robots with a size, for which there is no second method."""
+
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
 
@@ -51,6 +55,11 @@ def prioritized(task: Task) -> Draft:
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
+    if task.scenario.problem.resources is not None:
+        raise GaveUp(
+            f"robots one after another found no way in {SEARCHES_WITH_SIZES} searches for each"
+            " (try another order or seed)"
+        )
     status = "all together, because robots one after another found no way"
     return replace(plan_fleet(task), status=status)
 
@@ -71,14 +80,18 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
-    searches, deadline = SEARCHES * len(turns), task.deadline
+    has_sizes = task.scenario.problem.resources is not None
+    searches = (SEARCHES_WITH_SIZES if has_sizes else SEARCHES) * len(turns)
+    deadline = task.deadline
     if search.prioritize(
         turns,
         searches=searches,
-        time_limit=_part(deadline, SHARE),
+        time_limit=_part(deadline, 1 if has_sizes else SHARE),
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
+    if has_sizes:
+        return None  # one pace is for points
     drafts = [_at_one_pace(task, turns)]
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))

@@ -32,6 +32,8 @@ class PlannerSpec:
         Whether it can start from a plan and make it better.
     leaves_swaps
         Whether its plans may hold swaps; all other plans keep all rules.
+    knows_sizes
+        Whether it plans robots that have a size.
     """
 
     name: str
@@ -40,6 +42,7 @@ class PlannerSpec:
     options_type: type[PlannerOptions] = PlannerOptions
     improves: bool = False
     leaves_swaps: bool = False
+    knows_sizes: bool = False
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -79,6 +82,7 @@ PLANNERS = (
         "rightofway.planners.auto:auto",
         "The default: a plan at once, then better plans until time is up.",
         options.AutoOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "two-level",
@@ -128,6 +132,7 @@ PLANNERS = (
         "rightofway.planners.prioritized:prioritized",
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "lns",
@@ -135,6 +140,7 @@ PLANNERS = (
         "Large neighbourhood search: replans a few robots at a time until time is up.",
         options.LnsOptions,
         improves=True,
+        knows_sizes=True,
     ),
 )
 

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
+from rightofway.model.resources import refuse_sizes
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -182,6 +183,7 @@ class ActionDependencyGraph:
         before: NDArray[np.int32] | None = None,
         since: NDArray[np.int64] | None = None,
     ) -> None:
+        refuse_sizes(scenario.problem.resources, "execution", "simulate a fleet of points")
         itineraries = scenario.problem.itineraries
         self.scenario, self.delay_model = scenario, delay_model
         self.routes = tuple(

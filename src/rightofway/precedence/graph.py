@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model.resources import refuse_sizes
 
 Visit = int
 """A visit's number in the graph: the robots' routes one behind the other."""
@@ -252,6 +253,7 @@ def graph_of(
     -----
     With the headway of the scenario, no robot is later in the timetable than in the plan.
     """
+    refuse_sizes(scenario.problem.resources, "the precedence graph", "plan with prioritized")
     itineraries = scenario.problem.itineraries
     graph = PrecedenceGraph(
         [

@@ -33,7 +33,7 @@ def bound(problem: Problem) -> _core.Problem:
     """
     native = _BOUND.get(problem)
     if native is None:
-        roadmap, robots = problem.roadmap, problem.itineraries
+        roadmap, robots, sizes = problem.roadmap, problem.itineraries, problem.resources
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
@@ -52,6 +52,9 @@ def bound(problem: Problem) -> _core.Problem:
             headway=problem.headway,
             books_ahead=problem.books_ahead,
             rotations=problem.rotations,
+            size_of=None if sizes is None else sizes.size_of,
+            first=None if sizes is None else sizes.first,
+            excluded=None if sizes is None else sizes.excluded,
         )
     return native
 

@@ -147,7 +147,8 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             remedy = "give classic, or a mapping like {headway: 1}"
             raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
-        return Rules(**given("occupancy", "headway", "turn", "ends", "laps", "rotations"))
+        keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
+        return Rules(**given(*keys))
 
     def units_of(data: Any) -> Units:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
@@ -284,7 +285,7 @@ def _listed(robots: Sequence[Any], on: LoadedMap | None, faults: Faults) -> Iter
         document = faults.attempt(place, checked, RobotDocument, data, on)
         if document is None or on is None:
             continue
-        own = document.given("speed", "turn", "ends", "laps")
+        own = {**document.given("speed", "turn", "ends", "laps"), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
         robot = Robot(name=document.name, home=document.home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
@@ -296,7 +297,7 @@ def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
     document, placed = robots.document, list[_Placed]()
     ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.given("turn", "ends", "laps")
+    own = document.given("turn", "ends", "laps", "radius")
     aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
     dealt = zip(ends, speeds, works, strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):

@@ -30,6 +30,7 @@ from rightofway.io.fields import (
 from rightofway.model import Occupancy, TripEnd, VertexId
 from rightofway.model.places import kinds_of_places
 from rightofway.model.quantities import LengthUnit, TimeUnit
+from rightofway.model.resources import circle_around
 
 PLACES = kinds_of_places(None)
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
@@ -185,6 +186,8 @@ class RobotDocument(TripDocument):
     work: NotNegative = optional(WORK)
     stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
     speed: Positive = optional("length units per time unit, above 0; 1 by default")
+    radius: NotNegative = optional("radius of the circle that it needs [length unit]")
+    size: Size = optional("[length, width] instead of a radius: the circle around it [length unit]")
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -194,7 +197,17 @@ class RobotDocument(TripDocument):
             raise ValueError("has both target and stops (give one of them)")
         if self.stops is not None and self.work is not None:
             raise ValueError("has work beside stops (write it at each stop)")
+        if self.radius is not None and self.size is not None:
+            raise ValueError("has both radius and size (give one of them)")
+        if self.size is not None and min(self.size) <= 0:
+            raise ValueError("size: length and width are not both positive (give two above 0)")
         return self
+
+    def space(self) -> dict[str, Fraction]:
+        """Return the radius [length unit], if it is written or follows from the size."""
+        if self.size is not None:
+            return {"radius": circle_around(*self.size)}
+        return self.given("radius")
 
     def trip(self) -> list[tuple[VertexId, Fraction | None]]:
         """Return where the robot works, and how long [time unit] if that is written."""
@@ -210,6 +223,7 @@ class FleetDocument(TripDocument):
         "speeds to deal out in turn: first, second, ...", min_length=1
     )
     work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
+    radius: NotNegative = optional("radius of the circle that each of them needs [length unit]")
 
 
 class RobotTableDocument(Document):
@@ -224,6 +238,9 @@ class RulesDocument(TripDocument):
     occupancy: Occupancy = optional("one, or both")
     headway: NotNegative = optional("least time between two robots at a vertex [time unit]")
     rotations: bool = optional("true or false")
+    clearance: NotNegative = optional(
+        "least distance between two robots of which one has a radius [length unit]"
+    )
 
 
 class UnitsDocument(Document):

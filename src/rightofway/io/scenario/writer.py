@@ -155,6 +155,7 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         "home": roadmap.name(robot.home),
         **trip,
         "speed": written(robot.speed),
+        **({"radius": written(robot.radius)} if robot.radius else {}),
         **{key: value for key, value in own.items() if value is not None},
     }
 
@@ -172,4 +173,5 @@ def _rules(rules: Rules) -> dict[str, Any]:
         "return": rules.ends,
         "laps": rules.laps,
         "rotations": rules.rotations,
+        **({"clearance": written(rules.clearance)} if rules.clearance else {}),
     }

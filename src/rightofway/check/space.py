@@ -1,0 +1,403 @@
+"""Robots with a size: bookings that exclude each other and overlap, and discs that meet.
+
+The judge has its own geometry. A shape is a vertex, or the straight lane between two vertices. Two
+shapes that may be too near are found in a hash of square cells; then what happens on each of the
+two is compared in order of time. Whole multiples of one length, of a tick and of each drive decide
+exactly; floating-point numbers only leave out what is far apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import floor, lcm, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.check.faults import Fault, FaultCollector, Names
+from rightofway.check.visits import Visits
+from rightofway.model import Plan, Roadmap, Tick, VertexId, decimal
+from rightofway.model.sorting import order_by
+
+Indices = NDArray[np.int64]
+Exact = NDArray[Any]
+
+CHUNK = 2**20
+"""About how many pairs are made together."""
+
+LEEWAY = 1e-7
+"""Floating-point distances are trusted up to this part of the roadmap's size."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Times:
+    """What robots do on shapes, and when; each array has shape (n,)."""
+
+    shape: Indices
+    robot: Indices
+    visit: Indices
+    start: NDArray[Any]  # [ticks]
+    end: NDArray[Any]  # [ticks]
+
+    def where(self, keep: NDArray[np.bool_]) -> _Times:
+        return _Times(
+            shape=self.shape[keep],
+            robot=self.robot[keep],
+            visit=self.visit[keep],
+            start=self.start[keep],
+            end=self.end[keep],
+        )
+
+
+def judge_space(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find bookings of different places that exclude each other, and robots that come too near."""
+    radii = [robot.radius for robot in plan.scenario.robots]
+    if not any(radii):
+        return
+    shapes = _Shapes(plan.scenario.roadmap, visits, radii, plan.scenario.rules.clearance)
+    _judge_bookings(plan, visits, shapes, names, collector)
+    _judge_discs(visits, shapes, names, collector)
+
+
+class _Shapes:
+    """The shapes that a plan uses: vertices first, then lanes, in whole multiples of a length."""
+
+    def __init__(
+        self, roadmap: Roadmap, visits: Visits, radii: list[Fraction], clearance: Fraction
+    ) -> None:
+        n = roadmap.n_vertices
+        drives = visits.edge >= 0
+        tail, head = visits.vertex[drives], np.roll(visits.vertex, -1)[drives]
+        lanes, lane = np.unique(
+            np.minimum(tail, head) * n + np.maximum(tail, head), return_inverse=True
+        )
+        self.of_drive = np.full(len(visits.vertex), -1)
+        self.of_drive[drives] = n + lane
+        self.one = np.concatenate((np.arange(n), lanes // n))
+        self.other = np.concatenate((np.arange(n), lanes % n))
+        x, y = _coordinates(roadmap)
+        self._scale = lcm(*(value.denominator for value in (*x, *y, *radii, clearance)))
+        self.x, self.y = (np.array([int(v * self._scale) for v in axis], object) for axis in (x, y))
+        self._radius = np.array([int(radius * self._scale) for radius in radii], object)
+        self._clearance = int(clearance * self._scale)
+        is_used = np.zeros(len(self.one), bool)
+        is_used[visits.vertex[visits.known]] = is_used[n:] = True
+        self._first, self._near = self._nearby(np.flatnonzero(is_used))
+
+    def apart(self, i: Indices, j: Indices) -> Exact:
+        """Return the least distance of robots, 0 where none of the two has a size."""
+        both = self._radius[i] + self._radius[j]
+        found: Exact = np.where(both == 0, 0, both + self._clearance)
+        return found
+
+    def length(self, square: Fraction) -> float:
+        """Return the length [length unit] of which the square in whole multiples is given."""
+        return sqrt(square) / self._scale
+
+    def together(self, times: _Times) -> Iterator[tuple[Indices, Indices]]:
+        """Yield pairs of entries of different robots, near each other, that overlap in time."""
+        order = order_by(times.shape, times.start)
+        moments, rank = np.unique(np.concatenate((times.start, times.end)), return_inverse=True)
+        start, end = np.split(rank.reshape(-1), 2)
+        keys = (times.shape * len(moments) + start)[order]
+        counts = self._first[times.shape + 1] - self._first[times.shape]
+        ends = np.cumsum(counts)
+        begin = 0
+        while begin < len(counts):
+            before = ends[begin] - counts[begin]
+            stop = max(int(np.searchsorted(ends, before + CHUNK)), begin + 1)
+            one, place = _spread(self._first[times.shape[begin:stop]], counts[begin:stop])
+            one += begin
+            there = self._near[place] * len(moments)
+            first = np.searchsorted(keys, there + start[one])
+            after = np.searchsorted(keys, there + end[one])
+            which, place = _spread(first, np.maximum(after - first, 0))
+            left, right = one[which], order[place]
+            is_first = (start[left] < start[right]) | (left < right)
+            wanted = is_first & (times.robot[left] != times.robot[right])
+            yield left[wanted], right[wanted]
+            begin = stop
+
+    def exclude(self, one: Indices, other: Indices, limit: Exact) -> NDArray[np.bool_]:
+        """Return whether two shapes without a common vertex come nearer than a distance."""
+        a, b, c, d = self.one[one], self.other[one], self.one[other], self.other[other]
+        apart = (a != c) & (a != d) & (b != c) & (b != d) & (limit > 0)
+        found = np.zeros(len(one), bool)
+        a, b, c, d, square = a[apart], b[apart], c[apart], d[apart], limit[apart] ** 2
+        near = self._within(a, c, d, square) | self._within(b, c, d, square)
+        near |= self._within(c, a, b, square) | self._within(d, a, b, square)
+        near |= (self._turn(a, b, c) * self._turn(a, b, d) < 0) & (
+            self._turn(c, d, a) * self._turn(c, d, b) < 0
+        )
+        found[apart] = near
+        return found
+
+    def _turn(self, p: Indices, q: Indices, r: Indices) -> Exact:
+        """Return a number above 0 where p, q, r turn one way, below 0 the other way."""
+        x, y = self.x, self.y
+        found: Exact = (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p])
+        return found
+
+    def _within(self, p: Indices, a: Indices, b: Indices, square: Exact) -> NDArray[np.bool_]:
+        """Return whether a point is nearer to a straight line than the root of a number."""
+        x, y = self.x, self.y
+        run, rise = x[b] - x[a], y[b] - y[a]
+        along = (x[p] - x[a]) * run + (y[p] - y[a]) * rise
+        whole = run**2 + rise**2
+        to_a = (x[p] - x[a]) ** 2 + (y[p] - y[a]) ** 2 < square
+        to_b = (x[p] - x[b]) ** 2 + (y[p] - y[b]) ** 2 < square
+        beside = (along > 0) & (along < whole) & (self._turn(a, b, p) ** 2 < square * whole)
+        return np.array(to_a | to_b | beside, bool)
+
+    def _nearby(self, used: Indices) -> tuple[Indices, Indices]:
+        """Return for each shape the shapes that robots may be too near on, itself included."""
+        x = np.array([value / self._scale for value in self.x - self.x.min()], float)
+        y = np.array([value / self._scale for value in self.y - self.y.min()], float)
+        widest = sum(sorted(self._radius)[-2:]) + self._clearance
+        reach = widest / self._scale + LEEWAY * float(max(x.max(), y.max(), 1.0))
+        p, q = np.column_stack((x, y))[self.one[used]], np.column_stack((x, y))[self.other[used]]
+        size = np.hypot(*(q - p).T)
+        cell = max(reach, float(np.median(size[size > 0], keepdims=False)) if size.any() else 0.0)
+        pieces = np.maximum(np.ceil(size / cell).astype(np.int64), 1)
+        owner, piece = _spread(np.zeros(len(used), np.int64), pieces)
+        step = ((q - p) / pieces[:, None])[owner]
+        begin = p[owner] + step * piece[:, None]
+        low = np.floor((np.minimum(begin, begin + step) - reach / 2) / cell).astype(np.int64)
+        high = np.floor((np.maximum(begin, begin + step) + reach / 2) / cell).astype(np.int64)
+        width, height = (high - low + 1).T
+        which, square = _spread(np.zeros(len(owner), np.int64), width * height)
+        column = low[which, 0] + square % width[which] + 1
+        row = low[which, 1] + square // width[which] + 1
+        cells = np.unique(
+            np.column_stack((row * (column.max() + 1) + column, owner[which])), axis=0
+        )
+        _, first, count = np.unique(cells[:, 0], return_index=True, return_counts=True)
+        left, right = _spread(np.repeat(first, count), np.repeat(count, count))
+        pairs = np.unique(cells[left, 1] * len(used) + cells[right, 1])
+        one, other = np.divmod(pairs, len(used))
+        near = _distances(p[one], q[one], p[other], q[other]) <= reach
+        found = used[one[near]]
+        first = np.searchsorted(found, np.arange(len(self.one) + 1))
+        return first, used[other[near]]
+
+
+def _coordinates(roadmap: Roadmap) -> tuple[list[Fraction], list[Fraction]]:
+    """Return x and y of all vertices, exactly: floats count as the decimals that they print as."""
+    grid = roadmap.grid
+    if grid is not None:
+        rows, columns = np.divmod(grid.cells, grid.columns)
+        x, y = ([int(n) * grid.cell_size for n in axis] for axis in (columns, rows))
+    else:
+        x, y = ([Fraction(str(v)) for v in axis] for axis in roadmap.positions.T.tolist())
+    return x, y
+
+
+def _spread(first: Indices, counts: Indices) -> tuple[Indices, Indices]:
+    """Return (k, first[k]), (k, first[k] + 1), … : for each k as many as counts[k]."""
+    owner = np.repeat(np.arange(len(counts)), counts)
+    rank = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return owner, first[owner] + rank
+
+
+def _distances(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    c: NDArray[np.float64],
+    d: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return about how far straight lines a to b and c to d are apart."""
+
+    def cross(u: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+    def to_line(
+        p: NDArray[np.float64], u: NDArray[np.float64], v: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        way = v - u
+        square = np.maximum((way**2).sum(axis=1), np.finfo(float).tiny)
+        share = np.clip(((p - u) * way).sum(axis=1) / square, 0, 1)
+        gap: NDArray[np.float64] = np.hypot(*(p - u - share[:, None] * way).T)
+        return gap
+
+    ends = (to_line(a, c, d), to_line(b, c, d), to_line(c, a, b), to_line(d, a, b))
+    crossing = (cross(b - a, c - a) * cross(b - a, d - a) < 0) & (
+        cross(d - c, a - c) * cross(d - c, b - c) < 0
+    )
+    found: NDArray[np.float64] = np.where(crossing, 0.0, np.minimum.reduce(ends))
+    return found
+
+
+def _first_of_each(times: _Times, one: Indices, other: Indices, worth: Exact) -> Iterator[int]:
+    """Yield of each meeting of two robots the pair of least worth; its parts overlap in time."""
+    i, j = times.robot[one], times.robot[other]
+    start = np.maximum(times.start[one], times.start[other])
+    end = np.minimum(times.end[one], times.end[other])
+    order = order_by(np.minimum(i, j), np.maximum(i, j), start)
+    best, until, robots = -1, None, None
+    for k in order.tolist():
+        pair = {int(i[k]), int(j[k])}
+        if pair == robots and start[k] <= until:
+            until = max(until, end[k])
+            best = k if worth[k] < worth[best] else best
+            continue
+        if best >= 0:
+            yield best
+        best, until, robots = k, end[k], pair
+    if best >= 0:
+        yield best
+
+
+def _judge_bookings(
+    plan: Plan, visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector
+) -> None:
+    headway = plan.scenario.problem.headway
+    here, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
+    approach = np.roll(visits.drive, 1)  # the last visit before a first has no drive
+    begun = visits.leave - visits.drive
+    bookings = _Times(
+        shape=np.concatenate((visits.vertex[here], shapes.of_drive[drives])),
+        robot=np.concatenate((visits.robot[here], visits.robot[drives])),
+        visit=np.concatenate((here, drives)),
+        start=np.concatenate(((visits.enter - approach)[here], begun[drives])),
+        end=np.concatenate(((visits.leave + headway)[here], (visits.leave + headway)[drives])),
+    )
+    bookings = bookings.where(np.array(bookings.start < bookings.end, bool))
+    found: list[tuple[Indices, Indices]] = []
+    for one, other in shapes.together(bookings):
+        limit = shapes.apart(bookings.robot[one], bookings.robot[other])
+        excluded = shapes.exclude(bookings.shape[one], bookings.shape[other], limit)
+        found.append((one[excluded], other[excluded]))
+    one, other = (np.concatenate(each) for each in zip(*found, strict=True))
+    start = np.maximum(bookings.start[one], bookings.start[other])
+    moment = names.scenario.quantities.moment
+    for k in _first_of_each(bookings, one, other, start):
+        pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(bookings.robot[entry]))
+        robots = tuple(int(bookings.robot[entry]) for entry in pair)
+        places = [_place(visits, bookings, entry, names) for entry in pair]
+        booked = " and ".join(
+            f"{names.robot(robot)} books {place}"
+            for robot, (place, _) in zip(robots, places, strict=True)
+        )
+        collector.add(
+            Fault(
+                kind="space conflict",
+                robots=robots,
+                vertices=(*places[0][1], *places[1][1]),
+                tick=Tick(int(start[k])),
+                message=f"at {moment(int(start[k]))} {booked}, which are too near to be booked at"
+                " one time (let one come when the other has left)",
+            )
+        )
+
+
+def _place(
+    visits: Visits, times: _Times, entry: int, names: Names
+) -> tuple[str, tuple[VertexId, ...]]:
+    """Return where an entry is, in words and as vertices."""
+    visit = int(times.visit[entry])
+    tail = VertexId(int(visits.vertex[visit]))
+    if times.shape[entry] < names.scenario.roadmap.n_vertices:
+        return names.vertex(tail), (tail,)
+    head = VertexId(int(visits.vertex[visit + 1]))
+    return f"the edge from {names.vertex(tail)} to {names.vertex(head)}", (tail, head)
+
+
+def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector) -> None:
+    """Find robots that come too near at any instant of their stays and straight drives."""
+    begun = np.where(
+        visits.edge >= 0, np.maximum(visits.leave - visits.drive, visits.enter), visits.leave
+    )
+    here, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
+    motions = _Times(
+        shape=np.concatenate((visits.vertex[here], shapes.of_drive[drives])),
+        robot=np.concatenate((visits.robot[here], visits.robot[drives])),
+        visit=np.concatenate((here, drives)),
+        start=np.concatenate((visits.enter[here], begun[drives])),
+        end=np.concatenate((begun[here], visits.leave[drives])),
+    )
+    motions = motions.where(np.array(motions.start < motions.end, bool))
+    parts = [_encounters(visits, shapes, motions, *pair) for pair in shapes.together(motions)]
+    one, other, square, when = (np.concatenate(each) for each in zip(*parts, strict=True))
+    quantities = names.scenario.quantities
+    for k in _first_of_each(motions, one, other, square):
+        pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(motions.robot[entry]))
+        robots = tuple(int(motions.robot[entry]) for entry in pair)
+        places = [_place(visits, motions, entry, names) for entry in pair]
+        needed = int(
+            shapes.apart(motions.robot[one[k : k + 1]], motions.robot[other[k : k + 1]])[0]
+        )
+        where = ", ".join(
+            f"{names.robot(robot)} {_whereabouts(at, names)}"
+            for robot, (_, at) in zip(robots, places, strict=True)
+        )
+        collector.add(
+            Fault(
+                kind="too close",
+                robots=robots,
+                vertices=(*places[0][1], *places[1][1]),
+                tick=Tick(floor(when[k])),
+                message=f"{names.robot(robots[0])} and {names.robot(robots[1])} come within"
+                f" {quantities.length(shapes.length(square[k]))}"
+                f" ({decimal(shapes.length(Fraction(needed**2)))} needed) at"
+                f" {quantities.moment(when[k])}, {where} (let one wait until the other is by)",
+            )
+        )
+
+
+def _whereabouts(at: tuple[VertexId, ...], names: Names) -> str:
+    return f"{'between' if len(at) > 1 else 'at'} {' and '.join(map(names.vertex, at))}"
+
+
+def _encounters(
+    visits: Visits, shapes: _Shapes, motions: _Times, one: Indices, other: Indices
+) -> tuple[Indices, Indices, Exact, Exact]:
+    """Return the pairs of motions that come too near: the least squared distance, and when.
+
+    The difference of two uniform motions is one, too: offset + speed * time, here multiplied by the
+    durations of both. It is least at the ends of their common time, or where its square has its
+    least value.
+    """
+    limit = shapes.apart(motions.robot[one], motions.robot[other])
+    sized = np.array(limit > 0, bool)
+    one, other, limit = one[sized], other[sized], limit[sized]
+    x1, y1, u1, v1, whole1 = _line(visits, shapes, motions, one)
+    x2, y2, u2, v2, whole2 = _line(visits, shapes, motions, other)
+    start = np.maximum(motions.start[one], motions.start[other]).astype(object)
+    end = np.minimum(motions.end[one], motions.end[other]).astype(object)
+    u, v = u1 * whole2 - u2 * whole1, v1 * whole2 - v2 * whole1
+    x = x1 * whole2 - x2 * whole1 + u * start
+    y = y1 * whole2 - y2 * whole1 + v * start
+    last = end - start
+    toward, speed = -(x * u + y * v), u * u + v * v
+    at_start, at_end = toward <= 0, toward >= speed * last
+    x_end, y_end = x + u * last, y + v * last
+    top = np.where(
+        at_start, x * x + y * y, np.where(at_end, x_end**2 + y_end**2, (x * v - y * u) ** 2)
+    )
+    between = ~np.array(at_start | at_end, bool)
+    bottom = (whole1 * whole2) ** 2 * np.where(between, speed, 1)
+    near = np.array(top < limit**2 * bottom, bool)
+    rows = np.flatnonzero(near).tolist()
+    squares = np.empty(len(rows), object)
+    moments = np.empty(len(rows), object)
+    for k, row in enumerate(rows):
+        squares[k] = Fraction(top[row], bottom[row])
+        after = Fraction(toward[row], speed[row]) if between[row] else Fraction(0)
+        moments[k] = start[row] + (after if at_start[row] or between[row] else last[row])
+    return one[near], other[near], squares, moments
+
+
+def _line(
+    visits: Visits, shapes: _Shapes, motions: _Times, entry: Indices
+) -> tuple[Exact, Exact, Exact, Exact, Exact]:
+    """Return a motion as ((x, y) + (u, v) * time) / whole, all whole numbers."""
+    visit, start = motions.visit[entry], motions.start[entry].astype(object)
+    stays = motions.shape[entry] < len(shapes.x)
+    tail = visits.vertex[visit]
+    head = np.where(stays, tail, np.roll(visits.vertex, -1)[visit])
+    whole = np.where(stays, 1, motions.end[entry].astype(object) - start)
+    u, v = shapes.x[head] - shapes.x[tail], shapes.y[head] - shapes.y[tail]
+    return shapes.x[tail] * whole - u * start, shapes.y[tail] * whole - v * start, u, v, whole

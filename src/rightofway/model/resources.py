@@ -1,0 +1,335 @@
+"""What robots with a size book, and which bookings exclude each other.
+
+A resource is a vertex or an edge. Robots of different sizes exclude different resources, so a
+*row* is a resource as robots of one size class book it: row ``size * (V + E) + resource``, where
+the vertices come first. A robot that books a row excludes robots of every size class from the rows
+in its list. Safe planning then needs no geometry: a robot marks all rows in the lists of what it
+books, and drives only where its own rows are not marked by other robots.
+
+The list of an edge has only what the lists of its two ends lack, because both ends are booked for
+as long as the edge is. So it is empty for nearly all edges: edges that pass a vertex nearer than
+their ends do, and edges that cross.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from math import isqrt, lcm, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.model.roadmap import Roadmap
+
+RADIUS_STEP = Fraction(1, 10**6)
+"""The radius of a robot that is given by length and width is rounded up to this [length unit]."""
+
+SLACK = 1e-9
+"""Candidates are this part of the roadmap's extent farther apart than resources that exclude each
+other; exact arithmetic decides."""
+
+Ints = NDArray[np.int64]
+Pairs = tuple[Ints, Ints]
+Exact = NDArray[Any]
+"""Python integers of any size."""
+
+
+def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
+    """Refuse a fleet in which a robot has a size.
+
+    Parameters
+    ----------
+    resources
+        The resources of the fleet, None where no robot has a size.
+    what
+        What does not know sizes yet.
+    remedy
+        What to do instead.
+
+    Raises
+    ------
+    InputError
+        If a robot has a size.
+    """
+    if resources is not None:
+        message = f"{what} does not know robots with a size yet ({remedy})"
+        raise InputError.at("", message)
+
+
+def circle_around(length: Fraction, width: Fraction) -> Fraction:
+    """Return the radius of the circle around a rectangle, rounded up to `RADIUS_STEP`.
+
+    Parameters
+    ----------
+    length, width
+        Sides of the rectangle [length unit].
+
+    Examples
+    --------
+    >>> circle_around(Fraction(3), Fraction(4)), circle_around(Fraction(1), Fraction(1))
+    (Fraction(5, 2), Fraction(707107, 1000000))
+    """
+    square = (length**2 + width**2) / (2 * RADIUS_STEP) ** 2
+    below = isqrt(square.numerator // square.denominator)
+    return (below + (below**2 < square)) * RADIUS_STEP
+
+
+def exact_positions(roadmap: Roadmap) -> list[tuple[Fraction, Fraction]]:
+    """Return the position of each vertex; a coordinate is the shortest decimal that stands for it.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices; on a grid a position is a whole number of cells.
+    """
+    if roadmap.grid is not None:
+        size = roadmap.grid.cell_size
+        cells = map(roadmap.grid.cell, range(roadmap.n_vertices))
+        return [(column * size, row * size) for row, column in cells]
+    return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
+
+
+def distance(roadmap: Roadmap, one: int, other: int) -> float:
+    """Return the distance of two vertices [length unit].
+
+    Parameters
+    ----------
+    roadmap
+        The vertices.
+    one, other
+        Two of them.
+    """
+    return sqrt(_square(exact_positions(roadmap), one, other))
+
+
+def _square(at: Sequence[tuple[Fraction, Fraction]], one: int, other: int) -> Fraction:
+    return (at[one][0] - at[other][0]) ** 2 + (at[one][1] - at[other][1]) ** 2
+
+
+def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
+    """Yield tail, head, length and straight distance of edges that are shorter than straight.
+
+    Parameters
+    ----------
+    roadmap
+        The edges; those of a grid have the right length.
+    """
+    if roadmap.grid is not None:
+        return
+    at = exact_positions(roadmap)
+    for tail in range(roadmap.n_vertices):
+        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
+            head, length = int(roadmap.heads[edge]), roadmap.lengths[roadmap.length_class[edge]]
+            square = _square(at, tail, head)
+            if square > length**2:
+                yield tail, head, length, sqrt(square)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Resources:
+    """Which bookings of a fleet exclude each other.
+
+    Attributes
+    ----------
+    n_vertices, n_edges
+        Vertices and edges of the roadmap.
+    size_of
+        Size class of each robot; int32, shape (R,).
+    first, excluded
+        Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
+        in increasing order; int32, shapes (rows + 1,) and (n,).
+    """
+
+    n_vertices: int
+    n_edges: int
+    size_of: NDArray[np.int32]
+    first: NDArray[np.int32] = field(repr=False)
+    excluded: NDArray[np.int32] = field(repr=False)
+
+    def vertex_row(self, robot: int, vertex: int) -> int:
+        """Return the row that a robot books at a vertex."""
+        return int(self.size_of[robot]) * (self.n_vertices + self.n_edges) + vertex
+
+    def edge_row(self, robot: int, edge: int) -> int:
+        """Return the row that a robot books along an edge."""
+        return self.vertex_row(robot, self.n_vertices + edge)
+
+    def excluded_by(self, row: int) -> NDArray[np.int32]:
+        """Return the rows that a booking of a row excludes."""
+        return self.excluded[self.first[row] : self.first[row + 1]]
+
+    def clashes(self, places: Sequence[int]) -> Iterator[tuple[int, int]]:
+        """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
+
+        Parameters
+        ----------
+        places
+            A vertex for each robot.
+        """
+        rows = [self.vertex_row(robot, vertex) for robot, vertex in enumerate(places)]
+        holders: dict[int, list[int]] = {}
+        for robot, row in enumerate(rows):
+            holders.setdefault(row, []).append(robot)
+        for robot, row in enumerate(rows):
+            for other in self.excluded_by(row).tolist():
+                yield from ((robot, one) for one in holders.get(other, ()) if robot < one)
+
+
+def resources_of(
+    roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction
+) -> Resources | None:
+    """Return the resources of a fleet, or None where no robot has a size.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and edges.
+    radii
+        Radius of each robot [length unit], not negative.
+    clearance
+        Least distance between two robots of which one has a size [length unit].
+    """
+    if not any(radii):
+        return None
+    sizes = tuple(sorted(set(radii)))
+    first, excluded = _excluded(roadmap, sizes, clearance)
+    return Resources(
+        n_vertices=roadmap.n_vertices,
+        n_edges=roadmap.n_edges,
+        size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
+        first=first,
+        excluded=excluded,
+    )
+
+
+@lru_cache(maxsize=8)
+def _excluded(
+    roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the lists of all rows in compressed sparse rows."""
+    n_vertices, n_rows = roadmap.n_vertices, roadmap.n_vertices + roadmap.n_edges
+    drawing = _Drawing(roadmap, [*sizes, clearance])
+    reach = 2 * sizes[-1] + clearance
+    same = np.arange(n_vertices)
+    candidates = drawing.candidates(reach)
+    rows, columns = list[Ints](), list[Ints]()
+    for one, other in combinations_with_replacement(range(len(sizes)), 2):
+        pairs = [(same, same)]
+        if sizes[other] > 0:
+            pairs += drawing.nearer(sizes[one] + sizes[other] + clearance, candidates)
+        for left, right in pairs:
+            for a, b in {(one, other), (other, one)}:
+                rows += [a * n_rows + left, b * n_rows + right]
+                columns += [b * n_rows + right, a * n_rows + left]
+    found = np.unique(np.concatenate(rows) * (len(sizes) * n_rows) + np.concatenate(columns))
+    row, column = np.divmod(found, len(sizes) * n_rows)
+    first = np.searchsorted(row, np.arange(len(sizes) * n_rows + 1))
+    return first.astype(np.int32), column.astype(np.int32)
+
+
+class _Drawing:
+    """The positions of a roadmap as whole multiples of one length, and its lanes.
+
+    A lane is the straight line between two vertices, whichever way it is driven.
+    """
+
+    def __init__(self, roadmap: Roadmap, lengths: Sequence[Fraction]) -> None:
+        positions = exact_positions(roadmap)
+        coordinates = [coordinate for position in positions for coordinate in position]
+        self.scale = lcm(*(number.denominator for number in (*coordinates, *lengths)))
+        whole = [int(coordinate * self.scale) for coordinate in coordinates]
+        self.x, self.y = (self._from_least(whole[axis::2]) for axis in (0, 1))
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        heads = roadmap.heads.astype(np.int64)
+        ends = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
+        lanes, lane_of = np.unique(ends, axis=0, return_inverse=True)
+        lane_of = lane_of.reshape(-1)  # NumPy 2.0 keeps an axis of length 1
+        self.a, self.b = lanes[:, 0], lanes[:, 1]
+        self._edges_by_lane = np.argsort(lane_of, kind="stable") + roadmap.n_vertices
+        self._first_edge = np.searchsorted(np.sort(lane_of), np.arange(len(lanes) + 1))
+
+    @staticmethod
+    def _from_least(values: list[int]) -> Exact:
+        least = min(values)
+        return np.array([value - least for value in values], object)
+
+    def candidates(self, reach: Fraction) -> tuple[Pairs, Pairs, Pairs]:
+        """Return vertex pairs, vertices with lanes, lane pairs: all within reach, and few more."""
+        import shapely
+
+        points = np.array(
+            [[x / self.scale, y / self.scale] for x, y in zip(self.x, self.y, strict=True)]
+        )
+        slack = SLACK * float(np.abs(points).max() + reach)
+        near = float(reach) + slack
+        vertices = np.array(shapely.points(points), object)
+        tree = shapely.STRtree(list(vertices))
+        left, right = tree.query(vertices, "dwithin", near)
+        upwards = left < right
+        ends = np.stack((points[self.a], points[self.b]), axis=1)
+        lanes = np.array(shapely.linestrings(ends), object)
+        lane, vertex = tree.query(lanes, "dwithin", near)
+        one, other = shapely.STRtree(list(lanes)).query(lanes, "dwithin", slack)
+        crossing = one < other
+        return (
+            (left[upwards], right[upwards]),
+            (vertex, lane),
+            (one[crossing], other[crossing]),
+        )
+
+    def nearer(self, distance: Fraction, candidates: tuple[Pairs, Pairs, Pairs]) -> Iterator[Pairs]:
+        """Yield pairs of resources nearer than a distance, both directions of a lane."""
+        (left, right), (vertex, lane), (one, other) = candidates
+        limit = int(distance * self.scale) ** 2
+        near = self._square(left, right) < limit
+        yield left[near], right[near]
+        near = self._passes(vertex, lane, limit)
+        yield self._with_edges(vertex[near], lane[near])
+        crossing = self._crosses(one, other)
+        lanes, edges = self._with_edges(one[crossing], other[crossing])
+        yield self._with_edges(edges, lanes)
+
+    def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
+        """Repeat each left one for every edge of its lane."""
+        counts = self._first_edge[lane + 1] - self._first_edge[lane]
+        begins = np.repeat(self._first_edge[lane] - (np.cumsum(counts) - counts), counts)
+        return np.repeat(left, counts), self._edges_by_lane[begins + np.arange(counts.sum())]
+
+    def _square(self, left: Ints, right: Ints) -> Exact:
+        """Return the squared distance of vertices."""
+        found: Exact = (self.x[left] - self.x[right]) ** 2 + (self.y[left] - self.y[right]) ** 2
+        return found
+
+    def _side(self, vertex: Ints, lane: Ints) -> Exact:
+        """Return the cross product that tells on which side of a lane's line a vertex lies."""
+        a, b = self.a[lane], self.b[lane]
+        dx, dy = self.x[b] - self.x[a], self.y[b] - self.y[a]
+        found: Exact = dx * (self.y[vertex] - self.y[a]) - dy * (self.x[vertex] - self.x[a])
+        return found
+
+    def _passes(self, vertex: Ints, lane: Ints, limit: int) -> NDArray[np.bool_]:
+        """Return where a lane comes nearer to a vertex than the limit, and its ends do not."""
+        a, b = self.a[lane], self.b[lane]
+        dx, dy = self.x[b] - self.x[a], self.y[b] - self.y[a]
+        square = dx * dx + dy * dy
+        along = (self.x[vertex] - self.x[a]) * dx + (self.y[vertex] - self.y[a]) * dy
+        inside = (along > 0) & (along < square)
+        ends_are_clear = (self._square(vertex, a) >= limit) & (self._square(vertex, b) >= limit)
+        near = self._side(vertex, lane) ** 2 < limit * square
+        found: NDArray[np.bool_] = (inside & ends_are_clear & near).astype(bool)
+        return found
+
+    def _crosses(self, one: Ints, other: Ints) -> NDArray[np.bool_]:
+        """Return where two lanes cross in a point that is an end of neither."""
+        ends_of_other = self._side(self.a[other], one), self._side(self.b[other], one)
+        ends_of_one = self._side(self.a[one], other), self._side(self.b[one], other)
+        found: NDArray[np.bool_] = np.array(
+            (ends_of_other[0] * ends_of_other[1] < 0) & (ends_of_one[0] * ends_of_one[1] < 0), bool
+        )
+        return found

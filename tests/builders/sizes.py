@@ -1,0 +1,129 @@
+"""Small fleets of robots with sizes: on grids, and on roadmaps with lanes that cross."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from rightofway.model import (
+    Edge,
+    Roadmap,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    VertexId,
+    roadmap_of_edges,
+)
+from tests.builders.fleets import random_fleet
+
+__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "with_radii"]
+
+
+def with_radii(
+    scenario: Scenario, radii: Sequence[Fraction], clearance: Fraction = Fraction(0)
+) -> Scenario:
+    """Return the same fleet with radii dealt out in turn."""
+    robots = tuple(
+        replace(robot, radius=radii[k % len(radii)]) for k, robot in enumerate(scenario.robots)
+    )
+    rules = replace(scenario.rules, occupancy=None, clearance=clearance)
+    return replace(scenario, robots=robots, rules=rules)
+
+
+def has_room(scenario: Scenario) -> bool:
+    """Tell whether all robots can stand at their homes at one time, and where they end."""
+    resources = scenario.problem.resources
+    itineraries = scenario.problem.itineraries
+    ends = [one.home for one in itineraries], [one.last for one in itineraries]
+    return resources is None or not any(any(resources.clashes(places)) for places in ends)
+
+
+def sized(seed: int, *, robots: int = 4, headway: int = 0) -> Scenario:
+    """Return a random fleet on a grid with radii from 0.3 to 1.4 cells, some of them mixed."""
+    fleets = (_sized(seed + 1000 * k, robots, headway) for k in range(1000))
+    return next(fleet for fleet in fleets if has_room(fleet))
+
+
+def _sized(seed: int, robots: int, headway: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    radii = [Fraction(draw.randint(3, 14), 10) for _ in range(draw.choice([1, 1, 3]))]
+    if draw.random() < 0.3:
+        radii[-1:] = [Fraction(0), Fraction(1, 2)]
+    rules = Rules(headway=Fraction(headway), ends=draw.choice(["home", "none"]))
+    return with_radii(random_fleet(seed, robots=robots, walls=0.05, rules=rules), radii)
+
+
+def crowded_roadmap(draw: random.Random, *, vertices: int = 9, edges: int = 14) -> Roadmap:
+    """Return vertices anywhere and lanes anyhow: many cross, or pass near other vertices."""
+    places = draw.sample([(x, y) for x in range(7) for y in range(7)], vertices)
+    names = [f"V{k}" for k in range(vertices)]
+    tree = [(names[draw.randrange(k)], names[k]) for k in range(1, vertices)]
+    more = [tuple(draw.sample(names, 2)) for _ in range(edges - len(tree))]
+    lanes = {frozenset(pair): pair for pair in [*tree, *more]}
+    at = dict(zip(names, places, strict=True))
+    found = []
+    for tail, head in lanes.values():
+        square = sum((a - b) ** 2 for a, b in zip(at[tail], at[head], strict=True))
+        length = next(Fraction(n, 4) for n in range(1, 99) if n**2 >= 16 * square)
+        found += [Edge(tail=tail, head=head, length=length)]
+        if draw.random() < 0.8:
+            found += [Edge(tail=head, head=tail, length=length)]
+    return roadmap_of_edges({name: (float(x), float(y)) for name, (x, y) in at.items()}, found)
+
+
+def sized_on_lanes(seed: int, *, robots: int = 3) -> Scenario:
+    """Return a random fleet with sizes on a roadmap of lanes that cross."""
+    fleets = (_sized_on_lanes(seed + 1000 * k, robots) for k in range(1000))
+    return next(fleet for fleet in fleets if has_room(fleet))
+
+
+def _sized_on_lanes(seed: int, robots: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    roadmap = crowded_roadmap(draw)
+    homes = draw.sample(range(roadmap.n_vertices), robots)
+    targets = draw.sample(range(roadmap.n_vertices), robots)
+    speeds = [Fraction(1), Fraction(1, 2), Fraction(2)]
+    return Scenario(
+        roadmap=roadmap,
+        robots=tuple(
+            Robot(
+                name=f"R{k + 1}",
+                home=VertexId(home),
+                stops=(Stop(at=VertexId(target), work=Fraction(draw.randint(0, 2))),),
+                speed=draw.choice(speeds),
+                radius=Fraction(draw.randint(0 if k else 1, 8), 10),
+            )
+            for k, (home, target) in enumerate(zip(homes, targets, strict=True))
+        ),
+        rules=Rules(
+            headway=Fraction(draw.choice([0, 0, 1])),
+            ends="none",
+            clearance=Fraction(draw.choice([0, 1]), 10),
+        ),
+    )
+
+
+def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:
+    """Return two robots on lanes that cross at (2, 0): A to B and C to D, 4 long each."""
+    at = {"A": (0.0, 0.0), "B": (4.0, 0.0), "C": (2.0, -2.0), "D": (2.0, 2.0)}
+    edges = [
+        Edge(tail=tail, head=head, length=Fraction(4)) for tail, head in ("AB", "BA", "CD", "DC")
+    ]
+    roadmap = roadmap_of_edges(at, edges)
+    return Scenario(
+        roadmap=roadmap,
+        robots=tuple(
+            Robot(
+                name=name,
+                home=roadmap.vertex(home),
+                stops=(Stop(at=roadmap.vertex(target), work=Fraction(1)),),
+                ends="none",
+                radius=Fraction(radius),
+            )
+            for name, home, target in [("R1", "A", "B"), ("R2", "C", "D")]
+        ),
+        rules=Rules(clearance=Fraction(clearance)),
+    )

@@ -1,0 +1,137 @@
+"""What robots with a size exclude each other from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import permutations, product
+
+import numpy as np
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.model import Edge, Resources, Roadmap, Rules, roadmap_of_edges, roadmap_of_grid
+from rightofway.model.resources import circle_around, resources_of
+from tests.builders.fleets import grid_fleet
+from tests.builders.sizes import crossing, sized_on_lanes
+from tests.oracles.space import incompatible
+
+
+def lists(resources: Resources | None) -> list[list[int]]:
+    assert resources is not None
+    return [resources.excluded_by(row).tolist() for row in range(len(resources.first) - 1)]
+
+
+def test_a_fleet_of_points_has_no_resources() -> None:
+    assert grid_fleet(["..."], [("N0", "N2")]).problem.resources is None
+
+
+def test_crossing_lanes_exclude_each_other_in_both_directions() -> None:
+    """Edges of A, B, C, D are rows 4 to 7; 4 and 5 cross 6 and 7."""
+    assert lists(crossing().problem.resources) == [
+        [0],
+        [1],
+        [2],
+        [3],
+        [6, 7],
+        [6, 7],
+        [4, 5],
+        [4, 5],
+    ]
+
+
+@pytest.mark.parametrize(
+    ("radius", "near"), [("0.49", 1), ("0.5", 1), ("0.51", 5), ("0.7", 5), ("0.71", 9), ("1", 9)]
+)
+def test_on_a_grid_discs_that_touch_are_apart(radius: str, near: int) -> None:
+    """The centre of a 5 x 5 grid has itself, 4 cells at distance 1, 4 at 1.414…, 4 at 2."""
+    roadmap = roadmap_of_grid(["....."] * 5)
+    resources = resources_of(roadmap, [Fraction(radius)], Fraction(0))
+    assert resources is not None
+    assert len(resources.excluded_by(12)) == near
+    assert not any(len(resources.excluded_by(row)) for row in range(25, 25 + roadmap.n_edges))
+
+
+@pytest.mark.parametrize("shift", [(0, 0), (1_000_000, -7_000_000), (0.3, 1e-7)])
+def test_moving_a_layout_changes_nothing(shift: tuple[float, float]) -> None:
+    """Gaps of exactly 0.3, which binary floating-point numbers do not hold."""
+
+    def row_of_vertices(dx: Fraction, dy: Fraction) -> Roadmap:
+        at = {f"V{k}": (float(Fraction(k, 10) + dx), float(dy)) for k in range(12)}
+        edges = [
+            Edge(tail=f"V{k}", head=f"V{k + 1}", length=Fraction(1, 10)) for k in range(len(at) - 1)
+        ]
+        return roadmap_of_edges(at, edges)
+
+    here, there = (
+        resources_of(row_of_vertices(*map(Fraction, map(str, by))), [Fraction("0.15")], Fraction(0))
+        for by in ((0, 0), shift)
+    )
+    assert lists(here) == lists(there)
+    assert lists(here)[5] == [3, 4, 5, 6, 7]
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(seed: int) -> None:
+    """For all pairs of vertices and edges, with the sizes of all pairs of robots."""
+    scenario = sized_on_lanes(seed)
+    roadmap, resources = scenario.roadmap, scenario.problem.resources
+    assert resources is not None
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
+    edges = list(zip(tails, roadmap.heads.tolist(), strict=True))
+    shapes = [*((vertex,) for vertex in range(roadmap.n_vertices)), *edges]
+
+    def with_ends(shape: tuple[int, ...]) -> list[tuple[int, ...]]:
+        return [shape] if len(shape) == 1 else [shape, *((end,) for end in shape)]
+
+    for i, j in permutations(range(3), 2):
+        for x, one in enumerate(shapes):
+            found = set(resources.excluded_by(resources.vertex_row(i, x)).tolist())
+            for y, other in enumerate(shapes):
+                by_ends = any(
+                    incompatible(scenario, i, p, j, q)
+                    for p, q in product(with_ends(one), with_ends(other))
+                    if (p, q) != (one, other)
+                )
+                is_listed = resources.vertex_row(j, y) in found
+                if is_listed:
+                    assert incompatible(scenario, i, one, j, other)
+                else:
+                    assert by_ends or not incompatible(scenario, i, one, j, other)
+
+
+def test_the_circle_around_a_robot_is_rounded_up() -> None:
+    assert circle_around(Fraction("0.6"), Fraction("0.8")) == Fraction(1, 2)
+    radius = circle_around(Fraction(1), Fraction(1))
+    assert radius == Fraction("0.707107")
+    assert (radius - Fraction(1, 10**6)) ** 2 < Fraction(1, 2) < radius**2
+
+
+def test_a_robot_with_a_size_makes_the_fleet_book_ahead() -> None:
+    assert crossing().rules.occupancy == "both"
+    points = tuple(replace(robot, radius=Fraction(0)) for robot in crossing().robots)
+    assert replace(crossing(), robots=points, rules=Rules()).rules.occupancy == "one"
+
+
+@pytest.mark.parametrize(
+    ("rules", "message"),
+    [
+        (Rules(occupancy="one"), "rules.occupancy: 'one' is for robots without a size"),
+        (Rules(clearance=Fraction(-1)), "rules.clearance: -1 is negative"),
+    ],
+)
+def test_rules_that_do_not_fit_to_sizes_are_refused(rules: Rules, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        replace(crossing(), rules=rules)
+
+
+def test_clearance_without_sizes_is_refused() -> None:
+    with pytest.raises(InputError, match=r"rules.clearance: 1 is for robots with a size"):
+        grid_fleet(["..."], [("N0", "N2")], rules=Rules(clearance=Fraction(1)))
+
+
+def test_an_edge_shorter_than_straight_is_refused() -> None:
+    scenario = crossing()
+    roadmap = replace(scenario.roadmap, lengths=(Fraction("3.9"),))
+    with pytest.raises(InputError, match=r"edge from A to B is 3.9 long, but its ends are 4 apart"):
+        replace(scenario, roadmap=roadmap)

@@ -1,0 +1,150 @@
+"""Robots with a size, the slow way: all pairs of bookings and of motions, in fractions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import combinations, product
+from typing import NamedTuple
+
+from rightofway.model import Roadmap, Scenario, Track
+
+Point = tuple[Fraction, Fraction]
+Shape = tuple[int, ...]
+"""A vertex (v,), or an edge (tail, head)."""
+
+FAR_AWAY = Fraction(10**9)
+"""The end of last visits [ticks]."""
+
+
+class Booked(NamedTuple):
+    shape: Shape
+    start: Fraction
+    end: Fraction
+
+
+def point(roadmap: Roadmap, vertex: int) -> Point:
+    """Return the exact position of a vertex."""
+    if roadmap.grid is not None:
+        row, column = roadmap.grid.cell(vertex)
+        return column * roadmap.grid.cell_size, row * roadmap.grid.cell_size
+    x, y = roadmap.positions[vertex]
+    return Fraction(str(float(x))), Fraction(str(float(y)))
+
+
+def needed(scenario: Scenario, i: int, j: int) -> Fraction:
+    """Return the least distance of two robots, 0 where none has a size."""
+    radii = scenario.robots[i].radius, scenario.robots[j].radius
+    return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
+
+
+def square_to_line(p: Point, a: Point, b: Point) -> Fraction:
+    """Return the squared distance of a point to a straight line."""
+    run, rise = b[0] - a[0], b[1] - a[1]
+    whole = run**2 + rise**2
+    share = ((p[0] - a[0]) * run + (p[1] - a[1]) * rise) / whole if whole else Fraction(0)
+    share = min(max(share, Fraction(0)), Fraction(1))
+    return (p[0] - a[0] - share * run) ** 2 + (p[1] - a[1] - share * rise) ** 2
+
+
+def square_between(roadmap: Roadmap, one: Shape, other: Shape) -> Fraction:
+    """Return the squared distance of two shapes."""
+
+    def side(p: Point, q: Point, r: Point) -> Fraction:
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+    a, b = point(roadmap, one[0]), point(roadmap, one[-1])
+    c, d = point(roadmap, other[0]), point(roadmap, other[-1])
+    if side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0:
+        return Fraction(0)
+    return min(
+        square_to_line(a, c, d),
+        square_to_line(b, c, d),
+        square_to_line(c, a, b),
+        square_to_line(d, a, b),
+    )
+
+
+def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -> bool:
+    """Return whether robot i on one shape excludes robot j from another, as DESIGN has it."""
+    if one == other:
+        return len(one) == 1  # two robots on one edge have booked its ends
+    if one == other[::-1]:
+        return True
+    if set(one) & set(other):
+        return False
+    return square_between(scenario.roadmap, one, other) < needed(scenario, i, j) ** 2
+
+
+def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
+    """Return the ticks of a drive."""
+    roadmap = scenario.roadmap
+    edge = roadmap.edge(tail, head)
+    assert edge is not None
+    speed, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
+    return Fraction(-(-(roadmap.lengths[roadmap.length_class[edge]] / speed) // tick))
+
+
+def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
+    """Yield what a robot books: vertices with approach and headway, edges while it drives."""
+    headway = Fraction(scenario.problem.headway)
+    vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
+    ends = [*(tick + headway for tick in enter[1:]), FAR_AWAY]
+    for k, vertex in enumerate(vertices):
+        approach = drive(scenario, robot, vertices[k - 1], vertex) if k else Fraction(0)
+        yield Booked((vertex,), enter[k] - approach, ends[k])
+        if k:
+            yield Booked((vertices[k - 1], vertex), enter[k] - approach, enter[k] + headway)
+
+
+def overlaps(scenario: Scenario, tracks: list[Track]) -> set[tuple[int, int]]:
+    """Return the pairs of robots with incompatible bookings that overlap."""
+    booked = [list(bookings(scenario, robot, track)) for robot, track in enumerate(tracks)]
+    return {
+        (i, j)
+        for i, j in combinations(range(len(tracks)), 2)
+        for one, other in product(booked[i], booked[j])
+        if one.start < other.end
+        and other.start < one.end
+        and incompatible(scenario, i, one.shape, j, other.shape)
+    }
+
+
+def whereabouts(scenario: Scenario, robot: int, track: Track, tick: Fraction) -> Point:
+    """Return where a robot is at an instant."""
+    vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
+    for k in range(len(vertices) - 1):
+        if tick < enter[k + 1]:
+            a, b = (point(scenario.roadmap, vertex) for vertex in vertices[k : k + 2])
+            ticks = drive(scenario, robot, vertices[k], vertices[k + 1])
+            share = max((tick - (enter[k + 1] - ticks)) / ticks, Fraction(0))
+            return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
+    return point(scenario.roadmap, vertices[-1])
+
+
+def moments(scenario: Scenario, robot: int, track: Track) -> list[Fraction]:
+    """Return the instants at which a robot starts or ends a drive."""
+    vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
+    found = [Fraction(0)]
+    for k in range(1, len(vertices)):
+        found += [enter[k] - drive(scenario, robot, vertices[k - 1], vertices[k]), enter[k]]
+    return found
+
+
+def encounters(scenario: Scenario, tracks: list[Track]) -> dict[tuple[int, int], Fraction]:
+    """Return the pairs of robots that come too near, each with the least squared distance."""
+    found = {}
+    for i, j in combinations(range(len(tracks)), 2):
+        turns = sorted({t for k in (i, j) for t in moments(scenario, k, tracks[k])})
+        least = None
+        for begin, end in zip(turns, [*turns[1:], turns[-1] + 1], strict=True):
+            gaps = []
+            for tick in (begin, end):
+                p, q = (whereabouts(scenario, k, tracks[k], tick) for k in (i, j))
+                gaps.append((p[0] - q[0], p[1] - q[1]))
+            square = square_to_line((Fraction(0), Fraction(0)), *gaps)
+            least = square if least is None else min(least, square)
+        assert least is not None
+        if least < needed(scenario, i, j) ** 2:
+            found[i, j] = least
+    return found
