@@ -16,7 +16,7 @@ from click.shell_completion import BashComplete, CompletionItem, add_completion_
 
 from rightofway.planners import PlannerSpec, registered
 
-Completer = Callable[[click.Context, click.Parameter, str], list[CompletionItem[str]]]
+Completer = Callable[[click.Context, click.Parameter, str], "list[CompletionItem[str]]"]
 
 SCENARIOS = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 """Endings of the files that have a scenario."""

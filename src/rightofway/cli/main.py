@@ -7,7 +7,7 @@
 3      no plan was found: time ran out, or the planner gave up
 70     a defect of ours
 130    interrupted
-141    whoever read the results went away
+141    the program that read the output has ended
 =====  ===================================================================
 """
 

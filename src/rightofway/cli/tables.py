@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from rightofway.model.quantities import Quantities
     from rightofway.viz.table import Listing, Meeting, TimeSpaceTable
 
+    NumberType = click.ParamType[Fraction]
+else:
+    NumberType = click.ParamType  # takes no parameter in older versions of click
+
 TABLE_EXAMPLES = """\b
 Examples:
   rightofway table plan.json --to 20
@@ -49,7 +53,7 @@ Examples:
 """
 
 
-class _Time(click.ParamType[Fraction]):
+class _Time(NumberType):
     """A time that is given as a number of time units, or of ticks."""
 
     name = "time"

@@ -40,7 +40,7 @@ class CyclicSchedule:
     counts
         How many laps each makes in a period; at least 1.
     period
-        After how many ticks everything comes again.
+        The number of ticks after which all visits repeat.
     enter
         For each robot the ticks at which its visits of one period begin: ``counts * len(lap)`` of
         them, int64, strictly rising, the first at home in ``[0, period)`` and all before the first

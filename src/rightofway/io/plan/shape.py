@@ -73,11 +73,11 @@ class VisitDocument(Document):
 
 
 class SteadyDocument(Document):
-    """Robots that repeat themselves together."""
+    """A group of robots whose visits repeat with one period."""
 
     robots: list[Name] = Field(min_length=1, description="the names of the robots, at least one")
-    start: Ticks = Field(description="from when on everything comes again, a whole number of ticks")
-    period: Ticks = Field(description="after how many ticks, at least one")
+    start: Ticks = Field(description="the tick from which the visits repeat, a whole number")
+    period: Ticks = Field(description="the number of ticks after which they repeat, at least one")
     critical: list[VisitDocument] = Field(
         default=[],
         description="the bottleneck: a list of {robot, visit} that wait for each other in a circle",

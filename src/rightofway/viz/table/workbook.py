@@ -27,7 +27,7 @@ BOLD, GREY = Font(bold=True), Font(color="7F7F7F")
 FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None, "list 1": None, "list 2": None}
 
 LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
-    ("planned", "where the robot would be if nobody waited for anybody", GREY, None),
+    ("planned", "the place of the robot if no robot waited for another", GREY, None),
     ("final", "where it is in the plan", None, None),
     ("", "another robot has the same place", None, "collision"),
     ("", "two robots exchange their places", None, "swap"),

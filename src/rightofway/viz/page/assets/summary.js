@@ -82,7 +82,7 @@ class Summary {
     const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
     const whose = groups.length > 1 ? " (largest group)" : "";
     return [
-      [`Repeats every${whose}`, this.words.time(largest.period), "The period: after how long everything comes again"],
+      [`Repeats every${whose}`, this.words.time(largest.period), "The period: the time after which all visits repeat"],
       ["From", this.words.time(largest.start), "The transient: how long it takes until everything repeats"],
       ["Laps in that time", largest.whole ? String(laps) : "", "Laps that all robots together make in a period"],
     ];

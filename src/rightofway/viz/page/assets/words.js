@@ -86,7 +86,7 @@ class Words {
   /** What keeps a group from repeating itself sooner, in a line. */
   bottleneck({ circuit, period }) {
     const names = [...new Set(circuit.map(({ robot }) => robot.name))];
-    const alone = names.length === 1 ? " alone, which waits for nobody" : "";
+    const alone = names.length === 1 ? " alone, which waits for no robot" : "";
     return `Bottleneck: ${several(names)}${alone}, ${this.time(period)} a period`;
   }
 

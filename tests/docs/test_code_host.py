@@ -1,0 +1,38 @@
+"""What Sphinx reads instead of what a code host shows."""
+
+from __future__ import annotations
+
+import runpy
+
+from tests.builders.pages import DOCS
+
+REVEAL = runpy.run_path(str(DOCS / "_ext" / "code_host.py"))["reveal"]
+
+
+def read(text: str) -> str:
+    source = [text]
+    REVEAL(None, "page", source)
+    return source[0]
+
+
+def test_what_only_sphinx_understands_comes_out_of_its_comment() -> None:
+    assert read("one\n<!-- sphinx\n```{toctree}\nmodel\n```\n-->\ntwo\n") == (
+        "one\n```{toctree}\nmodel\n```\n\ntwo\n"
+    )
+
+
+def test_what_is_for_code_hosts_is_left_out_and_generated_parts_stay() -> None:
+    text = "one\n<!-- not sphinx -->\n![a](b.png)\n<!-- end -->\ntwo\n"
+    assert read(text) == "one\n\ntwo\n"
+    generated = "<!-- generated: decisions -->\n\n- one\n\n<!-- end -->\n"
+    assert read(generated) == generated
+
+
+def test_links_to_the_root_lead_to_the_pages_that_include_it() -> None:
+    assert read("[how](../../CONTRIBUTING.md#code)") == "[how](../contributing.md#code)"
+    assert read("[new](../CHANGELOG.md)") == "[new](changelog.md)"
+    assert read("[figures](../benchmarks/README.md)") == "figures (`benchmarks/README.md`)"
+
+
+def test_an_equation_of_a_code_host_is_one_of_sphinx() -> None:
+    assert read("```math\nx\n```\n") == "```{math}\nx\n```\n"
