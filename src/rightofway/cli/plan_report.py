@@ -15,6 +15,9 @@ from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
 
+MAX_HOMES = 5
+"""Homes on the way of other robots that a report names: those that cost most."""
+
 COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
 
@@ -193,7 +196,7 @@ def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterato
     largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
     if largest:
         yield ""
-    for robot in largest[:MAX_LINES]:
+    for robot in largest[:MAX_HOMES]:
         last = scenario.problem.itineraries[robot].last
         what = "home" if last == scenario.robots[robot].home else "last place"
         ranked = sorted(found[robot], key=lambda other: -found[robot][other])
