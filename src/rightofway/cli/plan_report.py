@@ -8,12 +8,15 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, measures, row, short, wrapped
+from rightofway.cli.terminal import COLUMNS, counted, further, measures, row, short, wrapped
 from rightofway.metrics import Metrics, lost_time, measure, waits
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
+
+MAX_DETOURS = 8
+"""Robots that take the longest detours, as far as a report names them."""
 
 MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
@@ -121,7 +124,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         line = "  ".join(f"{one:>{space}}" for one, space in zip(cells, widths, strict=True))
         yield f"{name:{width}}  {line}"
     if len(lost) > len(listed):
-        yield f"… and {len(lost) - len(listed)} more robots, which lose less time"
+        yield f"… and {counted(len(lost) - len(listed), 'more robot')} that lose less time"
 
 
 def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
@@ -133,11 +136,6 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         (sum(loss.ticks for loss in group), group[0].tick, _sentence(words, group))
         for group in groups.values()
     ]
-    sentences += [
-        (one.detours, 0, f"{words.robot(one.robot)} takes detours of {words.time(one.detours)}.")
-        for one in lost
-        if one.detours > 0
-    ]
     sentences.sort(key=lambda sentence: (-sentence[0], sentence[1]))
     if sentences:
         yield ""
@@ -145,7 +143,24 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         yield from wrapped(sentence)
     if len(sentences) > MAX_LINES:
         yield f"… and {len(sentences) - MAX_LINES} more (--json lists all)"
+    yield from _detours(words, lost)
     yield from _homes_in_the_way(words, groups.values())
+
+
+def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+    """Yield one sentence on the robots whose drives take longer than on their shortest trips."""
+    longest = sorted((one for one in lost if one.detours > 0), key=lambda one: -one.detours)
+    if not longest:
+        return
+    first, *others = longest[:MAX_DETOURS]
+    write = further(words.quantities)
+    listed = [f"{words.robot(first.robot)} {words.time(first.detours)}"]
+    listed += [f"{words.robot(one.robot)} {write(one.detours)}" for one in others]
+    rest = len(longest) - len(listed)
+    if rest:
+        listed.append(f"{counted(rest, 'more robot')}")
+    yield ""
+    yield from wrapped(f"Detours: {', '.join(listed)}.")
 
 
 def _sentence(words: Words, group: Sequence[Loss]) -> str:
