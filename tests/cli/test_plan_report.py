@@ -72,7 +72,9 @@ def test_a_wait_for_a_place_further_on_names_that_place() -> None:
 
 def test_a_wait_that_nothing_compels_says_so() -> None:
     plan = plan_of(["..."], ([0, 1, 2], [0, 1, 4]))
-    assert report(plan)[-1] == "R1 waits 2 s in N1 at 1 s, though no other robot is in its way."
+    assert report(plan)[-1] == (
+        "R1 waits 2 s in N1 at 1 s, though no place on its way becomes free just then."
+    )
 
 
 def test_a_detour_and_a_robot_that_makes_room_each_have_a_sentence() -> None:

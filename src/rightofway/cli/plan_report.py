@@ -21,6 +21,9 @@ MAX_DETOURS = 8
 MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
 
+UNEXPLAINED = ", though no place on its way becomes free just then"
+"""What a report says about a wait that no other robot is the cause of."""
+
 COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
 
@@ -157,10 +160,9 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     listed = [f"{words.robot(first.robot)} {words.time(first.detours)}"]
     listed += [f"{words.robot(one.robot)} {write(one.detours)}" for one in others]
     rest = len(longest) - len(listed)
-    if rest:
-        listed.append(f"{counted(rest, 'more robot')}")
+    more = f" and {counted(rest, 'more robot')}" if rest else ""
     yield ""
-    yield from wrapped(f"Detours: {', '.join(listed)}.")
+    yield from wrapped(f"Detours: {', '.join(listed)}{more}.")
 
 
 def _sentence(words: Words, group: Sequence[Loss]) -> str:
@@ -184,17 +186,17 @@ def _sentence(words: Words, group: Sequence[Loss]) -> str:
     if first.until_vertex != first.vertex:
         where += f" to {words.place(first.until_vertex)}"
     if times > 1:
-        reason = (
-            "though no other robot is in its way" if first.for_robot is None else f"for {other}"
-        )
-        return f"{robot} waits {times} times {reason}, {total} in all, first {where} {begin}."
+        reason = UNEXPLAINED if first.for_robot is None else ""
+        awaited = "" if first.for_robot is None else f" for {other}"
+        how = f"waits {times} times{awaited}, {total} in all, first {where} {begin}"
+        return f"{robot} {how}{reason}."
     if first.for_robot is None:
-        reason = "though no other robot is in its way"
+        reason = UNEXPLAINED
     elif first.freed == first.towards:
-        reason = f"for {other} to leave {freed}"
+        reason = f", for {other} to leave {freed}"
     else:
-        reason = f"so that {other} can leave {freed} first"
-    return f"{robot} waits {total} {where} {begin}, {reason}."
+        reason = f", so that {other} can leave {freed} first"
+    return f"{robot} waits {total} {where} {begin}{reason}."
 
 
 def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterator[str]:
