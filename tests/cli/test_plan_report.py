@@ -72,16 +72,16 @@ def test_a_wait_for_a_place_further_on_names_that_place() -> None:
 
 def test_a_wait_that_nothing_compels_says_so() -> None:
     plan = plan_of(["..."], ([0, 1, 2], [0, 1, 4]))
-    assert report(plan)[-1] == "R1 waits 2 s in N1 at 1 s, though no other robot is in its way."
+    assert report(plan)[-1] == (
+        "R1 waits 2 s in N1 at 1 s, though no place on its way becomes free just then."
+    )
 
 
 def test_a_detour_and_a_robot_that_makes_room_each_have_a_sentence() -> None:
     aside = ([0, 1, 4, 1, 2], [0, 1, 2, 4, 5])
     lines = report(plan_of(["...", "..."], aside, ([3, 0, 1], [0, 2, 3])))
     assert "R1 makes room for R2 and loses 2 s, away from N1 from 2 s to 4 s." in lines
-    assert report(plan_of(["...", "..."], ([0, 3, 4, 5, 2], range(5))))[-1] == (
-        "R1 takes detours of 2 s."
-    )
+    assert report(plan_of(["...", "..."], ([0, 3, 4, 5, 2], range(5))))[-1] == ("Detours: R1 2 s.")
 
 
 def test_waits_of_several_laps_are_summed_up() -> None:

@@ -6,8 +6,21 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+import rightofway
 from rightofway.metrics import lost_time
-from rightofway.model import Loss, Plan, PlannerRun, Rules, Track, VertexId
+from rightofway.model import (
+    Edge,
+    Loss,
+    Plan,
+    PlannerRun,
+    Robot,
+    Rules,
+    Scenario,
+    Stop,
+    Track,
+    VertexId,
+    roadmap_of_edges,
+)
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 
@@ -120,6 +133,41 @@ def test_two_waits_for_one_leaving_are_one() -> None:
 def test_a_wait_that_nothing_compels_has_no_cause() -> None:
     loss = only_loss(plan_of(["..."], ([0, 1, 2], [0, 1, 4])))
     assert (loss.for_robot, loss.freed, loss.ticks) == (None, None, 2)
+
+
+def test_where_rotations_are_forbidden_a_robot_comes_one_tick_after_the_other() -> None:
+    """R1 leaves N4 at tick 2; planners let R2 enter it at tick 3."""
+    trips = (([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 3, 4]))
+    loss = only_loss(plan_of(["..."] * 3, *trips, rotations=False))
+    assert (loss.for_robot, loss.freed, loss.ticks) == (0, 4, 2)
+
+
+def test_a_robot_with_a_size_waits_for_one_that_is_too_near() -> None:
+    """R2 may not drive to b before R1, one length unit from b in c, has come to d."""
+    places = {"a": (0, 0), "b": (2, 0), "e": (4, 0), "c": (2, 1), "d": (2, 5)}
+    roadmap = roadmap_of_edges(
+        places,
+        [
+            Edge(tail=tail, head=head, length=Fraction(length))
+            for tail, head, length in (("a", "b", 2), ("b", "e", 2), ("c", "d", 4))
+        ],
+    )
+    robots = tuple(
+        Robot(
+            name=name,
+            home=roadmap.vertex(home),
+            stops=(Stop(at=roadmap.vertex(stop)),),
+            speed=Fraction(2),
+            radius=Fraction(3, 5),
+        )
+        for name, home, stop in (("R1", "c", "d"), ("R2", "a", "e"))
+    )
+    scenario = Scenario(roadmap=roadmap, robots=robots, rules=Rules(ends="none", occupancy="both"))
+    plan = rightofway.solve(scenario)
+    loss = only_loss(plan)
+    assert [roadmap.name(vertex) for vertex in (loss.vertex, loss.towards)] == ["a", "b"]
+    assert loss.freed is not None
+    assert (loss.for_robot, roadmap.name(loss.freed)) == (0, "c")
 
 
 def test_work_at_the_end_is_no_loss() -> None:

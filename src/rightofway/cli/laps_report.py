@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, further, measures, short, wrapped
+from rightofway.cli.terminal import COLUMNS, counted, further, measures, short, wrapped
 from rightofway.cyclic import (
     Comparison,
     CyclicResult,
@@ -184,10 +184,8 @@ def laps_report(run: CyclicResult, quantities: Quantities) -> str:
         if group.comparison is not None:
             lines += comparison_lines(group.comparison)
     if len(largest) > MAX_GROUPS:
-        lines += [
-            "",
-            f"… and {len(largest) - MAX_GROUPS} more groups, none larger (--json lists all)",
-        ]
+        more = counted(len(largest) - MAX_GROUPS, "more group")
+        lines += ["", f"… and {more}, none larger (--json lists all)"]
     return "\n".join(lines)
 
 
@@ -245,7 +243,7 @@ def _robot_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
         line = "  ".join(f"{text:>{space}}" for text, space in zip(cells, widths, strict=True))
         yield f"{name:{width}}  {line}".rstrip()
     if len(group.robots) > MAX_LINES:
-        yield f"… and {len(group.robots) - MAX_LINES} more robots (--json lists all)"
+        yield f"… and {counted(len(group.robots) - MAX_LINES, 'more robot')} (--json lists all)"
 
 
 def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:
@@ -280,7 +278,7 @@ def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     others = map(further(quantities), ticks[1:MAX_TIMES])
     listed = ", ".join([quantities.moment(ticks[0]), *others])
     more = len(ticks) - MAX_TIMES
-    return f"{listed} and {more} more time{'s' * (more > 1)}" if more > 0 else listed
+    return f"{listed} and {counted(more, 'more time')}" if more > 0 else listed
 
 
 def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:

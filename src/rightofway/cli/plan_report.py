@@ -8,12 +8,21 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
-from rightofway.cli.terminal import COLUMNS, measures, row, short, wrapped
+from rightofway.cli.terminal import COLUMNS, counted, further, measures, row, short, wrapped
 from rightofway.metrics import Metrics, lost_time, measure, waits
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
+
+MAX_DETOURS = 8
+"""Robots that take the longest detours, as far as a report names them."""
+
+MAX_HOMES = 5
+"""Homes on the way of other robots that a report names: those that cost most."""
+
+UNEXPLAINED = ", though no place on its way becomes free just then"
+"""What a report says about a wait that no other robot is the cause of."""
 
 COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
@@ -118,7 +127,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         line = "  ".join(f"{one:>{space}}" for one, space in zip(cells, widths, strict=True))
         yield f"{name:{width}}  {line}"
     if len(lost) > len(listed):
-        yield f"… and {len(lost) - len(listed)} more robots, which lose less time"
+        yield f"… and {counted(len(lost) - len(listed), 'more robot')} that lose less time"
 
 
 def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
@@ -130,11 +139,6 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         (sum(loss.ticks for loss in group), group[0].tick, _sentence(words, group))
         for group in groups.values()
     ]
-    sentences += [
-        (one.detours, 0, f"{words.robot(one.robot)} takes detours of {words.time(one.detours)}.")
-        for one in lost
-        if one.detours > 0
-    ]
     sentences.sort(key=lambda sentence: (-sentence[0], sentence[1]))
     if sentences:
         yield ""
@@ -142,7 +146,23 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
         yield from wrapped(sentence)
     if len(sentences) > MAX_LINES:
         yield f"… and {len(sentences) - MAX_LINES} more (--json lists all)"
+    yield from _detours(words, lost)
     yield from _homes_in_the_way(words, groups.values())
+
+
+def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
+    """Yield one sentence on the robots whose drives take longer than on their shortest trips."""
+    longest = sorted((one for one in lost if one.detours > 0), key=lambda one: -one.detours)
+    if not longest:
+        return
+    first, *others = longest[:MAX_DETOURS]
+    write = further(words.quantities)
+    listed = [f"{words.robot(first.robot)} {words.time(first.detours)}"]
+    listed += [f"{words.robot(one.robot)} {write(one.detours)}" for one in others]
+    rest = len(longest) - len(listed)
+    more = f" and {counted(rest, 'more robot')}" if rest else ""
+    yield ""
+    yield from wrapped(f"Detours: {', '.join(listed)}{more}.")
 
 
 def _sentence(words: Words, group: Sequence[Loss]) -> str:
@@ -166,17 +186,17 @@ def _sentence(words: Words, group: Sequence[Loss]) -> str:
     if first.until_vertex != first.vertex:
         where += f" to {words.place(first.until_vertex)}"
     if times > 1:
-        reason = (
-            "though no other robot is in its way" if first.for_robot is None else f"for {other}"
-        )
-        return f"{robot} waits {times} times {reason}, {total} in all, first {where} {begin}."
+        reason = UNEXPLAINED if first.for_robot is None else ""
+        awaited = "" if first.for_robot is None else f" for {other}"
+        how = f"waits {times} times{awaited}, {total} in all, first {where} {begin}"
+        return f"{robot} {how}{reason}."
     if first.for_robot is None:
-        reason = "though no other robot is in its way"
+        reason = UNEXPLAINED
     elif first.freed == first.towards:
-        reason = f"for {other} to leave {freed}"
+        reason = f", for {other} to leave {freed}"
     else:
-        reason = f"so that {other} can leave {freed} first"
-    return f"{robot} waits {total} {where} {begin}, {reason}."
+        reason = f", so that {other} can leave {freed} first"
+    return f"{robot} waits {total} {where} {begin}{reason}."
 
 
 def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterator[str]:
@@ -193,7 +213,7 @@ def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterato
     largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
     if largest:
         yield ""
-    for robot in largest[:MAX_LINES]:
+    for robot in largest[:MAX_HOMES]:
         last = scenario.problem.itineraries[robot].last
         what = "home" if last == scenario.robots[robot].home else "last place"
         ranked = sorted(found[robot], key=lambda other: -found[robot][other])

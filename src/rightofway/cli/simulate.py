@@ -14,6 +14,7 @@ from rightofway.cli.terminal import (
     COLUMNS,
     ListingCommand,
     as_json_option,
+    counted,
     foreign_options,
     further,
     json_text,
@@ -238,7 +239,7 @@ def _robots(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     for line in _table(["robot", *(names[number] for number in listed)], rows):
         yield line if len(line) <= COLUMNS else f"{line[: COLUMNS - 1]}…"
     if len(robots) > len(listed):
-        yield f"… and {len(robots) - len(listed)} more robots, which are less late"
+        yield f"… and {counted(len(robots) - len(listed), 'more robot')} that are less late"
 
 
 def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
@@ -253,7 +254,7 @@ def _sources(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     yield quantities.heading("where most lateness begins, mean per run")
     yield from _table(["robot", *names], rows)
     if len(sources) > len(listed):
-        yield f"… and {len(sources) - len(listed)} more places (--json lists all)"
+        yield f"… and {counted(len(sources) - len(listed), 'more place')} (--json lists all)"
 
 
 def _table(names: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:

@@ -320,6 +320,11 @@ def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
     return replace(scenario.quantities, in_ticks=in_ticks)
 
 
+def counted(number: int, noun: str) -> str:
+    """Return a number and its noun: ``1 more robot``, ``3 more robots``."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
 def further(quantities: Quantities) -> Callable[[Value], str]:
     """Return how times after the first one of a sentence are written.
 

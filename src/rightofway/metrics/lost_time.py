@@ -23,6 +23,9 @@ from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
 from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
 
+MOST_AHEAD = 32
+"""How many vertices a robot with a size may keep behind the one that it follows."""
+
 Bound = tuple[int, int, int]
 """Visits: one in which a robot waits, the next of its visits that another robot's leaving makes
 possible, and that robot's visit; the last two are `NOBODY` for a wait without a cause."""
@@ -54,7 +57,7 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     stays = stays_of(scenario, tracks)
     bookings = bookings_of(scenario, tracks, stays)
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
-    for loss in _joined_waits(tracks, stays, bookings):
+    for loss in joined_waits(scenario, tracks, stays):
         losses[loss.robot].append(loss)
     found = []
     for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True)):
@@ -90,11 +93,11 @@ def joined_waits(
     stays
         The parts of their visits.
     """
-    return tuple(_joined_waits(tracks, stays, bookings_of(scenario, tracks, stays)))
+    return tuple(_joined_waits(scenario, tracks, stays))
 
 
 def _joined_waits(
-    tracks: Sequence[Track], stays: Sequence[Stays], bookings: Bookings
+    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> Iterator[Loss]:
     lengths = np.array([len(track) for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), lengths)
@@ -104,7 +107,7 @@ def _joined_waits(
     vertex = [
         VertexId(one) for one in np.concatenate([track.vertices for track in tracks]).tolist()
     ]
-    frees = freed_by(bookings)
+    frees = freed_by(scenario, tracks, stays)
     visits = np.flatnonzero(waiting > 0)
     bound = _next_bound(frees, robot)[visits + 1]
     joined: list[Bound] = []  # visits: of the wait, bound by the other robot, its own
@@ -137,11 +140,15 @@ def _go_together(
     (visit, own, leader), (next_visit, next_own, next_leader) = before, wait
     if robot[visit] != robot[next_visit] or NOBODY in (leader, next_leader):
         return False
-    return (
-        robot[leader] == robot[next_leader]
-        and next_leader - leader == next_own - own
-        and vertex[own : next_own + 1] == vertex[leader : next_leader + 1]
-    )
+    if robot[leader] != robot[next_leader] or next_leader - leader != next_own - own:
+        return False
+    ahead = vertex[own : own + MOST_AHEAD]
+    if vertex[leader] not in ahead:
+        return False
+    lead = ahead.index(vertex[leader])  # 0 but for robots with a size, which keep a distance
+    run = slice(own + lead, next_own + lead + 1)
+    is_own = run.stop <= len(vertex) and robot[run.stop - 1] == robot[own]
+    return bool(is_own) and vertex[run] == vertex[leader : next_leader + 1]
 
 
 def _joined(
@@ -160,7 +167,7 @@ def _joined(
         vertex=VertexId(vertex[first]),
         until_vertex=VertexId(vertex[last]),
         towards=VertexId(vertex[last + 1]),
-        freed=VertexId(vertex[last_own]) if is_caused else None,
+        freed=VertexId(vertex[leader]) if is_caused else None,
         tick=Tick(begin[first]),
         end=Tick(begin[last] + int(waiting[last])),
         ticks=Tick(sum(int(waiting[visit]) for visit, *_ in waits)),

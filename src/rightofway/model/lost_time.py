@@ -31,8 +31,9 @@ class Loss:
     towards
         The vertex where it goes after the last wait; or the first one that it makes room in.
     freed
-        The vertex that ``for_robot`` leaves at the very tick from which the robot books it, for the
-        last wait: ``towards``, or a vertex further on the route. None where no robot is the cause.
+        The vertex that ``for_robot`` leaves, for the last wait, at the very tick from which the
+        robot may book its way on: ``towards``, a vertex further on the route, or one too near to
+        these for robots with a size. None where no robot is the cause.
     tick, end
         When the first wait begins and the last one ends; or when the robot leaves the vertex and
         when it is back [ticks].

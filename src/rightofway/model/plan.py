@@ -187,8 +187,9 @@ class Wait:
     towards
         The vertex where the robot goes next.
     for_robot
-        The robot that frees that vertex at the very tick from which the waiting robot books it.
-        None if no robot does: then the reason lies further on the route.
+        The robot that frees that vertex, or for robots with a size one too near to it, at the very
+        tick from which the waiting robot books it. None if no robot does: then the reason lies
+        further on the route.
     """
 
     robot: int
