@@ -45,7 +45,13 @@ class Frame:
 
 
 def squared_distance(tail: Point, head: Point) -> Fraction:
-    """Return the square of the straight distance of two points."""
+    """Return the square of the straight distance of two points.
+
+    Parameters
+    ----------
+    tail, head
+        The points.
+    """
     return (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
 
 
