@@ -23,6 +23,7 @@ from rightofway.model import (
     roadmap_of_edges,
     roadmap_of_grid,
     rounding_step,
+    squared_distance,
     straight_length,
 )
 from rightofway.model.places import as_place, is_cell, vertex_at
@@ -178,7 +179,7 @@ class FleetBuilder:
                 raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
         given = None if length is None else exact_length(length, f"{place}: length")
         if given is None:
-            _within(place, straight_length, self._positions[tail], self._positions[head])
+            _within(place, straight_length, self._square(tail, head))
         self._edges.append((tail, head, given))
         if both_ways:
             self._edges.append((head, tail, given))
@@ -282,20 +283,24 @@ class FleetBuilder:
             if not self._positions:
                 remedy = "give grid, map_file or graph, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
-            at = self._positions
-            ends = [(at[tail], at[head]) for tail, head, given in self._edges if given is None]
-            step = rounding_step(ends)
+            squares = [
+                self._square(tail, head) for tail, head, given in self._edges if given is None
+            ]
+            step = rounding_step(squares)
             edges = [
                 Edge(
                     tail=tail,
                     head=head,
-                    length=given or straight_length(at[tail], at[head], step),
+                    length=given or straight_length(self._square(tail, head), step),
                 )
                 for tail, head, given in self._edges
             ]
-            drawn = {name: (float(x), float(y)) for name, (x, y) in at.items()}
+            drawn = {name: (float(x), float(y)) for name, (x, y) in self._positions.items()}
             self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up)
         return self._roadmap
+
+    def _square(self, tail: str, head: str) -> Fraction:
+        return squared_distance(self._positions[tail], self._positions[head])
 
     def _vertex(self, key: str, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""

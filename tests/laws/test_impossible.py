@@ -41,7 +41,7 @@ def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     everybody = tuple(robot.name for robot in scenario.robots)
     if has_plan(scenario, everybody):
         return
-    blockage = blocking_set(scenario, seed=0, deadline=Deadline())
+    blockage = blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
     assert not has_plan(scenario, blockage.robots)
     for name in blockage.robots:
         fewer = tuple(other for other in blockage.robots if other != name)

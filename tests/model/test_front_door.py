@@ -47,6 +47,25 @@ def test_a_number_is_kept_exactly_however_it_is_written(half: Any) -> None:
     assert Edge(tail="A", head="B", length=half).length == Fraction(1, 2)
 
 
+def test_points_units_and_the_frame_are_those_of_a_file() -> None:
+    fleet = door(y="up", origin=(10, "20.5"), units={"length": "m"})
+    fleet.add_robot("R1", home={"x": 10.2, "y": 20.6}, stops=[({"x": 12.9, "y": 23}, 4)])
+    built = fleet.scenario()
+    shape = {"grid": DOOR, "y": "up", "origin": [10, "20.5"]}
+    robots = [{"name": "R1", "home": "N6", "stops": [{"at": "N2", "work": 4}]}]
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    assert built == rightofway.io.scenario_of({**document, "units": {"length": "m"}})
+
+
+def test_edges_without_a_length_share_one_step() -> None:
+    fleet = FleetBuilder(y="up").add_vertex("a", 0, 0).add_vertex("b", 1, 1).add_vertex("c", 0, 0.5)
+    fleet.add_edge("a", "b").add_edge("b", "c").add_edge("a", "c")
+    roadmap = fleet.roadmap()
+    # roots of 2 and 1.25, rounded up to a millionth, because a and c are 0.5 apart
+    assert [float(length) for length in roadmap.lengths] == [0.5, 1.118034, 1.414214]
+    assert roadmap.point(1) == (Fraction(1), Fraction(1))
+
+
 def test_a_float_counts_as_the_decimal_that_it_prints_as() -> None:
     assert robot(name="R1", home=0, stops=(), speed=0.1).speed == Fraction(1, 10)
 
@@ -187,6 +206,28 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "an edge between two vertices at one position": (
         lambda: FleetBuilder().add_vertex("A", 1, 1).add_vertex("B", 1, 1).add_edge("A", "B"),
         "edge 'A' to 'B': has no length, its ends are at one position .give a length",
+    ),
+    "an unknown direction of y": (
+        lambda: door(y="north"),
+        "y: 'north' is unknown .give down or up",
+    ),
+    "an origin without a grid": (
+        lambda: FleetBuilder(origin=(0, 0)),
+        "origin: is for a grid or a map file",
+    ),
+    "an origin of one number": (lambda: door(origin=3), "origin: 3 is no point"),
+    "an unknown unit": (
+        lambda: door(units={"length": "feet"}),
+        "units: length: 'feet' is no unit .give mm, cm or m",
+    ),
+    "units that are no mapping": (lambda: door(units="m"), "units: 'm' are no units"),
+    "a point in a wall": (
+        lambda: door(units={"length": "m"}).add_robot("R1", home={"x": 0.5, "y": 1.5}, target="N8"),
+        "home: {x: 0.5, y: 1.5} lies in N3, .*the nearest free cell is N0 at .*, 1 m away",
+    ),
+    "a bare number": (
+        lambda: door().add_robot("R1", home=2, target="N8"),
+        "home: 2 is no place .did you mean N2",
     ),
     "a file name is solved": (
         lambda: solve("door.yaml"),

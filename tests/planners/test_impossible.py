@@ -88,3 +88,14 @@ def test_a_long_list_of_reasons_is_cut_in_the_message_only() -> None:
     error = no_plan(fleet.scenario())
     assert str(error).splitlines()[-1] == "and 3 more"
     assert len(error.as_dict()["robots"]) == robots  # type: ignore[arg-type]
+
+
+def test_a_blocked_part_is_found_beside_a_hall_of_other_robots() -> None:
+    """What the ten robots of the hall do is tried only after each part was looked at alone."""
+    fleet = FleetBuilder(grid=["......@@", "@@@@@@@@", *["........"] * 5])
+    fleet.add_robot("A", home="N0", target="N5").add_robot("B", home="N5", target="N0")
+    for index in range(10):
+        fleet.add_robot(f"R{index}", home=f"N{16 + index}", target=f"N{55 - index}")
+    error = no_plan(fleet.scenario())
+    assert error.robots == ("A", "B")
+    assert error.vertices == ("N0", "N1", "N2", "N3", "N4", "N5")

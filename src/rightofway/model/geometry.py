@@ -50,49 +50,47 @@ def squared_distance(tail: Point, head: Point) -> Fraction:
     Parameters
     ----------
     tail, head
-        Points (x, y) [length units].
+        The points.
     """
     return (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
 
 
-def rounding_step(ends: Iterable[tuple[Point, Point]]) -> Fraction:
+def rounding_step(squares: Iterable[Fraction]) -> Fraction:
     """Return the step to which the lengths of a map are rounded up.
 
     Parameters
     ----------
-    ends
-        The two ends of each edge whose length is its straight distance.
+    squares
+        The squared distance of the ends of each edge whose length is not given.
 
     Returns
     -------
     Fraction
         1/1000, or 1/1000000 if a distance is below 1 [length unit].
     """
-    return FINE if any(0 < squared_distance(*pair) < 1 for pair in ends) else COARSE
+    return FINE if any(0 < square < 1 for square in squares) else COARSE
 
 
-def straight_length(tail: Point, head: Point, step: Fraction = COARSE) -> Fraction:
-    """Return the straight distance of two points, rounded up to a step if it is no fraction.
+def straight_length(square: Fraction, step: Fraction = COARSE) -> Fraction:
+    """Return the length of a straight edge, rounded up to a step if it is no fraction.
 
     Parameters
     ----------
-    tail, head
-        The points.
+    square
+        The squared distance of its ends.
     step
         The step [length unit].
 
     Raises
     ------
     InputError
-        If the points are the same, or the distance has too many digits.
+        If the ends are at one position, or the length has too many digits.
 
     Examples
     --------
-    >>> zero, one, three, four = map(Fraction, (0, 1, 3, 4))
-    >>> straight_length((zero, zero), (three, four)), straight_length((zero, zero), (one, one))
+    >>> straight_length(Fraction(25)), straight_length(Fraction(2))
     (Fraction(5, 1), Fraction(283, 200))
     """
-    square = squared_distance(tail, head)
     if square == 0:
         raise InputError.at("", "has no length, its ends are at one position (give a length)")
     found = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))

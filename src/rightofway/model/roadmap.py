@@ -346,7 +346,8 @@ def roadmap_of_edges(
     """
     ids = {name: vertex for vertex, name in enumerate(positions)}
     _check_edges(ids, edges)
-    lengths = tuple(sorted({edge.length for edge in edges}))
+    # Floats first: fractions are slow to compare, and only equal floats need it.
+    lengths = tuple(sorted({edge.length for edge in edges}, key=lambda one: (float(one), one)))
     class_of = {length: index for index, length in enumerate(lengths)}
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))

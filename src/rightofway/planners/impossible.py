@@ -210,13 +210,46 @@ def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Block
             yield Blockage(reason, (name,), (place(tail), place(head)))
 
 
-def blocking_set(scenario: Scenario, *, seed: int, deadline: Deadline) -> Blockage:
-    """Return a small set of robots that have no plan, given that the whole fleet has none.
+def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:
+    """Raise if robots in one of several parts of a map, which no edge joins, have no plan.
+
+    A search over the whole fleet tries what the robots of one part do with all that the others do.
+    Part by part, the proof takes far fewer steps; the search ends undecided after a number of them.
 
     Parameters
     ----------
     scenario
-        A fleet that is proven to have no plan.
+        The problem.
+    seed
+        For the search.
+    deadline
+        When to stop.
+
+    Raises
+    ------
+    NoPlanExists
+        With a small set of robots that block each other.
+    """
+    parts, groups = _Parts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
+    for robot, itinerary in enumerate(scenario.problem.itineraries):
+        groups[parts.of(itinerary.home)].append(robot)
+    for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
+        steps = EFFORT // (len(groups) * len(robots))
+        if _is_blocked(scenario, robots, seed=seed, steps=steps, deadline=deadline):
+            raise NoPlanExists([blocking_set(scenario, robots, seed=seed, deadline=deadline)])
+
+
+def blocking_set(
+    scenario: Scenario, robots: Iterable[int], *, seed: int, deadline: Deadline
+) -> Blockage:
+    """Return a small set of robots that have no plan, given that some robots have none.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    robots
+        Robots that are proven to have no plan together.
     seed
         For the search.
     deadline
@@ -227,7 +260,7 @@ def blocking_set(scenario: Scenario, *, seed: int, deadline: Deadline) -> Blocka
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
     no trial without one of its robots ended undecided.
     """
-    left = list(range(len(scenario.robots)))
+    left = list(robots)
     steps = max(EFFORT // (len(left) * min(len(left), MOST_TRIALS)), 1)
     size = len(left)
     while size > 1:
@@ -264,7 +297,7 @@ def _is_blocked(
     scenario: Scenario, robots: Sequence[int], *, seed: int, steps: int, deadline: Deadline
 ) -> bool:
     """Return whether it is proven that some robots of a fleet have no plan."""
-    if not robots:
+    if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
     left = deadline.seconds_left()
     fleet = replace(scenario, robots=tuple(scenario.robots[robot] for robot in robots))

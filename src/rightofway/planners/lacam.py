@@ -28,6 +28,7 @@ from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Track, VertexId, route_through
 from rightofway.planners.impossible import (
     blocking_set,
+    refuse_blocked_parts,
     refuse_stranded,
     refuse_the_impossible,
 )
@@ -69,12 +70,14 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     status = "instant by instant"
     if tracks is None:
         task.report("no end by instants: planning the order of moves without clocks")
+        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
         left = task.deadline.seconds_left()
         try:
             steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
         except NoPlanExists:
             task.report("no plan exists: looking for the robots that block each other")
-            found = blocking_set(scenario, seed=task.seed, deadline=task.deadline)
+            everybody = range(robots)
+            found = blocking_set(scenario, everybody, seed=task.seed, deadline=task.deadline)
             raise NoPlanExists([found]) from None
         tracks, status = timetable_of(scenario, steps), "order of moves first"
     task.has_plan()

@@ -157,15 +157,17 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
 def _drawn(document: RoadmapDocument, *, y_up: bool) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
-    positions = document.vertices
-    straight = [
-        (positions[edge.tail], positions[edge.head])
-        for edge in document.edges
-        if edge.length is None and {edge.tail, edge.head} <= positions.keys()
-    ]
-    step = rounding_step(straight)
+    positions, lengths = document.vertices, list[Fraction | None]()
+    squares = {
+        index: squared_distance(positions[edge.tail], positions[edge.head])
+        for index, edge in enumerate(document.edges)
+        if edge.length is None and edge.tail in positions and edge.head in positions
+    }
+    step = rounding_step(squares.values())
     for index, edge in enumerate(document.edges):
-        length = faults.attempt(f"edges[{index}]", _length, edge, positions, step)
+        place, square = f"edges[{index}]", squares.get(index)
+        length = faults.attempt(place, _length, edge, positions, square, step)
+        lengths.append(length)
         if length is None:
             continue
         there, back = (edge.tail, edge.head), (edge.head, edge.tail)
@@ -173,19 +175,21 @@ def _drawn(document: RoadmapDocument, *, y_up: bool) -> LoadedMap:
             earlier = first.setdefault((tail, head), index)
             if earlier != index:
                 message = f"leads from {tail!r} to {head!r} as edges[{earlier}] does (take one out)"
-                faults.note(f"edges[{index}]", message)
+                faults.note(place, message)
                 break
             edges.append(Edge(tail=tail, head=head, length=length))
     faults.stop()
     drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-    rounded = sum(straight_length(*pair, step) ** 2 != squared_distance(*pair) for pair in straight)
+    rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
     return LoadedMap(
         roadmap=roadmap_of_edges(drawn, edges, y_up=y_up), rounding=note if rounded else None
     )
 
 
-def _length(edge: EdgeDocument, positions: Mapping[str, Point], step: Fraction) -> Fraction:
+def _length(
+    edge: EdgeDocument, positions: Mapping[str, Point], square: Fraction | None, step: Fraction
+) -> Fraction:
     """Return the length of an edge after checking its ends."""
     faults = Faults()
     for place, name in (("from", edge.tail), ("to", edge.head)):
@@ -196,4 +200,4 @@ def _length(edge: EdgeDocument, positions: Mapping[str, Point], step: Fraction) 
     if edge.tail == edge.head:
         faults.note("", f"leads from {edge.tail!r} to itself (take it out)")
     faults.stop()
-    return edge.length or straight_length(positions[edge.tail], positions[edge.head], step)
+    return edge.length or straight_length(square or Fraction(0), step)
