@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from fractions import Fraction
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,11 @@ from rightofway.errors import InputError
 from rightofway.model import Plan
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours
-from tests.builders.plans import crowd, door, hostile, loop
+from rightofway.viz.raster.canvas import Pen, Scene
+from rightofway.viz.raster.map import draw_robots, to_the_right
+from rightofway.viz.raster.names import Names
+from rightofway.viz.raster.sizes import sizes_of
+from tests.builders.plans import crowd, door, hostile, loop, yard
 
 BLUE, CORAL = robot_colours(2)
 MARGIN = 24
@@ -26,6 +31,36 @@ def colour_at(path: Path, x: float, y: float, scale: int = 40) -> str:
         )
     assert isinstance(pixel, tuple)
     return "#" + bytes(int(channel) for channel in pixel).hex()
+
+
+@pytest.mark.parametrize("plan", [door(), loop(), yard(), crowd(50)])
+@pytest.mark.parametrize("scale", [9, 45, 110])
+def test_no_name_covers_another_or_leaves_the_picture(plan: Plan, scale: float) -> None:
+    scene = Scene(plan, LIGHT)
+    size = round(scene.plane.width * scale), round(scene.plane.height * scale)
+    pen = Pen(Image.new("RGB", size), origin=(scale / 2, scale / 2), scale=scale, fineness=1)
+    bounds = (-scale / 2, -scale / 2, size[0] - scale / 2, size[1] - scale / 2)
+    sizes = sizes_of(scene, scale)
+    names = Names(scene, sizes, scale, bounds)
+    for tick in (0, 3.5, 9):
+        found = draw_robots(pen, scene, sizes, names, tick)
+        assert found or scale < 10
+        for (_, one), (_, other) in combinations(found, 2):
+            across = min(one[2], other[2]) - max(one[0], other[0])
+            down = min(one[3], other[3]) - max(one[1], other[1])
+            assert across <= 0 or down <= 0
+        for name, (left, top, right, bottom) in found:
+            if name not in {robot.name for robot in plan.scenario.robots}:
+                assert left >= bounds[0]
+                assert top >= bounds[1]
+                assert right <= bounds[2]
+                assert bottom <= bounds[3]
+
+
+def test_routes_on_one_way_lie_side_by_side() -> None:
+    """East, south and west: the line beside it keeps to the right, and turns round at the end."""
+    way: list[tuple[float, float]] = [(0, 0), (2, 0), (2, 2), (2, 0)]
+    assert to_the_right(way, 0.5) == [(0, 0.5), (1.5, 0.5), (1.5, 2), (2.5, 2), (2.5, 0)]
 
 
 def test_walls_floor_and_paper_are_where_the_grid_has_them(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
+import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from rightofway.model import Plan
@@ -16,6 +17,9 @@ Point = tuple[float, float]
 
 SMALL_CELL = 13
 """Below this size of a cell [pixels] robots fill more of it, and homes and stops are faint."""
+
+HALO = 1.75
+"""Width of what sets a name apart from what is behind it [pixels]."""
 
 CORNER = 0.16
 """Radius of a square's round corners, as a share of its side."""
@@ -32,6 +36,8 @@ class Scene:
         self.end = max(end_of(self.trips), 1)
         self.plane = plane_of(self.roadmap)
         self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
+        tails = np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
+        self.edges = list(zip(tails.tolist(), self.roadmap.heads.tolist(), strict=True))
         self.ground = theme.paper if self.roadmap.grid is None else theme.floor
 
     def faint(self, colour: str, share: float) -> str:
@@ -91,10 +97,19 @@ class Pen:
         """Fill a polygon."""
         self.draw.polygon([self._at(point) for point in points], colour)
 
-    def text(self, at: Point, text: str, colour: str, *, size: float, anchor: str) -> None:
-        """Write; ``size`` in pixels of the picture, ``anchor`` as in Pillow."""
+    def text(
+        self, at: Point, text: str, colour: str, *, size: float, anchor: str, halo: str = ""
+    ) -> None:
+        """Write; ``size`` in pixels of the picture, ``anchor`` as in Pillow.
+
+        A halo is the colour that sets the letters apart from what is behind them.
+        """
         text = text.encode("utf-8", "replace").decode()  # a lone surrogate cannot be drawn
-        self.draw.text(self._at(at), text, colour, _font(round(size * self.fineness)), anchor)
+        font = _font(round(size * self.fineness))
+        width = round(HALO * self.fineness) if halo else 0
+        self.draw.text(
+            self._at(at), text, colour, font, anchor, stroke_width=width, stroke_fill=halo or None
+        )
 
     def text_width(self, text: str, size: float) -> float:
         """Return how wide a text is [units]."""

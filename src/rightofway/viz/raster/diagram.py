@@ -6,12 +6,13 @@ row each, thin while they drive, a gap while they wait, full while they work; ma
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.model.quantities import Quantities
 from rightofway.viz.motion import Activity, Trip
 from rightofway.viz.palette import mix
 from rightofway.viz.placement import edge_length, vertices_in_line
@@ -24,8 +25,18 @@ ROW_HEIGHT, CENSUS_HEIGHT, AXIS_HEIGHT = 24.0, 260.0, 26.0
 GUTTER, PAD = 92.0, 24.0
 """Left of the time axis, and right of it [pixels]."""
 
-LABEL_GAP = 56.0
+LEAST_ROW = 16.0
+"""Between the names of two rows, at least [pixels]."""
+
+LABEL_GAP = 72.0
 """Between two labelled moments, at least [pixels]."""
+
+MINUTES = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1440)
+ROUND_SECONDS = (*map(Fraction, (10, 20, 30)), *(Fraction(60 * minutes) for minutes in MINUTES))
+"""Times between labels, where the scenario says what its times are [s]."""
+
+MOST_STRETCHED = 1.6
+"""A way that rows have at more than so many times its length is faint: its slope is no speed."""
 
 MOST_CHARACTERS = 12
 
@@ -49,7 +60,8 @@ class Diagram:
         self.scene = scene
         self.left, self.right = GUTTER, width - PAD
         routes = [trip.vertices for trip in scene.trips]
-        self.line = list(vertices_in_line(routes, edge_length(scene.roadmap)))
+        self.distance = edge_length(scene.roadmap)
+        self.line = vertices_in_line(routes, self.distance)
         rows = len(self.line) or len(scene.trips)
         self.is_census = rows > MOST_ROWS
         self.bottom = CENSUS_HEIGHT if self.is_census else rows * ROW_HEIGHT
@@ -78,30 +90,32 @@ class Diagram:
 
     def _draw_axis(self, pen: Pen) -> None:
         """Draw moments along the bottom, with hairlines up through the diagram."""
-        clock, theme, end = self.scene.plan.scenario.problem.clock, self.scene.theme, self.scene.end
-        least = LABEL_GAP / (self.right - self.left) * end
-        power = 10 ** max(math.floor(math.log10(least)), 0) if least > 1 else 1
-        step = next(power * digit for digit in (1, 2, 5, 10) if power * digit >= least)
+        theme, end = self.scene.theme, self.scene.end
+        quantities = self.scene.plan.scenario.quantities
+        write = quantities.duration if quantities.units.time else quantities.cell
+        step = _label_step(quantities, LABEL_GAP / (self.right - self.left) * end)
         for tick in range(0, end + 1, step):
-            x, time = self._x(tick), clock.time(tick)
+            x = self._x(tick)
             pen.line([(x, 0), (x, self.bottom)], theme.line, 1)
-            label = str(time) if time.denominator == 1 else f"{float(time):.6g}"
-            pen.text((x, self.bottom + 7), label, theme.muted, size=12, anchor="ma")
+            pen.text((x, self.bottom + 7), write(tick), theme.muted, size=12, anchor="ma")
         pen.line([(self.left, self.bottom), (self.right, self.bottom)], theme.wall, 1)
 
-    def _name_rows(self, pen: Pen, names: Sequence[str]) -> None:
-        """Name the rows from the bottom."""
-        for row, name in enumerate(names):
-            y = self._y(row)
+    def _name_rows(self, pen: Pen, rows: Iterable[tuple[str, float]]) -> None:
+        """Name rows, each with its height in the picture."""
+        for name, y in rows:
             short = name if len(name) <= MOST_CHARACTERS else f"{name[: MOST_CHARACTERS - 1]}…"
             pen.line([(self.left, y), (self.right, y)], self.scene.theme.line, 1)
             pen.text((self.left - 10, y), short, self.scene.theme.muted, size=12, anchor="rm")
 
     def _draw_places(self, pen: Pen) -> None:
         """Draw vertices as rows, bookings as fields and robots as lines."""
-        scene, half = self.scene, ROW_HEIGHT * 0.4
-        rows = {vertex: self._y(row) for row, vertex in enumerate(self.line)}
-        self._name_rows(pen, [scene.roadmap.name(vertex) for vertex in self.line])
+        scene, half = self.scene, LEAST_ROW * 0.4
+        heights = _row_heights(list(self.line.values()), self.bottom - ROW_HEIGHT)
+        rows = {
+            vertex: self.bottom - ROW_HEIGHT / 2 - height
+            for vertex, height in zip(self.line, heights, strict=True)
+        }
+        self._name_rows(pen, ((scene.roadmap.name(vertex), y) for vertex, y in rows.items()))
         headway, ahead = scene.plan.scenario.problem.headway, scene.plan.scenario.rules.books_ahead
         for trip, colour in zip(scene.trips, scene.colours, strict=True):
             tint = mix(scene.theme.paper, colour, 0.22)
@@ -116,14 +130,22 @@ class Diagram:
                 head = trip.vertices[visit + (activity is Activity.DRIVE)]
                 stroke = (self._x(begin), rows[trip.vertices[visit]]), (self._x(until), rows[head])
                 width = BUSY_WIDTH if activity in BUSY else LINE_WIDTH
-                pen.line(stroke, faint if activity is Activity.WAIT else colour, width)
+                is_faint = activity is Activity.WAIT or not self._is_true(
+                    trip.vertices[visit], head
+                )
+                pen.line(stroke, faint if is_faint else colour, 1 if is_faint else width)
             y = rows[trip.vertices[-1]]
             pen.line([(self._x(until), y), (self._x(scene.end), y)], faint, LINE_WIDTH)
+
+    def _is_true(self, tail: int, head: int) -> bool:
+        """Return whether the line has two vertices about as far apart as they are."""
+        apart = abs(self.line[head] - self.line[tail])
+        return tail == head or apart < MOST_STRETCHED * self.distance(tail, head)
 
     def _draw_robots(self, pen: Pen) -> None:
         """Draw a row for each robot, the first one at the top."""
         names = [robot.name for robot in self.scene.plan.scenario.robots]
-        self._name_rows(pen, names[::-1])
+        self._name_rows(pen, ((name, self._y(row)) for row, name in enumerate(names[::-1])))
         for robot, trip in enumerate(self.scene.trips):
             y = self._y(len(names) - 1 - robot)
             for _, begin, end, activity in trip.all_phases():
@@ -148,6 +170,35 @@ class Diagram:
             y = self.bottom - 10 - place * 20
             pen.box((20, y - 5), (30, y + 5), colour)
             pen.text((37, y), activity.value, theme.muted, size=12, anchor="lm")
+
+
+def _row_heights(places: Sequence[float], room: float) -> list[float]:
+    """Return how high rows are: as far apart as their places, but not nearer than names need."""
+    steps = np.diff(places)
+    least = min(LEAST_ROW, room / max(len(steps), 1))
+    low, high = 0.0, room / (places[-1] - places[0] or 1)
+    for _ in range(40):
+        scale = (low + high) / 2
+        if np.maximum(steps * scale, least).sum() > room:
+            high = scale
+        else:
+            low = scale
+    return [0.0, *np.cumsum(np.maximum(steps * low, least)).tolist()]
+
+
+def _label_step(quantities: Quantities, least: float) -> int:
+    """Return the ticks between two labels: a round time, if that is a whole number of ticks."""
+    below = [Fraction(digit, 10**power) for power in (3, 2, 1, 0) for digit in (1, 2, 5)]
+    decimal = [
+        *below,
+        *(Fraction(digit * 10**power) for power in range(1, 15) for digit in (1, 2, 5)),
+    ]
+    times = [time / quantities.tick for time in decimal]
+    if quantities.units.seconds is not None:
+        unit = quantities.units.seconds * quantities.tick
+        times = [time / unit for time in (*below, *ROUND_SECONDS)]
+    fitting = [step for step in (*times, *decimal) if step >= max(least, 1)]
+    return int(next(step for step in fitting if step.denominator == 1))
 
 
 def _counts(trips: Sequence[Trip], end: int, samples: int) -> NDArray[np.int64]:

@@ -2,44 +2,42 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from itertools import pairwise
 from re import finditer
-
-import numpy as np
+from typing import NamedTuple
 
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
-from rightofway.viz.palette import ink_on
-from rightofway.viz.raster.canvas import Pen, Scene
+from rightofway.viz.raster.canvas import Pen, Point, Scene
+from rightofway.viz.raster.names import Label, Names
+from rightofway.viz.raster.sizes import Sizes
 
 MOST_LANES = 5
-LANES_WIDTH = 0.4
-"""Of all lanes side by side [cells]."""
+"""Of routes side by side."""
 
-NAMED_CELL = 46
-"""From this size of a cell on [pixels] vertices have their names."""
+ARROW_GAP = 56
+"""Between two arrow heads of a lane, about [pixels]."""
 
-RADIUS, SMALL_RADIUS = 0.33, 0.46
-"""Of a robot, and of one where cells are small [cells]."""
-
-LEAST_TYPE = 7
-"""Smaller letters [pixels] cannot be read."""
+TURNS_BACK = -0.5
+"""Cosine of a turn below which a line beside a route has two corners."""
 
 WHOLE = (0, 1)
 """A circle [turns]."""
 
 
-def draw_ground(pen: Pen, scene: Scene, *, routes: bool) -> None:
+def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
     if scene.roadmap.grid is not None:
         _grid(pen, scene, scene.roadmap.grid)
     else:
-        _network(pen, scene)
+        _network(pen, scene, sizes)
     for robot in range(len(scene.trips)) if routes else ():
-        _route(pen, scene, robot)
+        _route(pen, scene, sizes, robot)
     for robot in range(len(scene.trips)):
-        _home_and_stops(pen, scene, robot)
-    if pen.scale >= NAMED_CELL:
-        _vertex_names(pen, scene)
+        _home(pen, scene, sizes, robot)
+    _stops(pen, scene, sizes)
 
 
 def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
@@ -58,68 +56,129 @@ def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
     pen.line(border, theme.wall, hair)
 
 
-def _network(pen: Pen, scene: Scene) -> None:
-    roadmap = scene.roadmap
-    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
-    for tail, head in zip(tails, roadmap.heads.tolist(), strict=True):
-        pen.line([scene.points[tail], scene.points[head]], scene.theme.wall, 0.07)
+def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+    """Draw lanes: broad where both ways are driven, narrower with arrow heads for one way."""
+    theme, edges = scene.theme, set(scene.edges)
+    for tail, head in scene.edges:
+        is_one_way = (head, tail) not in edges
+        width = sizes.lane * (0.7 if is_one_way else 1) * pen.hairline
+        pen.line([scene.points[tail], scene.points[head]], theme.wall, width)
+        for end in (tail, head):
+            pen.disc(scene.points[end], width / 2, theme.wall)
+    for tail, head in scene.edges:
+        if (head, tail) not in edges:
+            _arrows(pen, scene, sizes, scene.points[tail], scene.points[head])
     for point in scene.points:
-        pen.disc(point, 0.13, scene.theme.wall)
+        pen.disc(point, sizes.vertex * pen.hairline, theme.muted)
+        pen.disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
 
 
-def _route(pen: Pen, scene: Scene, robot: int) -> None:
-    """Draw a route a little to one side, so that routes along one way show side by side."""
-    vertices, colour = scene.trips[robot].vertices, scene.colours[robot]
-    lanes = min(len(scene.trips), MOST_LANES)
-    aside = ((robot % lanes) - (lanes - 1) / 2) * LANES_WIDTH / lanes
-    points = [(x + aside, y + aside) for x, y in map(scene.points.__getitem__, vertices)]
+def _arrows(pen: Pen, scene: Scene, sizes: Sizes, tail: Point, head: Point) -> None:
+    (x, y), right, down = tail, head[0] - tail[0], head[1] - tail[1]
+    size = min(max(sizes.lane * 0.32, 3), 5)
+    length = math.hypot(right, down) * pen.scale
+    if length < 2 * sizes.vertex + 3 * size:
+        return
+    along_x, along_y = right / length * size, down / length * size  # one arrow head [units]
+    count = max(int(length / ARROW_GAP), 1)
+    for step in range(count):
+        share = (step + 0.5) / count
+        tip_x, tip_y = x + right * share + along_x / 2, y + down * share + along_y / 2
+        back_x, back_y = tip_x - along_x, tip_y - along_y
+        wings = [(back_x - along_y, back_y + along_x), (back_x + along_y, back_y - along_x)]
+        chevron = [wings[0], (tip_x, tip_y), wings[1]]
+        pen.line(chevron, scene.theme.muted, 1.5 * pen.hairline)
+
+
+def _route(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
+    """Draw a route a little to its right, so that routes along one way show side by side."""
+    aside = (robot % MOST_LANES + 0.5) * sizes.apart * pen.hairline
+    points = to_the_right([scene.points[vertex] for vertex in scene.trips[robot].vertices], aside)
     if len(points) > 1:
-        strength = max(0.4 - len(scene.trips) / 400, 0.12)  # many routes are a backdrop
-        pen.line(points, scene.faint(colour, strength), max(0.05, pen.hairline))
+        strength = max(0.55 - len(scene.trips) / 300, 0.12)  # many routes are a backdrop
+        pen.line(points, scene.faint(scene.colours[robot], strength), sizes.route * pen.hairline)
 
 
-def _home_and_stops(pen: Pen, scene: Scene, robot: int) -> None:
-    """Draw a frame for the home, and a tinted field with a diamond for each stop."""
-    trip, colour = scene.trips[robot], scene.colours[robot]
-    home = trip.vertices[0]
-    for vertex in sorted({stage.vertex for stage in trip.stages} - {home}):
-        x, y = scene.points[vertex]
-        pen.square((x, y), 0.84, scene.faint(colour, 0.08 if pen.is_small else 0.16))
-        if not pen.is_small:
-            pen.polygon([(x, y - 0.17), (x + 0.17, y), (x, y + 0.17), (x - 0.17, y)], colour)
-    edge = scene.faint(colour, 0.45) if pen.is_small else colour
-    pen.square(scene.points[home], 0.79, None, edge, max(0.03, pen.hairline))
+def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
+    """Return a line that runs to the right of another one; it has two points where that turns."""
+    ways = [(tail, head) for tail, head in pairwise(points) if tail != head]
+    sides = []
+    for (x, y), (to_x, to_y) in ways:
+        length = math.hypot(to_x - x, to_y - y)
+        sides.append((-(to_y - y) / length * aside, (to_x - x) / length * aside))
+    found: list[Point] = []
+    befores, afters = [*sides[:1], *sides], [*sides, *sides[-1:]]
+    corners = [way[0] for way in ways] + [way[1] for way in ways[-1:]]
+    for (x, y), before, after in zip(corners, befores, afters, strict=True):
+        along = (before[0] * after[0] + before[1] * after[1]) / aside**2
+        if along < TURNS_BACK:
+            found += [(x + before[0], y + before[1]), (x + after[0], y + after[1])]
+        else:
+            share = 1 / (1 + along)
+            found.append((x + (before[0] + after[0]) * share, y + (before[1] + after[1]) * share))
+    return found
 
 
-def _vertex_names(pen: Pen, scene: Scene) -> None:
-    size = min(max(pen.scale * 0.14, 9.5), 13)
-    right, down, anchor = (0.0, -0.5, "mb") if scene.roadmap.grid is None else (-0.34, -0.35, "la")
-    for vertex, (x, y) in enumerate(scene.points):
-        name = scene.roadmap.name(vertex)
-        if pen.text_width(name, size) < 1:
-            pen.text((x + right, y + down), name, scene.theme.muted, size=size, anchor=anchor)
+def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
+    """Draw a tinted frame."""
+    colour, home = scene.colours[robot], scene.points[scene.trips[robot].vertices[0]]
+    width = min(max(sizes.home * 0.1, 1.5), 3) * pen.hairline
+    side = 2 * sizes.home * pen.hairline
+    pen.square(home, side, scene.faint(colour, 0.12), colour, width)
 
 
-def draw_robots(pen: Pen, scene: Scene, tick: float) -> None:
-    """Draw every robot where it is at an instant [ticks].
+def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+    """Draw a diamond for each stop; those of several robots stand side by side."""
+    robots_at: dict[int, list[int]] = {}
+    for robot, trip in enumerate(scene.trips):
+        for vertex in sorted({stage.vertex for stage in trip.stages} - {trip.vertices[0]}):
+            robots_at.setdefault(vertex, []).append(robot)
+    for place, robots in robots_at.items():
+        x, y = scene.points[place]
+        size = sizes.stop * pen.hairline / math.sqrt(min(len(robots), 3))
+        for rank, robot in enumerate(robots):
+            middle = x + (rank - (len(robots) - 1) / 2) * 2.1 * size
+            for reach, colour in (
+                (size + 1.75 * pen.hairline, scene.ground),
+                (size, scene.colours[robot]),
+            ):
+                corners = [(0, -reach), (reach, 0), (0, reach), (-reach, 0)]
+                pen.polygon([(middle + right, y + down) for right, down in corners], colour)
+
+
+def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: Names, tick: float) -> list[Label]:
+    """Draw every robot where it is at an instant [ticks]; return the names that have room.
 
     A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done.
     """
-    for robot, trip in enumerate(scene.trips):
-        _robot(pen, scene, robot, trip.at(tick))
+    moments = [trip.at(tick) for trip in scene.trips]
+    middles = [_middle(scene, moment) for moment in moments]
+    for robot, (moment, middle) in enumerate(zip(moments, middles, strict=True)):
+        _robot(pen, scene, moment, Disc(middle, sizes.robot * pen.hairline, scene.colours[robot]))
+    return names.draw(pen, moments, middles)
 
 
-def _robot(pen: Pen, scene: Scene, robot: int, moment: Moment) -> None:
-    (tail_x, tail_y), (head_x, head_y) = scene.points[moment.tail], scene.points[moment.head]
-    middle = tail_x + (head_x - tail_x) * moment.share, tail_y + (head_y - tail_y) * moment.share
-    colour, activity = scene.colours[robot], moment.activity
-    radius = SMALL_RADIUS if pen.is_small else RADIUS
+def _middle(scene: Scene, moment: Moment) -> Point:
+    (x, y), (to_x, to_y) = scene.points[moment.tail], scene.points[moment.head]
+    return x + (to_x - x) * moment.share, y + (to_y - y) * moment.share
+
+
+class Disc(NamedTuple):
+    """Where a robot is drawn, how large [units] and in which colour."""
+
+    middle: Point
+    radius: float
+    colour: str
+
+
+def _robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
+    (middle, radius, colour), activity = disc, moment.activity
     dial, dial_width = radius * 1.38, max(radius * 0.17, pen.hairline)
+    pen.disc(middle, radius + 1.25 * pen.hairline, scene.ground)
     if activity is Activity.WAIT:
-        pen.disc(middle, radius, scene.ground)
         pen.ring(middle, radius, WHOLE, colour, max(radius * 0.26, pen.hairline))
     else:
-        pen.disc(middle, radius, scene.faint(colour, 0.38 if activity is Activity.DONE else 1))
+        pen.disc(middle, radius, scene.faint(colour, 0.45 if activity is Activity.DONE else 1))
     if activity is Activity.WORK:
         pen.ring(middle, dial, WHOLE, scene.faint(colour, 0.25), dial_width)
         pen.ring(middle, dial, (0, moment.share), colour, dial_width)
@@ -127,9 +186,3 @@ def _robot(pen: Pen, scene: Scene, robot: int, moment: Moment) -> None:
         for side in (0, 0.5):
             begin = side + moment.share / 2
             pen.ring(middle, dial, (begin, begin + 0.14), colour, dial_width)
-    is_hollow = activity in (Activity.WAIT, Activity.DONE)
-    name, pixels = scene.plan.scenario.robots[robot].name, radius * pen.scale
-    size = min(pixels * 0.8, pixels * 2.6 / max(len(name), 2))
-    if size >= LEAST_TYPE:
-        ink = scene.theme.ink if is_hollow else ink_on(colour)
-        pen.text(middle, name, ink, size=size, anchor="mm")

@@ -14,9 +14,11 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
 from rightofway.viz.palette import LIGHT, Theme
-from rightofway.viz.raster.canvas import Pen, Scene
+from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram
 from rightofway.viz.raster.map import draw_ground, draw_robots
+from rightofway.viz.raster.names import Box, Names
+from rightofway.viz.raster.sizes import sizes_of
 
 MARGIN = 24
 MOST_PIXELS = 60_000_000
@@ -73,8 +75,10 @@ def write_png(
     image = _blank(scene, (width, map_height + (round(below.height) if below else 0)), fineness)
     left = (width - map_width) / 2 + MARGIN + scale / 2
     pen = Pen(image, origin=(left, MARGIN + scale / 2), scale=scale, fineness=fineness)
-    draw_ground(pen, scene, routes=True)
-    draw_robots(pen, scene, tick or 0)
+    sizes = sizes_of(scene, scale)
+    draw_ground(pen, scene, sizes, routes=True)
+    bounds = _bounds(pen.origin, (width, map_height))
+    draw_robots(pen, scene, sizes, Names(scene, sizes, scale, bounds), tick or 0)
     if below:
         below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
     content = io.BytesIO()
@@ -160,12 +164,15 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
     origin = (MARGIN + scale / 2, MARGIN + scale / 2)
     ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
-    draw_ground(pen, scene, routes=False)
+    sizes = sizes_of(scene, scale)
+    bounds = _bounds(origin, _map_size(scene, scale))
+    names = Names(scene, sizes, scale, bounds)
+    draw_ground(pen, scene, sizes, routes=False)
 
     def picture(tick: float) -> Image.Image:
         image = ground.copy()
         pen = Pen(image, origin=origin, scale=scale, fineness=FILM_FINENESS)
-        draw_robots(pen, scene, tick)
+        draw_robots(pen, scene, sizes, names, tick)
         return image.reduce(FILM_FINENESS)
 
     palette = picture(ticks[len(ticks) // 2]).quantize(255, Image.Quantize.MEDIANCUT)
@@ -182,6 +189,12 @@ def _map_size(scene: Scene, scale: float) -> tuple[int, int]:
     """Return the size of the map with its margins [pixels]."""
     plane = scene.plane
     return round(plane.width * scale) + 2 * MARGIN, round(plane.height * scale) + 2 * MARGIN
+
+
+def _bounds(origin: Point, size: tuple[float, float]) -> Box:
+    """Return where names may stand: a picture less a hairline, seen from ``origin`` [pixels]."""
+    (x, y), (width, height) = origin, size
+    return 2 - x, 2 - y, width - x - 2, height - y - 2
 
 
 def _blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:

@@ -1,7 +1,7 @@
 "use strict";
 
 const AXIS_HEIGHT = 20;
-const LABEL_GAP = 62; // pixels between two labelled moments, at least
+const LABEL_GAP = 72; // pixels between two labelled moments, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
 class Area {
@@ -27,14 +27,20 @@ class Area {
   }
 }
 
-/** Ticks between two labels: a round number of time units where these are whole ticks. */
+/** Times between labels, from ten seconds on. */
+const ROUND_SECONDS = [10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 18000, 36000, 86400];
+
+/** Ticks between two labels: a round time where that is a whole number of ticks. */
 function labelStep(area, plan) {
   const least = (LABEL_GAP / (area.right - area.left)) * area.end;
   const perUnit = plan.tick.denominator / plan.tick.numerator;
   const round = [];
   for (let power = -3; power < 15; power++) for (const digit of [1, 2, 5]) round.push(digit * 10 ** power);
   const whole = (ticks) => Math.abs(ticks - Math.round(ticks)) < 1e-6 && ticks >= least;
-  return Math.max(round.map((units) => units * perUnit).find(whole) ?? round.find(whole), 1);
+  const { seconds } = plan.quantities;
+  const inUnit = seconds ? Number(seconds[0]) / Number(seconds[1]) : 1;
+  const times = seconds ? [...round.filter((time) => time < 10), ...ROUND_SECONDS].map((time) => time / inUnit) : round;
+  return Math.max(times.map((units) => units * perUnit).find(whole) ?? round.find(whole), 1);
 }
 
 /** Moments along the bottom, with hairlines up through the diagram. */

@@ -18,6 +18,11 @@ class SpaceAxis {
     });
   }
 
+  /** Width of a robot's line [pixels]. */
+  get line() {
+    return Math.min(...this.rows.map(({ half }) => half)) > 4 ? 2.25 : 1.75;
+  }
+
   /** The rows of a vertex: none, one, or several. */
   spots(vertex) {
     return this.byVertex.get(vertex) ?? [];

@@ -186,7 +186,7 @@ class SpaceTime {
       this.#trouble(context, activity, begin, end, from);
       return;
     }
-    const thin = Math.min(Math.max(from.half * 0.25, 1.5), 2.5);
+    const thin = this.axis.line;
     const heavy = activity === WORK || activity === TURN;
     context.lineWidth = heavy ? thin * 2.2 : thin;
     context.lineCap = heavy ? "butt" : "round";

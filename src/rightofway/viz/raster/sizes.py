@@ -1,0 +1,68 @@
+"""How large robots, marks and lanes are in a picture; the twin of the page's ``map_sizes.js``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rightofway.viz.raster.canvas import Scene
+
+READABLE_RADIUS = 10.0
+"""A robot need not be larger to be seen from afar [pixels]."""
+
+SMALLEST_CAP = {"many": 4.5, "few": 7.0}
+"""Robots may be as large where cells are smaller [pixels]."""
+
+LARGEST_RADIUS = {"grid": 44.0, "network": 20.0}
+"""Of a robot [pixels]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sizes:
+    """Sizes in a picture [pixels].
+
+    Attributes
+    ----------
+    robot
+        Radius of a robot.
+    home, stop
+        Half the side of a home's frame and of a stop's diamond.
+    lane
+        Width of a lane that is driven both ways.
+    vertex
+        Radius of a vertex of a roadmap.
+    route, apart
+        Width of a route, and how far two routes on one way are apart.
+    """
+
+    robot: float
+    home: float
+    stop: float
+    lane: float
+    vertex: float
+    route: float
+    apart: float
+
+
+def sizes_of(scene: Scene, scale: float) -> Sizes:
+    """Return the sizes at a scale [pixels for a unit]; they grow with the cells of a fine scale.
+
+    Where cells are small, what moves stays large enough to be seen, as far as there is room.
+    """
+    plane, is_grid = scene.plane, scene.roadmap.grid is not None
+    spacing = math.sqrt(plane.width * plane.height / len(scene.trips)) * scale
+    cap = max(SMALLEST_CAP["many"], min(SMALLEST_CAP["few"], spacing * 0.1), scale * 0.95)
+    least = min(spacing * 0.16, READABLE_RADIUS, cap)
+    largest = LARGEST_RADIUS["grid" if is_grid else "network"]
+    robot = min(max(scale * 0.31, least, 1.8), largest)
+    lane = min(max(scale * 0.42, 7), max(scale * 1.1, 1.5), 18)
+    route = min(max(scale * 0.04, 1.5), 4)
+    return Sizes(
+        robot=robot,
+        home=max(scale * 0.37 if is_grid else 0, robot + 1.5),
+        stop=max(min(robot * 0.75, 17), 3),
+        lane=lane,
+        vertex=min(lane * 0.45, 5.5),
+        route=route,
+        apart=route + 1,
+    )
