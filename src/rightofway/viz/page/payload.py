@@ -323,6 +323,7 @@ def _faults(plan: Plan, report: Report) -> dict[str, Any]:
     known = range(plan.scenario.roadmap.n_vertices)
     return {
         "count": report.total,
+        "kinds": dict(report.counts),
         "listed": [
             {
                 "kind": fault.kind,

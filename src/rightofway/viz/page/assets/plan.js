@@ -213,6 +213,7 @@ class Plan {
     this.title = raw.title;
     this.faults = raw.faults.listed;
     this.faultCount = raw.faults.count;
+    this.faultKinds = raw.faults.kinds; // how many of each kind
     this.noPlan = raw.noPlan ?? false; // all robots stay at home, and the faults say why
     this.planner = raw.planner;
     this.decisions = raw.decisions;

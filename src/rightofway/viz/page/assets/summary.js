@@ -43,8 +43,9 @@ class Summary {
 
   /** Terms, values and explanations. */
   get figures() {
-    const { noPlan, happened, steady } = this.plan;
+    const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
+    if (faultCount) return Object.entries(this.plan.faultKinds).map(([kind, count]) => [kind, String(count), ""]);
     const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
     return figures.filter(([, value]) => value);
   }
@@ -53,9 +54,8 @@ class Summary {
     const { robots, metrics } = this.plan;
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
-    const ahead = this.plan.faultCount ? "If all went as planned, all" : "All";
     return [
-      [`${ahead} ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
+      [`All ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
       ["Latest", this.#robot(latest), "The robot that is there last"],
       ["Time lost", this.#timeLost(robots), "How much later the robots arrive, all together, than if each drove alone"],
       ["Loses most", loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "", "The robot that loses most time to others"],
