@@ -17,8 +17,8 @@ from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     complain,
-    file_title,
     count_option,
+    file_title,
     foreign_options,
     measures,
     progress,
@@ -256,9 +256,7 @@ def _run(
 
 
 @contextmanager
-def no_plan_shown(
-    problem: Any, page: str | None, title: str, *, as_json: bool
-) -> Iterator[None]:
+def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) -> Iterator[None]:
     """Write why there is no plan as JSON and as a page of the blocked map, where asked for."""
     try:
         yield
