@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -35,6 +36,7 @@ __all__ = [
     "crowd",
     "delayed",
     "door",
+    "door_shifted",
     "hostile",
     "loop",
     "yard",
@@ -71,6 +73,14 @@ def door() -> Plan:
         ),
         run=PlannerRun(name="two-level", status="waits only", decisions=(decision,)),
     )
+
+
+def door_shifted(ticks: int) -> Plan:
+    """Return the door with all of R1 but its start so many ticks later; -1 makes it collide."""
+    plan = door()
+    first, *others = plan.tracks
+    enter = [int(tick) + ticks * (visit > 0) for visit, tick in enumerate(first.enter)]
+    return replace(plan, tracks=(Track.of(first.vertices.tolist(), enter), *others))
 
 
 def loop(*, occupancy: str = "one", names: tuple[str, ...] = ("a", "b", "c", "d")) -> Plan:

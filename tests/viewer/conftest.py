@@ -101,10 +101,21 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         actual: ExecutionTrace | None = None,
         no_plan: NoPlanExists | None = None,
         background: Background | None = None,
+        title: str = "",
+        other: tuple[Plan, str] | None = None,
         **context: Any,
     ) -> Viewer:
         path = directory / "plan.html"
-        write_page(plan, path, steady=steady, actual=actual, no_plan=no_plan, background=background)
+        write_page(
+            plan,
+            path,
+            steady=steady,
+            actual=actual,
+            no_plan=no_plan,
+            background=background,
+            title=title,
+            other=other,
+        )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Viewer(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from rightofway.model import Units
 from tests.builders.plans import crowd, door, loop
 from tests.viewer.conftest import Opener
 
@@ -169,3 +170,58 @@ def test_the_page_is_usable_on_a_telephone(show: Opener) -> None:
     assert viewer.ask("choice.robot.name") == "Robot 3"
     height = viewer.ask("document.querySelector('#play').getBoundingClientRect().height")
     assert height >= 36
+
+
+def test_enter_chooses_the_first_robot_found_and_arrows_move_on(show: Opener) -> None:
+    viewer = show(crowd(120))
+    viewer.page.click("#tab-robots")
+    viewer.page.fill("#find-robot", "12")
+    viewer.page.keyboard.press("Enter")
+    assert viewer.ask("choice.robot.name") == "Robot 12"
+    viewer.page.keyboard.press("ArrowDown")
+    assert viewer.ask("choice.robot.name") == "Robot 112"
+    viewer.page.keyboard.press("ArrowUp")
+    assert viewer.ask("choice.robot.name") == "Robot 12"
+    viewer.page.keyboard.press("Escape")
+    assert viewer.ask("robotList.list.items.length") == 120
+
+
+def test_a_tie_is_called_a_tie_and_nothing_is_lost_by_nothing(show: Opener) -> None:
+    plan = door()
+    free = replace(plan.run.decisions[0], ticks=0, completion_sums=(18, 19))
+    viewer = show(replace(plan, run=replace(plan.run, decisions=(*plan.run.decisions, free))))
+    viewer.page.click("#tab-decisions")
+    first, second = viewer.page.locator("#decision-list .row:visible").all_inner_texts()
+    assert "a tie: either choice costs the same" in first
+    assert "no time lost · both done sooner in all" in second
+
+
+def test_the_head_says_in_plain_words_what_the_plan_does(show: Opener) -> None:
+    viewer = show(door(), title="door.yaml")
+    assert viewer.text("#headline").split("\n") == ["door.yaml", "2 robots"]
+    assert viewer.text("#figures").split("\n") == [
+        "All home at", "10", "Latest", "R1", "Time lost", "1 (waiting)", "Loses most", "R1, 1",
+    ]  # fmt: skip
+    assert viewer.page.title() == "door.yaml: 2 robots"
+    viewer.page.click("#figures >> text=R1")
+    assert viewer.ask("choice.robot.name") == "R1"
+
+
+def test_how_the_plan_was_made_is_in_the_details(show: Opener) -> None:
+    viewer = show(door())
+    viewer.page.click("#about-open")
+    details = viewer.text("#about").split("\n")
+    assert details[details.index("Flowtime") + 1] == "19"
+    assert details[details.index("Lower bound") + 1] == "18"
+    viewer.page.keyboard.press("Escape")
+    assert not viewer.page.locator("#about").is_visible()
+
+
+def test_times_are_written_in_the_units_of_the_scenario(show: Opener) -> None:
+    plan = door()
+    scenario = replace(plan.scenario, units=Units(length="m", time="min"))
+    viewer = show(replace(plan, scenario=scenario), "#tick=0.5&robot=R1")
+    assert viewer.text("#readout") == "30 s of 10 min"
+    card = viewer.text("#card")
+    assert "waits 1 min in N0 for R2 to leave N1" in card
+    assert "1 m/min" in card

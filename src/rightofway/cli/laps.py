@@ -12,6 +12,7 @@ from rightofway.cli.outputs import page_option, plan_output_option, refuse_outpu
 from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
+    file_title,
     progress,
     put_json,
     put_report,
@@ -121,7 +122,7 @@ def laps(
         from rightofway.viz import write_page
 
         plan, steady = excerpt(run)
-        write_page(plan, page, steady=steady)
+        write_page(plan, page, steady=steady, title=file_title(scenario))
         say(f"wrote {page}")
     if output:
         plan, steady = plan_of(run), excerpt(run)[1]

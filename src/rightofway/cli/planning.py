@@ -18,6 +18,7 @@ from rightofway.cli.terminal import (
     as_json_option,
     complain,
     count_option,
+    file_title,
     foreign_options,
     measures,
     progress,
@@ -220,7 +221,8 @@ def _run(
     left = time_limit  # for planning [s]
     if time_limit is not None:
         left = max(time_limit - (time.monotonic() - began), time_limit / 2)
-    with no_plan_shown(problem, page, as_json=as_json), progress(time_limit, began) as report:
+    blocked = no_plan_shown(problem, page, file_title(source), as_json=as_json)
+    with blocked, progress(time_limit, began) as report:
         found = search(
             problem,
             planner,
@@ -235,7 +237,7 @@ def _run(
     if page:
         from rightofway.viz import write_page
 
-        write_page(found, page)
+        write_page(found, page, title=file_title(source))
         say(f"wrote {page} (open it in a browser)")
     if output != "-":
         quantities = quantities_of(found.scenario, in_ticks=in_ticks)
@@ -254,7 +256,7 @@ def _run(
 
 
 @contextmanager
-def no_plan_shown(problem: Any, page: str | None, *, as_json: bool) -> Iterator[None]:
+def no_plan_shown(problem: Any, page: str | None, title: str, *, as_json: bool) -> Iterator[None]:
     """Write why there is no plan as JSON and as a page of the blocked map, where asked for."""
     try:
         yield
@@ -265,7 +267,7 @@ def no_plan_shown(problem: Any, page: str | None, *, as_json: bool) -> Iterator[
             from rightofway.planners.impossible import fleet_at_home
             from rightofway.viz import write_page
 
-            write_page(fleet_at_home(problem), page, no_plan=error)
+            write_page(fleet_at_home(problem), page, no_plan=error, title=title)
             say(f"wrote {page} (it shows where robots are blocked)")
         raise
 

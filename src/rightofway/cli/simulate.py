@@ -15,6 +15,7 @@ from rightofway.cli.terminal import (
     ListingCommand,
     as_json_option,
     counted,
+    file_title,
     foreign_options,
     further,
     json_text,
@@ -135,7 +136,8 @@ def simulate(
         from rightofway.viz import write_page
 
         played = outcome.typical() if run is None else run
-        write_page(outcome.plan, page, actual=outcome.trace(played))
+        trace = outcome.trace(played)
+        write_page(outcome.plan, page, actual=trace, title=file_title(plan))
         say(f"wrote {page}: run {played} of {outcome.runs}")
     return 1 if outcome.collisions or outcome.deadlocks else 0
 

@@ -334,6 +334,11 @@ def further(quantities: Quantities) -> Callable[[Value], str]:
     return quantities.cell if is_one_unit else quantities.duration
 
 
+def file_title(path: str) -> str:
+    """Return the name of a file as the title of its page; empty for standard input."""
+    return "" if path == "-" else Path(path).name
+
+
 def measures(scenario: Scenario) -> dict[str, Any]:
     """Return what the numbers of a report for programs are measured in."""
     tick = written(scenario.problem.clock.tick)

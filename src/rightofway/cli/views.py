@@ -12,6 +12,7 @@ from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import (
     as_json_option,
     count_option,
+    file_title,
     foreign_options,
     progress,
     put_json,
@@ -99,6 +100,8 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.command(epilog=SHOW_EXAMPLES, short_help="Show a plan as a page, a picture or a film.")
 @click.argument("plan", type=click.Path(), metavar="PLAN_OR_SCENARIO",
                 shell_complete=files(*SCENARIOS))  # fmt: skip
+@click.argument("other", type=click.Path(), metavar="[OTHER_PLAN]", required=False,
+                shell_complete=files(*PLANS))  # fmt: skip
 @count_option
 @foreign_options
 @click.option("-o", "--output", metavar="FILE", callback=writable(*PAGE_SUFFIXES, ".png", ".gif"),
@@ -119,6 +122,7 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 def show(
     *,
     plan: str,
+    other: str | None,
     count: int | None,
     output: str | None,
     page: str | None,
@@ -129,7 +133,8 @@ def show(
 ) -> None:
     """Show a plan as a page that plays it, a picture or a film.
 
-    A scenario is planned first, as by `rightofway plan`.
+    A scenario is planned first, as by `rightofway plan`. With OTHER_PLAN, another plan of the same
+    scenario, the page shows both side by side, and which robots gain or lose.
     """
     from rightofway.cli.plan_report import planning
     from rightofway.model import Scenario
@@ -140,25 +145,32 @@ def show(
     is_picture = Path(output or "").suffix.lower() == ".png"
     if not is_picture and (diagram or tick is not None):
         raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
+    if other and not all(path.lower().endswith(PAGE_SUFFIXES) for path in (page, output) if path):
+        raise click.UsageError("two plans are compared on a page (give --page FILE)")
     under = _background(background, background_scale, [page, output])
     found = read_either(plan, count)
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
             found = solve(found, time_limit=LIMIT, report=report)
         say(f"{plan}: {planning(found, found.scenario.quantities)}")
+    extras: dict[str, Any] = {
+        "title": file_title(plan),
+        "background": under,
+        "other": (read_plan(other), file_title(other)) if other else None,
+    }
     if page:
-        _write(found, page, under)
+        _write(found, page, extras)
     if output == "-":
         from rightofway.viz import page_of
 
-        click.echo(page_of(found, background=under), nl=False)
+        click.echo(page_of(found, **extras), nl=False)
     elif is_picture:
         from rightofway.viz import write_png
 
         write_png(found, output or "", tick, diagram=diagram)
         say(f"wrote {output}")
     elif output:
-        _write(found, output, under)
+        _write(found, output, extras)
 
 
 def _background(
@@ -175,7 +187,7 @@ def _background(
     return Background(picture=picture, scale=scale)
 
 
-def _write(found: Plan, path: str, background: Background | None) -> None:
+def _write(found: Plan, path: str, extras: dict[str, Any]) -> None:
     """Write a film or a page."""
     from rightofway.viz import write_gif, write_page
 
@@ -183,5 +195,5 @@ def _write(found: Plan, path: str, background: Background | None) -> None:
         film = write_gif(found, path)
         say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
     else:
-        write_page(found, path, background=background)
+        write_page(found, path, **extras)
     say(f"wrote {path}")

@@ -33,9 +33,9 @@ SCRIPTS = (
     "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
     "map_names", "map_tip", "scale_bar", "map_view",
     "axis", "steady_band", "space_axis", "space_time", "robot_rows", "census", "diagram",
-    "virtual_list", "find", "robot_list", "decision_list", "fault_list", "card", "summary",
-    "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper", "keys",
-    "main",
+    "virtual_list", "find", "robot_list", "decision_list", "fault_list", "comparison", "card",
+    "summary", "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper",
+    "keys", "main",
 )  # fmt: skip
 """In the order they run; each may use those before it at once, and all others later."""
 
@@ -51,6 +51,7 @@ def page_of(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
+    other: tuple[Plan, str] | None = None,
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
 
@@ -69,6 +70,8 @@ def page_of(
         What the page is about, usually the name of the file; its heading begins with it.
     background
         A picture under the map.
+    other
+        Another plan of the same scenario, and its title: the page shows both side by side.
 
     Returns
     -------
@@ -97,6 +100,7 @@ def page_of(
         no_plan=no_plan,
         title=title,
         background=background,
+        other=other,
     )
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
@@ -119,12 +123,13 @@ def write_page(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
+    other: tuple[Plan, str] | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title, background
+    plan, steady, actual, no_plan, title, background, other
         As for `page_of`.
     path
         Where, usually ``….html``.
@@ -141,6 +146,7 @@ def write_page(
         no_plan=no_plan,
         title=title,
         background=background,
+        other=other,
     )
     write_whole(path, page)
 

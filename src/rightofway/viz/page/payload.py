@@ -57,12 +57,13 @@ def payload_of(
     no_plan: NoPlanExists | None = None,
     title: str = "",
     background: Background | None = None,
+    other: tuple[Plan, str] | None = None,
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
 
     Parameters
     ----------
-    plan, steady, actual, no_plan, title, background
+    plan, steady, actual, no_plan, title, background, other
         As for `page_of`; times in the result are ticks.
 
     Raises
@@ -106,7 +107,25 @@ def payload_of(
     if no_plan is not None:
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan)
+    if other is not None:
+        _refuse_other_scenario(plan, other[0])
+        payload["other"] = {**payload_of(other[0], title=other[1]), "map": {}}
     return payload
+
+
+def _refuse_other_scenario(plan: Plan, other: Plan) -> None:
+    """Refuse a plan whose robots or places are others."""
+    ours, theirs = plan.scenario, other.scenario
+    reasons = {
+        "other robots": [robot.name for robot in ours.robots]
+        != [robot.name for robot in theirs.robots],
+        "another map": list(map(ours.roadmap.name, range(ours.roadmap.n_vertices)))
+        != list(map(theirs.roadmap.name, range(theirs.roadmap.n_vertices))),
+        "another tick": ours.problem.clock.tick != theirs.problem.clock.tick,
+    }
+    if found := [reason for reason, is_so in reasons.items() if is_so]:
+        what = f"the plan has {' and '.join(found)}"
+        raise InputError.at("other", f"{what} (give two plans of one scenario)")
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
@@ -323,6 +342,7 @@ def _faults(plan: Plan, report: Report) -> dict[str, Any]:
     known = range(plan.scenario.roadmap.n_vertices)
     return {
         "count": report.total,
+        "kinds": dict(report.counts),
         "listed": [
             {
                 "kind": fault.kind,

@@ -4,8 +4,8 @@ const MOST_LINES = 200; // of stages or losses in a card
 
 /** All about the robot or decision that is chosen. */
 class Card {
-  constructor(plan, clock, choice, words) {
-    Object.assign(this, { plan, clock, choice, words });
+  constructor(plan, clock, choice, words, comparison) {
+    Object.assign(this, { plan, clock, choice, words, comparison });
     this.box = document.getElementById("card");
     choice.on("choice", () => this.#show());
     choice.on("mode", () => this.#show());
@@ -35,6 +35,7 @@ class Card {
       ...(robot.planned || this.plan.steady ? [] : [this.#sum(robot)]),
       facts([
         ...this.#times(robot),
+        ...(this.comparison ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]] : []),
         ["Speed", this.plan.quantities.speed(robot.speed)],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],

@@ -16,18 +16,20 @@ const transport = new Transport(plan, clock, words);
 const loop = new Loop(plan, clock, choice);
 const modeSwitch = new ModeSwitch(plan, choice);
 const states = new States(motion, choice);
-const card = new Card(plan, clock, choice, words); // before the lists, whose height depends on it
+const comparison = plan.other && new Comparison(plan, plan.other, clock, choice, theme, mapView);
+const card = new Card(plan, clock, choice, words, comparison); // before the lists, whose height depends on it
 const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
 const faultList = new FaultList(plan, clock, choice, words);
-const tabs = new Tabs([plan.robots.length, decisionList.items.length, plan.faultCount || null], () => {
+const tabs = new Tabs([plan.robots.length, decisionList.items.length, plan.faultCount || null, plan.other && plan.robots.length], () => {
   robotList.refresh();
   decisionList.refresh();
   faultList.refresh();
+  comparison?.refresh();
 });
 const deepLink = new DeepLink(plan, clock, choice);
-const summary = new Summary(plan, choice, words);
-const share = new Share(plan, clock, mapView, diagram, theme, words, deepLink);
+const summary = new Summary(plan, choice, words, comparison);
+const share = new Share(plan, clock, [mapView, ...(comparison ? [comparison.view] : [])], diagram, theme, words, deepLink);
 const paper = new Paper(plan, clock, theme, words, () => frames.paint(performance.now()));
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
 for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
@@ -52,6 +54,7 @@ const frames = {
     this.last = clock.playing ? now : 0;
     this.moveRobots();
     mapView.paint();
+    comparison?.paint();
     diagram.paint();
     transport.refresh();
     this.refreshWords();
@@ -104,6 +107,7 @@ new ResizeObserver(() => frames.ask()).observe(diagram.canvas);
 const linked = deepLink.read();
 mapView.viewport.fit();
 if (plan.faultCount) tabs.show(2);
+else if (comparison) tabs.show(3);
 if (plan.noPlan && !linked) choice.chooseFault(0);
 frames.ask();
 if (!linked && !plan.faultCount && !EMBEDDED && !matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();

@@ -6,7 +6,7 @@ const TIP_GAP = 16; // pixels from the pointer
 class MapTip {
   constructor(canvas, plan, motion, clock, choice, words, use) {
     Object.assign(this, { canvas, plan, motion, clock, choice, words, use });
-    this.box = document.getElementById("hover");
+    this.box = canvas.parentElement.querySelector(".hover");
   }
 
   /** The pointer is elsewhere. */

@@ -2,7 +2,7 @@
 
 /** The map: what does not move is painted once, robots at each frame. */
 class MapView {
-  constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck) {
+  constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck, hasTools = true) {
     Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.roadmap = plan.roadmap;
@@ -23,7 +23,7 @@ class MapView {
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());
-    this.#listenToTools();
+    if (hasTools) this.#listenToTools();
   }
 
   /** Paint a frame. */

@@ -213,7 +213,10 @@ class Plan {
     this.title = raw.title;
     this.faults = raw.faults.listed;
     this.faultCount = raw.faults.count;
+    this.faultKinds = raw.faults.kinds; // how many of each kind
     this.noPlan = raw.noPlan ?? false; // all robots stay at home, and the faults say why
+    this.other = raw.other ? new Plan({ ...raw.other, map: raw.map }) : null; // to compare with
+    this.end = Math.max(this.end, this.other?.end ?? 0);
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.reroutes = raw.reroutes;

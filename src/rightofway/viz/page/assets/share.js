@@ -4,8 +4,8 @@ const SAID_FOR = 2000; // how long a button says what it did [ms]
 
 /** Takes the moment elsewhere: as a link, as a picture. */
 class Share {
-  constructor(plan, clock, mapView, diagram, theme, words, deepLink) {
-    Object.assign(this, { plan, clock, mapView, diagram, theme, words, deepLink });
+  constructor(plan, clock, maps, diagram, theme, words, deepLink) {
+    Object.assign(this, { plan, clock, maps, diagram, theme, words, deepLink });
     const buttons = { "copy-link": () => this.copyLink(), "save-picture": () => this.savePicture(), print: () => window.print() };
     for (const [id, action] of Object.entries(buttons)) {
       this[id] = document.getElementById(id);
@@ -28,28 +28,35 @@ class Share {
   savePicture() {
     this.picture().toBlob((blob) => {
       const address = URL.createObjectURL(blob);
-      const stem = (this.plan.title || "plan").replace(/\.[^.]*$/, "");
+      const stem = this.#titles.map((title) => title.replace(/\.[^.]*$/, "")).join(" and ") || "plan";
       element("a", { href: address, download: `${stem} at ${this.words.time(this.clock.tick)}.png` }).click();
       setTimeout(() => URL.revokeObjectURL(address), SAID_FOR);
     });
   }
 
-  /** Heading, map and diagram of the moment on one canvas. */
+  get #titles() {
+    return [this.plan.title, this.plan.other?.title].filter(Boolean);
+  }
+
+  /** Heading, maps and diagram of the moment on one canvas. */
   picture() {
     const { theme, words, clock } = this;
-    const [map, diagram] = [this.mapView.canvas, this.diagram.canvas];
+    const { canvas: diagram } = this.diagram;
+    const maps = this.maps.map(({ canvas }) => canvas);
+    const [map] = maps;
     const ratio = map.width / map.clientWidth;
     const head = Math.round(48 * ratio);
-    const made = element("canvas", { width: map.width, height: head + map.height + diagram.height });
+    const width = maps.reduce((sum, canvas) => sum + canvas.width, 0);
+    const made = element("canvas", { width, height: head + map.height + diagram.height });
     const context = made.getContext("2d");
     context.fillStyle = theme.paper;
     context.fillRect(0, 0, made.width, made.height);
-    context.drawImage(map, 0, head);
-    context.drawImage(diagram, 0, head + map.height);
+    maps.forEach((canvas, place) => context.drawImage(canvas, place * map.width, head));
+    if (diagram.height) context.drawImage(diagram, 0, head + map.height);
     context.scale(ratio, ratio);
     context.fillStyle = theme.ink;
     context.font = theme.font(16, 600);
-    context.fillText([this.plan.title, words.moment(clock.tick)].filter(Boolean).join(": "), 28, 31);
+    context.fillText([this.#titles.join(" and "), words.moment(clock.tick)].filter(Boolean).join(": "), 28, 31);
     const x = this.diagram.area.x(clock.tick);
     if (diagram.height) context.fillRect(x - 0.75, 48 + map.clientHeight, 1.5, diagram.clientHeight - AXIS_HEIGHT);
     return made;

@@ -2,13 +2,15 @@
 
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
 class Summary {
-  constructor(plan, choice, words) {
-    Object.assign(this, { plan, choice, words });
+  constructor(plan, choice, words, comparison) {
+    Object.assign(this, { plan, choice, words, comparison });
     const robots = counted(plan.robots.length, "robot");
     const outcome = this.#outcome();
+    if (plan.other) document.title = `${plan.title} and ${plan.other.title}`;
     const rest = plan.title ? [robots, outcome] : [outcome];
     document.getElementById("headline").replaceChildren(
       element("b", { className: "name" }, plan.title || robots),
+      ...(plan.other ? [element("span", {}, "→"), element("b", { className: "name" }, plan.other.title)] : []),
       ...rest.filter(Boolean).map((part) => element("span", {}, part)));
     document.body.classList.toggle("faulty", plan.faultCount > 0);
     document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
@@ -43,8 +45,10 @@ class Summary {
 
   /** Terms, values and explanations. */
   get figures() {
-    const { noPlan, happened, steady } = this.plan;
+    const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
+    if (faultCount) return Object.entries(this.plan.faultKinds).map(([kind, count]) => [kind, String(count), ""]);
+    if (this.comparison) return this.#comparedFigures();
     const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
     return figures.filter(([, value]) => value);
   }
@@ -53,9 +57,8 @@ class Summary {
     const { robots, metrics } = this.plan;
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
-    const ahead = this.plan.faultCount ? "If all went as planned, all" : "All";
     return [
-      [`${ahead} ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
+      [`All ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
       ["Latest", this.#robot(latest), "The robot that is there last"],
       ["Time lost", this.#timeLost(robots), "How much later the robots arrive, all together, than if each drove alone"],
       ["Loses most", loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "", "The robot that loses most time to others"],
@@ -74,6 +77,20 @@ class Summary {
     if (!all) return "none";
     const told = parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0];
     return [this.words.time(all), element("small", {}, ` (${told})`)];
+  }
+
+  /** Both plans, and how many robots gain by the other one. */
+  #comparedFigures() {
+    const { plan, words, comparison } = this;
+    const both = (value) => `${words.time(value(plan))} → ${words.time(value(plan.other))}`;
+    const changes = plan.planned.map((robot) => comparison.change(robot));
+    const count = (holds) => String(changes.filter(holds).length);
+    return [
+      [`All ${this.#arrived} at`, both(({ metrics }) => metrics.makespan), "When the last robot is there, in both plans"],
+      ["Time lost", both(({ metrics }) => metrics.flowtime - metrics.lowerBound), "How much later the robots arrive, all together, than if each drove alone"],
+      ["Earlier", count((change) => change < 0), `Robots that arrive earlier in ${plan.other.title}`],
+      ["Later", count((change) => change > 0), `Robots that arrive later in ${plan.other.title}`],
+    ];
   }
 
   #steadyFigures() {

@@ -1,0 +1,98 @@
+"use strict";
+
+/**
+ * Another plan of the scenario beside the first one: a map of its own, the same clock and choice, and
+ * what each robot gains or loses.
+ */
+class Comparison {
+  constructor(plan, other, clock, choice, theme, mapView) {
+    Object.assign(this, { plan, other, clock, choice, words: new Words(other), motion: new Motion(other) });
+    this.otherChoice = new Choice(other);
+    this.#linkChoices();
+    const ghosts = new Motion({ robots: other.planned, roadmap: other.roadmap });
+    const lit = new Bottleneck(other, clock, this.otherChoice, theme, this.words);
+    const canvas = document.getElementById("other-map");
+    canvas.parentElement.hidden = false;
+    this.view = new MapView(
+      canvas, other, this.motion, ghosts, clock, this.otherChoice, theme, this.words, new Use(other), lit, false);
+    this.#linkViews(mapView);
+    document.body.classList.add("compared");
+    for (const [id, shown] of [["map-title", plan], ["other-title", other]]) this.#title(document.getElementById(id), shown);
+    this.find = document.getElementById("find-compared");
+    this.list = new VirtualList(document.getElementById("compared-list"), {
+      rowHeight: 34,
+      none: "No robot has that name.",
+      fill: (row, robot) => this.#fill(row, robot),
+      choose: (robot) => choice.chooseRobot(robot.index),
+    });
+    connectFind(this.find, this.list, () => this.#select());
+    choice.on("choice", () => this.list.setChosen(this.plan.planned[choice.robotIndex] ?? null));
+    theme.on("theme", () => (this.view.base.stale = true));
+    this.#select();
+  }
+
+  /** Paint a frame. */
+  paint() {
+    this.motion.moveTo(this.clock.tick);
+    this.view.paint();
+  }
+
+  refresh() {
+    this.list.refresh();
+  }
+
+  /** How much later a robot is there in the other plan [ticks]; below 0 if it is earlier. */
+  change(robot) {
+    return this.other.planned[robot.index].completion - robot.completion;
+  }
+
+  /** The same in words: "6 s earlier". */
+  changeInWords(robot) {
+    const change = this.change(robot);
+    return change ? `${this.words.time(Math.abs(change))} ${change < 0 ? "earlier" : "later"}` : "the same";
+  }
+
+  #linkChoices() {
+    const { choice, otherChoice } = this;
+    choice.on("choice", () => otherChoice.chooseRobot(choice.robotIndex));
+    otherChoice.on("choice", () => otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex));
+    choice.on("heat", () => otherChoice.toggleHeat());
+    for (const event of ["choice", "heat"]) otherChoice.on(event, () => (this.view.base.stale = true));
+  }
+
+  /** Both maps show the same part. */
+  #linkViews(mapView) {
+    const follow = (view, other) => view.viewport.on("view", () => {
+      const { left, top, scale, fitted } = view.viewport;
+      Object.assign(other.viewport, { left, top, scale, fitted });
+      view.base.stale = other.base.stale = true;
+      this.clock.tell("tick");
+    });
+    follow(mapView, this.view);
+    follow(this.view, mapView);
+  }
+
+  #title(heading, { title, metrics, endsAtHome, faultCount }) {
+    heading.hidden = false;
+    const outcome = faultCount
+      ? element("span", { className: "wrong" }, counted(faultCount, "fault"))
+      : element("span", {}, `all ${endsAtHome ? "home" : "done"} at ${this.words.time(metrics.makespan)}`);
+    heading.replaceChildren(element("b", { className: "name" }, title), outcome);
+  }
+
+  /** Those that gain most by the other plan first. */
+  #select() {
+    const found = this.plan.planned.filter((robot) => matches(robot.name, this.find.value));
+    this.list.setItems(found.sort((one, another) => this.change(one) - this.change(another)));
+  }
+
+  #fill(row, robot) {
+    if (row.filled === robot) return;
+    row.filled = robot;
+    const other = this.other.planned[robot.index];
+    row.replaceChildren(
+      swatch(robot), element("span", { className: "name" }, robot.name),
+      element("span", { className: "state" }, `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`),
+      element("span", { className: "late" }, this.changeInWords(robot)));
+  }
+}

@@ -1,0 +1,50 @@
+"""Two plans of one scenario side by side: one clock, one choice, two maps."""
+
+import pytest
+
+from tests.builders.plans import door, door_shifted
+from tests.viewer.conftest import Opener, Viewer
+
+
+@pytest.fixture
+def both(show: Opener) -> Viewer:
+    """In the other plan R1 waits a tick longer than it must."""
+    return show(door(), title="A.json", other=(door_shifted(1), "B.json"))
+
+
+def test_the_head_compares_both_plans(both: Viewer) -> None:
+    assert both.text("#headline").split() == ["A.json", "→", "B.json", "2", "robots"]
+    assert both.text("#figures").split("\n") == [
+        "All home at", "10 → 11", "Time lost", "1 → 2", "Earlier", "0", "Later", "1",
+    ]  # fmt: skip
+    assert both.page.title() == "A.json and B.json"
+
+
+def test_both_maps_show_the_same_moment(both: Viewer) -> None:
+    """At tick 3 R1 is in N4 in the first plan, in N1 in the other one; R2 is in N7 in both."""
+    both.page.fill("#slider", "3")
+    both.wait_for("comparison.motion.y[1] === 2")
+    assert both.ask("[motion.y[0], comparison.motion.y[0]]") == [1, 0]
+
+
+def test_the_list_says_which_robots_gain_or_lose(both: Viewer) -> None:
+    rows = both.page.locator("#compared-list .row:visible").all_inner_texts()
+    assert [row.split("\n") for row in rows] == [
+        ["R2", "9 → 9", "the same"],
+        ["R1", "10 → 11", "1 later"],
+    ]
+
+
+def test_one_choice_holds_for_both(both: Viewer) -> None:
+    both.page.click("#compared-list .row:has-text('R1')")
+    assert both.ask("comparison.otherChoice.robot.name") == "R1"
+    assert "In B.json\n1 later" in both.text("#card")
+    both.ask("comparison.otherChoice.chooseRobot(1)")
+    assert both.ask("choice.robot.name") == "R2"
+
+
+def test_both_maps_show_the_same_part(both: Viewer) -> None:
+    both.page.click("#zoom-in")
+    scales = both.ask("[mapView.viewport.scale, comparison.view.viewport.scale]")
+    assert scales[0] == scales[1]
+    assert both.complaints == []

@@ -1,0 +1,48 @@
+"""The page of a plan that breaks rules says so, and leads to each fault."""
+
+import pytest
+
+from tests.builders.plans import door, door_shifted
+from tests.viewer.conftest import Opener, Viewer
+
+
+@pytest.fixture
+def faulty(show: Opener) -> Viewer:
+    """R1 does not wait for R2: both drive through N1, N4 and N7 at once, both ways."""
+    return show(door_shifted(-1), title="bad.json")
+
+
+def test_the_head_counts_faults_and_praises_nothing(faulty: Viewer) -> None:
+    head = faulty.text("header.summary")
+    assert "faults: do not run this plan" in head
+    assert "vertex conflict" in head
+    assert "All home at" not in head
+    assert faulty.page.locator("body.faulty").count() == 1
+    assert faulty.ask("clock.playing") is False
+
+
+def test_faults_are_listed_first_and_lead_to_their_moment_and_place(faulty: Viewer) -> None:
+    row = faulty.page.locator("#fault-list .row").first
+    assert row.inner_text() == "R1 and R2 are both in N1\nat time 1 · vertex conflict"
+    row.click()
+    assert faulty.ask("clock.tick") == 1
+    assert faulty.ask("choice.decision.vertices") == [1]
+    card = faulty.text("#card")
+    assert "R1 and R2 are both in N1" in card
+    assert "A place holds one robot" in card
+    faulty.wait_for("location.hash.includes('fault=1')")
+
+
+def test_faulty_robots_are_marked_on_the_map(faulty: Viewer) -> None:
+    assert faulty.ask("choice.faulty") == [0, 1]
+
+
+def test_the_address_leads_to_a_fault(show: Opener) -> None:
+    viewer = show(door_shifted(-1), "#fault=2")
+    assert viewer.ask("choice.faultIndex") == 1
+
+
+def test_a_plan_that_keeps_the_rules_has_no_list_of_faults(show: Opener) -> None:
+    viewer = show(door())
+    assert not viewer.page.locator("#tab-faults").is_visible()
+    assert viewer.ask("choice.faulty") == []
