@@ -25,6 +25,7 @@ SLOW = (
     "laws/test_precedence_graph.py",
     "laws/test_monitor.py",
     "viewer/",  # a browser
+    "viz/test_spreadsheet.py",  # LibreOffice
 )
 """Files and folders of the slow lane: what takes more than about four seconds."""
 

@@ -127,7 +127,7 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
     side = Side(style="thin", color="BFBFBF")
     border, centre = Border(side, side, side, side), Alignment("center", "center")
-    wall, faint = PatternFill("solid", fgColor=WALL), Font(color="A6A6A6")
+    wall, faint = PatternFill("solid", fgColor=WALL), Font(name="Calibri", size=11, color="A6A6A6")
     for row, line in enumerate(lines, 1):
         for column, character in enumerate(line, 1):
             cell = sheet.cell(row, column, character)
@@ -190,7 +190,10 @@ def _write_table(sheet: Any, keys: Sequence[str], rows: Sequence[Sequence[Any]])
 
     sheet.append(list(keys))
     for cell in sheet[1]:
-        cell.font, cell.fill = Font(bold=True), PatternFill("solid", fgColor=HEAD)
+        cell.font, cell.fill = (
+            Font(name="Calibri", size=11, bold=True),
+            PatternFill("solid", fgColor=HEAD),
+        )
         sheet.column_dimensions[cell.column_letter].width = 14
         sheet.column_dimensions[cell.column_letter].number_format = "@"
     sheet.freeze_panes = "A2"
