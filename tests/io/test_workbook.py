@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
@@ -16,7 +17,9 @@ from openpyxl.styles import PatternFill  # type: ignore[import-untyped]
 import rightofway
 from rightofway.errors import InputError
 from rightofway.io import load_with_notes, write_scenario
-from rightofway.io.workbook import write_template
+from rightofway.io.workbook import workbook_of, write_template
+from rightofway.io.workbook.writer import TEMPLATE
+from rightofway.model import Rules
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -88,6 +91,24 @@ def test_several_stops_are_columns(tmp_path: Path) -> None:
         "name", "home", "stop 1", "work 1", "stop 2", "work 2",
     ]  # fmt: skip
     assert rightofway.load(tmp_path / "stops.xlsx") == fleet.scenario()
+
+
+def test_later_keys_of_robots_and_rules_are_kept(tmp_path: Path) -> None:
+    fleet = rightofway.FleetBuilder(grid=["...", "..."], occupancy="both")
+    fleet = fleet.add_robot("A", home="N0", target="N5")
+    (robot,) = fleet.scenario().robots
+    scenario = replace(
+        fleet.scenario(),
+        robots=(replace(robot, radius=Fraction(1, 4)),),
+        rules=Rules(occupancy="both", clearance=Fraction(1, 10)),
+    )
+    write_scenario(scenario, tmp_path / "sizes.xlsx")
+    assert rightofway.load(tmp_path / "sizes.xlsx") == scenario
+
+
+def test_a_document_with_parts_that_no_sheet_holds_is_refused() -> None:
+    with pytest.raises(InputError, match=r"a workbook has no place for closures \(write .yaml"):
+        workbook_of({**TEMPLATE, "closures": []})
 
 
 def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:

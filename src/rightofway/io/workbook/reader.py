@@ -26,9 +26,6 @@ YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}
 """Rows of the rules sheet that are units, and their keys there."""
 
-MAP_KEYS = ("cell_size", "y", "origin", "spacing")
-"""Rows of the rules sheet that are a part of the map."""
-
 
 def load_workbook_scenario(path: Path | str) -> Loaded:
     """Return the scenario of a workbook with the notes of its reader.
@@ -159,10 +156,11 @@ def _add_rules(
     sheet: Sheet, document: dict[str, Any], cells: dict[str, str], faults: Faults
 ) -> None:
     """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
-    from rightofway.io.scenario.shape import RulesDocument
+    from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
     rules = [field.alias or name for name, field in RulesDocument.model_fields.items()]
-    known = [*rules, *MAP_KEYS, *UNIT_KEYS]
+    of_map = [name for name in MapDocument.model_fields if name not in MAPS]
+    known = [*rules, *of_map, *UNIT_KEYS]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
     for row, values in sheet.rows():
@@ -179,7 +177,7 @@ def _add_rules(
             faults.note(sheet.cell(row, 1), f"the rule {key} is given twice (take one out)")
             continue
         seen.add(key)
-        part = "units" if key in UNIT_KEYS else "map" if key in MAP_KEYS else "rules"
+        part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
         cells[f"{part}.{UNIT_KEYS.get(key, key)}"] = sheet.cell(row, 2)
         read = (
             faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
