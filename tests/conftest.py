@@ -24,7 +24,9 @@ SLOW = (
     "laws/test_laps.py",
     "laws/test_precedence_graph.py",
     "laws/test_monitor.py",
+    "laws/test_workbook_fuzz.py",
     "viewer/",  # a browser
+    "viz/test_spreadsheet.py",  # LibreOffice
 )
 """Files and folders of the slow lane: what takes more than about four seconds."""
 

@@ -37,7 +37,10 @@ def test_the_window_is_given_in_time_or_in_ticks(cli: Cli) -> None:
         (["--from", "4", "--to", "3"], "--to: 3 is before --from, 4 (give 4 or more)"),
         (["--to", "3 s"], "'3 s' is not a number (write it like 3, 0.5 or 1/3)"),
         (["--from", "-1"], "-1 is negative (give 0 or more)"),
-        (["--events", "--decision", "1"], "--events and --decision are two tables: choose one"),
+        (
+            ["--events", "--decision", "1"],
+            "--all, --events and --decision are different: choose one",
+        ),
         (["-o", "t.parquet"], "a Parquet file is for --events"),
         (["-o", "t.pdf"], "'t.pdf' does not end in .txt, .csv, .xlsx or .parquet"),
         (["-o", "-", "--json"], "--json and -o - both go to standard output"),

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, place_of
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.robot_table import Located, heading_key, robots_of_rows, value_of
+from rightofway.io.robot_table import NOTES, Located, heading_key, robots_of_rows, value_of
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
 
 if TYPE_CHECKING:
@@ -25,9 +25,6 @@ YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 
 UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}
 """Rows of the rules sheet that are units, and their keys there."""
-
-MAP_KEYS = ("cell_size", "y", "origin", "spacing")
-"""Rows of the rules sheet that are a part of the map."""
 
 
 def load_workbook_scenario(path: Path | str) -> Loaded:
@@ -159,10 +156,11 @@ def _add_rules(
     sheet: Sheet, document: dict[str, Any], cells: dict[str, str], faults: Faults
 ) -> None:
     """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
-    from rightofway.io.scenario.shape import RulesDocument
+    from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
     rules = [field.alias or name for name, field in RulesDocument.model_fields.items()]
-    known = [*rules, *MAP_KEYS, *UNIT_KEYS]
+    of_map = [name for name in MapDocument.model_fields if name not in MAPS]
+    known = [*rules, *of_map, *UNIT_KEYS]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
     for row, values in sheet.rows():
@@ -179,7 +177,7 @@ def _add_rules(
             faults.note(sheet.cell(row, 1), f"the rule {key} is given twice (take one out)")
             continue
         seen.add(key)
-        part = "units" if key in UNIT_KEYS else "map" if key in MAP_KEYS else "rules"
+        part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
         cells[f"{part}.{UNIT_KEYS.get(key, key)}"] = sheet.cell(row, 2)
         read = (
             faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
@@ -202,11 +200,12 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
     from rightofway.io.scenario.shape import EdgeDocument
 
     faults, positions, first_row = Faults(), dict[str, Any](), dict[str, int]()
-    for row, found in faults.attempt("", _table, vertices, ("name", "x", "y")) or ():
+    for row, found, _ in faults.attempt("", _table, vertices, ("name", "x", "y")) or ():
         name = str(found.get("name", ""))
-        for key in ("name", "x", "y"):
-            if key not in found:
-                faults.note(vertices.cell(row, 1), f"has no {key} (give name, x and y)")
+        missing = [key for key in ("name", "x", "y") if key not in found]
+        if missing:
+            message = f"has no {' and no '.join(missing)} (give name, x and y)"
+            faults.note(vertices.cell(row, 1), message)
         if name in first_row:
             at = vertices.cell(first_row[name], 1)
             faults.note(vertices.cell(row, 1), f"{shown(name)} is in {at} already (take one out)")
@@ -215,8 +214,10 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
         cells[place_of(("map", "roadmap", "vertices", name))] = vertices.cell(row, 1)
     known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
     ways = list[dict[str, Any]]()
-    for row, found in faults.attempt("", _table, edges, known) or ():
-        cells[f"map.roadmap.edges[{len(ways)}]"] = edges.cell(row, 1)
+    for row, found, columns in faults.attempt("", _table, edges, known) or ():
+        place = f"map.roadmap.edges[{len(ways)}]"
+        cells[place] = edges.cell(row, 1)
+        cells |= {f"{place}.{key}": edges.cell(row, column) for key, column in columns.items()}
         way = {key: str(found[key]) if key in {"from", "to"} else found[key] for key in found}
         both = way.get("both_ways")
         if isinstance(both, str):
@@ -228,21 +229,23 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
     return {"vertices": positions, "edges": ways}
 
 
-def _table(sheet: Sheet, known: Any) -> list[tuple[int, dict[str, Any]]]:
-    """Return the rows of a sheet by the keys of its headings."""
+def _table(
+    sheet: Sheet, known: Collection[str]
+) -> list[tuple[int, dict[str, Any], dict[str, int]]]:
+    """Return the rows of a sheet: number, values by heading, and the column of each heading."""
     faults, rows = Faults(), sheet.rows()
     first, headings = next(rows, (1, {}))
-    columns = {column: heading_key(heading) for column, heading in headings.items()}
-    for column, key in columns.items():
-        if key not in known and key not in {"note", "notes", "hint"}:
+    columns: dict[str, int] = {}
+    for column, heading in headings.items():
+        key = heading_key(heading)
+        if key in known:
+            columns[key] = column
+        elif key not in NOTES:
             near = nearest(key, known)
             hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
-            faults.note(sheet.cell(first, column), f"{shown(headings[column])} is unknown ({hint})")
+            faults.note(sheet.cell(first, column), f"{shown(heading)} is unknown ({hint})")
     faults.stop()
     return [
-        (
-            row,
-            {columns[each]: value for each, value in values.items() if columns.get(each) in known},
-        )
+        (row, {key: values[at] for key, at in columns.items() if at in values}, columns)
         for row, values in rows
     ]

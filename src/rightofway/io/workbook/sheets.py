@@ -175,7 +175,7 @@ def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
     near = [(each, nearest(each.strip().lower(), wanted)) for each in names]
     meant = next((f"did you mean {near!r} by {each!r}?" for each, near in near if near), "")
     remedy = meant or "rightofway new FILE.xlsx writes a workbook to begin with"
-    listed = ", ".join(map(repr, names[:5]))
+    listed = ", ".join(map(repr, names[:5])) or "none"
     return InputError.at("", f"no sheet is called map or robots; there is {listed} ({remedy})")
 
 

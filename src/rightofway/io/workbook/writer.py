@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 
@@ -92,9 +94,15 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     ----------
     document
         A document with its map inlined.
+
+    Raises
+    ------
+    InputError
+        If a part of it has no place in the sheets.
     """
     import openpyxl  # type: ignore[import-untyped]
 
+    _refuse_more(document)
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)
     where = document["map"]
@@ -103,7 +111,8 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     else:
         _write_roadmap(workbook, where["roadmap"])
     _write_robots(workbook.create_sheet("robots"), document["robots"])
-    given = {**document.get("rules", {}), **{key: where[key] for key in where if key != "grid"}}
+    of_map = {key: where[key] for key in where if key not in {"grid", "roadmap"}}
+    given = {**document.get("rules", {}), **of_map}
     given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
     _write_rules(workbook.create_sheet("rules"), given)
     sheet = workbook.create_sheet("how to")
@@ -113,6 +122,15 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     content = io.BytesIO()
     workbook.save(content)
     return content.getvalue()
+
+
+def _refuse_more(document: dict[str, Any]) -> None:
+    """Refuse a document with parts that would be lost."""
+    more = document.keys() - {"format", "map", "robots", "rules", "units"}
+    more |= document["map"].get("roadmap", {}).keys() - {"vertices", "edges"}
+    if more:
+        message = f"a workbook has no place for {' and '.join(sorted(more))} (write .yaml or .json)"
+        raise InputError.at("", message)
 
 
 def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
@@ -127,7 +145,7 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
     side = Side(style="thin", color="BFBFBF")
     border, centre = Border(side, side, side, side), Alignment("center", "center")
-    wall, faint = PatternFill("solid", fgColor=WALL), Font(color="A6A6A6")
+    wall, faint = PatternFill("solid", fgColor=WALL), Font(name="Calibri", size=11, color="A6A6A6")
     for row, line in enumerate(lines, 1):
         for column, character in enumerate(line, 1):
             cell = sheet.cell(row, column, character)
@@ -142,6 +160,8 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
 
 def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
+    from rightofway.io.scenario.shape import RobotDocument
+
     most = max((len(robot.get("stops", ())) for robot in robots), default=0)
     stops = [f"{what} {number}" for number in range(1, most + 1) for what in ("stop", "work")]
     hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
@@ -156,15 +176,21 @@ def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
             cells[f"stop {number}"], cells[f"work {number}"] = stop["at"], stop.get("work")
         rows.append([cells.get(key) for key in keys])
     _write_table(sheet, keys, rows)
+    hints |= {"stop": ("a place to work at, in order", "")}
     for column, key in enumerate(keys, 1):
-        text, choices = hints.get(key.rstrip(" 0123456789"), ("a place to work at, in order", ""))
+        kind = key.rstrip(" 0123456789")
+        text, choices = hints[kind] if kind in hints else (_described(RobotDocument, key), "")
         letter = sheet.cell(1, column).column_letter
         _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, choices)
 
 
 def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
+    from rightofway.io.scenario.shape import RulesDocument
+
     _write_table(sheet, ["rule", "value", "what it is"], [])
-    for row, (key, text, choices) in enumerate(RULE_HINTS, 2):
+    more = [key for key in given if key not in {hint[0] for hint in RULE_HINTS}]
+    hints = (*RULE_HINTS, *((key, _described(RulesDocument, key), "") for key in more))
+    for row, (key, text, choices) in enumerate(hints, 2):
         sheet.cell(row, 1, key)
         sheet.cell(row, 2, _cell(given.get(key))).number_format = "@"
         sheet.cell(row, 3, f"{text} ({choices.replace(',', ', ')})" if choices else text)
@@ -177,7 +203,7 @@ def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
     vertices, edges = workbook.create_sheet("vertices"), workbook.create_sheet("edges")
     rows = [[name, *position] for name, position in roadmap["vertices"].items()]
     _write_table(vertices, ["name", "x", "y"], rows)
-    keys = ["from", "to", "length", "both_ways"]
+    keys = list(dict.fromkeys(["from", "to", "length", "both_ways", *chain(*roadmap["edges"])]))
     ways = [[_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
     _write_table(edges, keys, ways)
     hint = "true: it can be driven back"
@@ -190,7 +216,10 @@ def _write_table(sheet: Any, keys: Sequence[str], rows: Sequence[Sequence[Any]])
 
     sheet.append(list(keys))
     for cell in sheet[1]:
-        cell.font, cell.fill = Font(bold=True), PatternFill("solid", fgColor=HEAD)
+        cell.font, cell.fill = (
+            Font(name="Calibri", size=11, bold=True),
+            PatternFill("solid", fgColor=HEAD),
+        )
         sheet.column_dimensions[cell.column_letter].width = 14
         sheet.column_dimensions[cell.column_letter].number_format = "@"
     sheet.freeze_panes = "A2"
@@ -217,6 +246,12 @@ def _add_hint(
     rule.promptTitle, rule.prompt, rule.showInputMessage = title, text, True
     sheet.add_data_validation(rule)
     rule.add(cells)
+
+
+def _described(model: Any, key: str) -> str:
+    """Return what a document says of a key."""
+    fields = {field.alias or name: field for name, field in model.model_fields.items()}
+    return fields[key].description or "" if key in fields else ""
 
 
 def _cell(value: Any) -> Any:

@@ -14,6 +14,7 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 from openpyxl.chart import Reference, ScatterChart, Series  # type: ignore[import-untyped]
 from openpyxl.chart.label import DataLabelList  # type: ignore[import-untyped]
 from openpyxl.chart.legend import LegendEntry  # type: ignore[import-untyped]
+from openpyxl.worksheet.properties import PageSetupProperties  # type: ignore[import-untyped]
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
@@ -72,13 +73,13 @@ def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
 def result_of(plan: Plan) -> bytes:
     """Return the workbook of `write_result`."""
     workbook = openpyxl.Workbook(write_only=True)
-    summary = workbook.create_sheet("summary")
+    summary = _sheet(workbook, "summary")
     left_out: list[tuple[str, str]] = []
     try:
         table = table_of(plan)
         table.refuse_more_than(MAX_TICKS_OF_SHEET)
-        write_table(workbook.create_sheet("time and space"), table)
-        write_legend(workbook.create_sheet("legend"), table)
+        write_table(_sheet(workbook, "time and space"), table)
+        write_legend(_sheet(workbook, "legend"), table)
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
     _write_diagram(workbook, plan)
@@ -91,13 +92,22 @@ def result_of(plan: Plan) -> bytes:
         decision_list(plan),
     ):
         try:
-            write_list(workbook.create_sheet(listing.title), listing)
+            write_list(_sheet(workbook, listing.title), listing)
         except InputError as error:
             left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
     _write_summary(summary, plan, left_out)
     content = io.BytesIO()
     workbook.save(content)
     return content.getvalue()
+
+
+def _sheet(workbook: Any, title: str) -> Any:
+    """Add a sheet that is printed on paper as wide as the sheet."""
+    sheet = workbook.create_sheet(title)
+    sheet.page_setup.orientation = "landscape"
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    return sheet
 
 
 def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> None:
@@ -125,7 +135,8 @@ def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
         metrics = measure(plan)
     except NoPlanExists:
         return
-    yield "at least", f"{quantities.duration(metrics.lower_bound)} ({metrics.gap:.1%} below)"
+    bound = quantities.duration(metrics.lower_bound)
+    yield "no plan takes less than", f"{bound}; this one takes {metrics.gap:.1%} more"
     yield "waiting in all", quantities.duration(metrics.waiting)
 
 
@@ -153,7 +164,7 @@ def _robots(plan: Plan) -> Listing:
 
 def _write_diagram(workbook: Any, plan: Plan) -> None:
     """Write the points of each robot's line in a sheet, and a chart of them in another one."""
-    sheet, data = workbook.create_sheet("diagram"), workbook.create_sheet("diagram data")
+    sheet, data = _sheet(workbook, "diagram"), _sheet(workbook, "diagram data")
     trips, scenario = trips_of(plan)[:MOST_LINES], plan.scenario
     routes = [trip.vertices for trip in trips]
     line = list(vertices_in_line(routes, edge_length(scenario.roadmap)))
@@ -168,11 +179,12 @@ def _write_diagram(workbook: Any, plan: Plan) -> None:
     chart.x_axis.delete = False
     chart.x_axis.scaling.min = 0
     chart.x_axis.majorGridlines = None
+    chart.x_axis.crosses = "min"
     chart.y_axis.delete = bool(line)  # the names of the places stand there instead
     chart.y_axis.title = None if line else "place"
     chart.y_axis.majorGridlines.spPr = _stroke(GRID_GREY)
     if line:
-        chart.y_axis.scaling.min, chart.y_axis.scaling.max = -0.5, len(line) - 0.5
+        chart.y_axis.scaling.min, chart.y_axis.scaling.max = -1, len(line)
         chart.y_axis.majorUnit = 1
     elif cells is not None:
         chart.y_axis.number_format = '"N"0'

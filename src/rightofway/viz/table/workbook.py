@@ -23,7 +23,8 @@ FILLS: dict[Mark | None, Any] = {
     "wait": PatternFill("solid", fgColor="BDD7EE"),
     None: None,
 }
-BOLD, GREY = Font(bold=True), Font(color="7F7F7F")
+FACE = {"name": "Calibri", "size": 11}
+BOLD, GREY = Font(bold=True, **FACE), Font(color="7F7F7F", **FACE)
 FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None, "list 1": None, "list 2": None}
 
 LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
