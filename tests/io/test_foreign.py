@@ -136,6 +136,16 @@ def test_one_plan_is_read_from_every_format(hall: Path, text: str) -> None:
     assert plan.scenario.problem.clock.tick == 1
 
 
+def test_a_third_number_of_a_path_is_a_heading_or_a_step(hall: Path) -> None:
+    headings = PATHS.replace(")", ",2)")
+    assert names(read(hall, headings)) == AWAY
+    steps = """Agent 0: (0,0,0)->(0,1,2)->(1,1,3)->(2,1,4)->(2,0,5)
+    Agent 1: (0,2,0)->(0,1,1)->(1,1,2)->(2,1,3)->(2,2,4)"""
+    assert names(read(hall, steps)) == AWAY
+    with pytest.raises(InputError, match="plan:1: the steps of the cells do not grow from 0 on"):
+        read(hall, "Agent 0: (0,0,0)->(0,1,7)->(0,2,7)->")
+
+
 def test_turns_are_waits_and_errands_are_stops_in_order(hall: Path) -> None:
     plan = read(hall, TURNS)
     assert check(plan).ok
