@@ -22,6 +22,7 @@ def test_an_example_is_printed_as_it_is(cli: Cli, door: Path) -> None:
     for name in ("door", "door.yaml", "examples/door.yaml"):
         assert cli("examples", name).out == text
     assert cli("examples", "door", "-o", "-").out == text
+    assert cli("examples", "cross-2").out == cli("examples", "paper/cross-2").out
 
 
 def test_an_example_is_written_with_the_maps_that_it_names(cli: Cli) -> None:

@@ -21,16 +21,10 @@ def with_plan(cli: Cli, door: Path) -> None:
 @pytest.mark.parametrize(
     ("args", "message"),
     [
-        (
-            ["plan", "no.yaml", "-o", "a.html"],
-            "end in .json or .xlsx (for a page give --page a.html)",
-        ),
+        (["plan", "no.yaml", "-o", "a.html"], "end in .json or .xlsx (for a page give --page"),
         (["plan", "no.yaml", "-o", "a.gif"], "(for a film: rightofway show PLAN -o a.gif)"),
         (["plan", "no.yaml", "-o", "a.csv"], "(for a table: rightofway table PLAN -o a.csv)"),
-        (
-            ["improve", "no.json", "-o", "a.txt"],
-            "'a.txt' does not end in .json or .xlsx (give a name",
-        ),
+        (["improve", "no.json", "-o", "a.txt"], "'a.txt' does not end in .json or .xlsx (give a"),
         (["laps", "no.yaml", "-o", "a.html"], "(for a page give --page a.html)"),
         (["laps", "no.yaml", "--page", "a.json"], "'a.json' does not end in .html or .htm"),
         (["simulate", "no.json", "-o", "a.csv"], "'a.csv' does not end in .json"),

@@ -25,9 +25,9 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("suite", type=click.Path(), shell_complete=files(".toml"))
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
-              callback=writable(".csv", ".parquet"),
+              callback=writable(".csv", ".parquet", stdout=False),
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
-@click.option("--report", metavar="REPORT", callback=writable(".html", ".md"),
+@click.option("--report", metavar="REPORT", callback=writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), metavar="N",
               help="Number of cases that run at a time; by default one for each core.")  # fmt: skip

@@ -51,7 +51,7 @@ TEMPLATES: dict[str, Callable[[str], None]] = {
 
 
 @click.command(epilog=NEW_EXAMPLES, short_help="Write a scenario with comments, to be edited.")
-@click.argument("file", type=click.Path(), callback=writable(*TEMPLATES))
+@click.argument("file", type=click.Path(), callback=writable(*TEMPLATES, stdout=False))
 def new(file: str) -> None:
     """Write a small scenario to FILE, with a comment for each key, to be edited.
 
@@ -112,6 +112,9 @@ def example_names() -> list[str]:
 def _example(name: str) -> Path:
     stem = name.removesuffix(".yaml").removesuffix(".toml").removeprefix("examples/")
     known = example_names()
+    within = [each for each in known if each.endswith(f"/{stem}")]
+    if stem not in known and len(within) == 1:
+        stem = within[0]
     if stem not in known:
         meant = nearest(stem, known)
         remedy = f"did you mean {meant}?" if meant else f"give one of: {', '.join(known)}"

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, InputFault
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.marks import marked
 from rightofway.model import Plan
+
+_LINE = re.compile("line ([0-9]+)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,9 +98,16 @@ def read_foreign(
     try:
         return plan_of_trajectories(found.read(text), path, map_file, scen)
     except InputError as error:
-        if error.source or not found.is_document:
+        if error.source:
             raise
-        raise InputError(marked(error.faults, text)) from None
+        faults = marked(error.faults, text) if found.is_document else map(_lined, error.faults)
+        raise InputError(faults) from None
+
+
+def _lined(fault: InputFault) -> InputFault:
+    """Return a fault at ``line 3`` as a fault of that line."""
+    match = _LINE.fullmatch(fault.place)
+    return InputFault("", fault.message, int(match[1])) if match else fault
 
 
 def foreign_text(plan: Plan, name: str) -> str:

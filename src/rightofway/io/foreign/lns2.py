@@ -5,26 +5,30 @@
     Agent 0: (0,0)->(0,1)->(1,1)->
     Agent 1: (2,2)->(2,1)->
 
-A cell is (row, column). An agent stays at its last cell.
+A cell is (row, column). An agent stays at its last cell. A third number is a heading, 0 to 3, which
+is not read, or where any is larger the step at which the agent enters the cell.
 """
 
 from __future__ import annotations
 
 import re
+from itertools import groupby, pairwise
 
 from rightofway.errors import InputError, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
-    Cell,
     ForeignPlan,
     Trajectory,
+    Visit,
     cells_of_plan,
     visits_of,
 )
 from rightofway.model import Plan
 
 _AGENT = re.compile(r"Agent([0-9]{1,9}):(.*)")
-_CELL = re.compile(r"\(([0-9]{1,9}),([0-9]{1,9})\)(?:->)?")
+_CELL = re.compile(r"\(([0-9]{1,9}),([0-9]{1,9})(?:,([0-9]{1,9}))?\)(?:->)?")
+
+LARGEST_HEADING = 3
 
 
 def recognizes(text: str) -> bool:
@@ -40,7 +44,7 @@ def read(text: str) -> ForeignPlan:
     InputError
         For lines that are no path, and agents that are missing or given twice.
     """
-    paths: dict[int, tuple[int, list[Cell]]] = {}
+    paths: dict[int, tuple[int, list[Visit]]] = {}
     faults = Faults()
     for number, line in enumerate(text.split("\n"), start=1):
         bare = "".join(line.split())
@@ -54,25 +58,33 @@ def read(text: str) -> ForeignPlan:
         if agent in paths:
             message = f"agent {agent} has a path in line {paths[agent][0]} already (take one out)"
             faults.note(f"line {number}", message)
-        paths[agent] = number, faults.attempt(f"line {number}", _cells, match[2]) or []
+        paths[agent] = number, faults.attempt(f"line {number}", _visits, match[2]) or []
     missing = next((number for number in range(len(paths)) if number not in paths), None)
     if missing is not None:
         faults.note("", f"agent {missing} has no path (give one for each agent, from 0 on)")
     faults.stop()
     agents = [
-        Trajectory(name=f"A{agent}", visits=visits_of(iter(cells)), place=f"line {line}")
-        for agent, (line, cells) in sorted(paths.items())
+        Trajectory(name=f"A{agent}", visits=visits, place=f"line {line}")
+        for agent, (line, visits) in sorted(paths.items())
     ]
     return ForeignPlan(agents=agents)
 
 
-def _cells(text: str) -> list[Cell]:
+def _visits(text: str) -> list[Visit]:
     rest = _CELL.sub("", text)
     if rest:
         raise InputError.at("", f"{shown(rest)} is no cell (write (row,column)->(row,column)->…)")
     if not text:
         raise InputError.at("", "the path is empty (give at least the first cell)")
-    return [(int(row), int(column)) for row, column in _CELL.findall(text)]
+    found = _CELL.findall(text)
+    cells = [(int(row), int(column)) for row, column, _ in found]
+    steps = [int(third) for _, _, third in found if third]
+    if max(steps, default=0) <= LARGEST_HEADING:
+        return visits_of(iter(cells))
+    if len(steps) < len(cells) or steps[0] or not all(a < b for a, b in pairwise(steps)):
+        raise InputError.at("", "the steps of the cells do not grow from 0 on (give all or none)")
+    entered = zip(cells, steps, strict=True)
+    return [next(run) for _, run in groupby(entered, lambda visit: visit[0])]
 
 
 def write(plan: Plan) -> str:

@@ -42,6 +42,9 @@ HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 MOVES = {"U": (1, 0), "D": (-1, 0), "L": (0, -1), "R": (0, 1)}
 """Change of row and column of the action model MAPF, as PlanViz draws them today."""
 
+WAITS = ("W", "T")
+"""Actions of an agent that stays where it is; T where its planner was late."""
+
 MAX_COORDINATE = 100_000
 """Rows and columns of an agent are below this."""
 
@@ -158,7 +161,7 @@ class _Drive:
             self.act(action, steps)
 
     def act(self, action: str, steps: int) -> None:
-        known = "FRCWT" if self.heading else "UDLRWT"
+        known = [*("FRC" if self.heading else "UDLR"), *WAITS]
         if action not in known:
             message = f"{shown(action)} is no action (give one of {', '.join(known)})"
             raise InputError.at(f"step {self.step}", message)
@@ -166,7 +169,7 @@ class _Drive:
         if self.step > MAX_STEP:
             message = f"{action} lasts for {steps} steps (give at most {MAX_STEP} in all)"
             raise InputError.at(f"step {begin}", message)
-        if action in "WT":
+        if action in WAITS:
             return
         if self.done and action != self.under_way:
             message = f"{action} begins after {self.done} of {self.steps_per_move} steps of"
@@ -181,7 +184,7 @@ class _Drive:
         self.done = rest
 
     def _complete(self, action: str, step: int) -> None:
-        if self.heading and action in "RC":
+        if self.heading and action != "F":
             turned = list(HEADINGS).index(self.heading) + (1 if action == "C" else -1)
             self.heading = list(HEADINGS)[turned % 4]
             return

@@ -22,6 +22,7 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.model import Grid, Plan, PlannerRun, Scenario, Track
+from rightofway.model.roadmap import FREE
 
 Cell = tuple[int, int]
 """Row and column, from 0."""
@@ -117,15 +118,13 @@ def plan_of_trajectories(
     # The League of Robot Runners has free cells E, and S as we do.
     lines = load_map(map_file or _map_beside(scen or path, named))
     lines = tuple(line.replace("E", ".") for line in lines)
+    _refuse_walls(found, lines)
     scenario = _scenario(found, lines, rows)
     ticks = 1 / (scenario.problem.clock.tick * found.steps_per_move)  # of a step
     grid = scenario.roadmap.grid
     assert grid is not None, "the map has rows"
-    faults = Faults()
-    tracks = [_track(agent, grid, int(ticks), faults) for agent in found.agents]
-    faults.stop()
-    kept = tuple(track for track in tracks if track is not None)
-    return Plan(scenario=scenario, tracks=kept, run=PlannerRun())
+    tracks = tuple(_track(agent, grid, int(ticks)) for agent in found.agents)
+    return Plan(scenario=scenario, tracks=tracks, run=PlannerRun())
 
 
 def _map_beside(path: Path, named: str | None) -> Path:
@@ -174,19 +173,25 @@ def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
     return InputFault(agent.place_of(0), f"{agent.name}{rest}: {fault.message}")
 
 
-def _track(agent: Trajectory, grid: Grid, ticks: int, faults: Faults) -> Track | None:
-    """Return the track of an agent; None after noting the first step at which it is in a wall."""
-    vertices = []
-    for (row, column), step in agent.visits:
-        inside = 0 <= row < grid.rows and 0 <= column < grid.columns
-        vertex = grid.vertex_at[row * grid.columns + column] if inside else -1
-        if vertex < 0:
-            where = "is blocked" if inside else f"is outside {grid.rows} x {grid.columns} cells"
+def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
+    """Report the first step of each agent at which it is in a wall or outside the map."""
+    faults, rows, columns = Faults(), len(lines), len(lines[0])
+    for agent in found.agents:
+        for (row, column), step in agent.visits:
+            inside = 0 <= row < rows and 0 <= column < columns
+            if inside and lines[row][column] in FREE:
+                continue
+            where = "is blocked" if inside else f"is outside the map of {rows} x {columns} cells"
             entered = f"{agent.name} enters [{row}, {column}] at step {step}"
-            message = f"{entered}, which {where} (is it this map?)"
-            faults.note(agent.place_of(step), message)
-            return None
-        vertices.append(vertex)
+            faults.note(agent.place_of(step), f"{entered}, which {where} (is it this map?)")
+            break
+    faults.stop()
+
+
+def _track(agent: Trajectory, grid: Grid, ticks: int) -> Track:
+    """Return the track of an agent; a step lasts for some ticks."""
+    cells = np.array([cell for cell, _ in agent.visits])
+    vertices = grid.vertex_at[cells[:, 0] * grid.columns + cells[:, 1]]
     return Track.of(vertices, [step * ticks for _, step in agent.visits])
 
 
