@@ -42,13 +42,16 @@ class _Times:
     start: NDArray[Any]  # [ticks]
     end: NDArray[Any]  # [ticks]
 
-    def where(self, keep: NDArray[np.bool_]) -> _Times:
+    def in_order(self) -> _Times:
+        """Return all that has a duration, by shape, then by start."""
+        order = order_by(self.shape, self.start)
+        order = order[np.array(self.start < self.end, bool)[order]]
         return _Times(
-            shape=self.shape[keep],
-            robot=self.robot[keep],
-            visit=self.visit[keep],
-            start=self.start[keep],
-            end=self.end[keep],
+            shape=self.shape[order],
+            robot=self.robot[order],
+            visit=self.visit[order],
+            start=self.start[order],
+            end=self.end[order],
         )
 
 
@@ -99,10 +102,9 @@ class _Shapes:
 
     def together(self, times: _Times) -> Iterator[tuple[Indices, Indices]]:
         """Yield pairs of entries of different robots, near each other, that overlap in time."""
-        order = order_by(times.shape, times.start)
         moments, rank = np.unique(np.concatenate((times.start, times.end)), return_inverse=True)
         start, end = np.split(rank.reshape(-1), 2)
-        keys = (times.shape * len(moments) + start)[order]
+        keys = times.shape * len(moments) + start
         counts = self._first[times.shape + 1] - self._first[times.shape]
         ends = np.cumsum(counts)
         begin = 0
@@ -115,7 +117,7 @@ class _Shapes:
             first = np.searchsorted(keys, there + start[one])
             after = np.searchsorted(keys, there + end[one])
             which, place = _spread(first, np.maximum(after - first, 0))
-            left, right = one[which], order[place]
+            left, right = one[which], place
             is_first = (start[left] < start[right]) | (left < right)
             wanted = is_first & (times.robot[left] != times.robot[right])
             yield left[wanted], right[wanted]
@@ -169,14 +171,19 @@ class _Shapes:
         high = np.floor((np.maximum(begin, begin + step) + reach / 2) / cell).astype(np.int64)
         width, height = (high - low + 1).T
         which, square = _spread(np.zeros(len(owner), np.int64), width * height)
-        column = low[which, 0] + square % width[which] + 1
-        row = low[which, 1] + square // width[which] + 1
-        cells = np.unique(
-            np.column_stack((row * (column.max() + 1) + column, owner[which])), axis=0
+        column, row = low[which, 0] + square % width[which], low[which, 1] + square // width[which]
+        order = order_by(row, column)
+        which, column, row = which[order], column[order], row[order]
+        begins = np.flatnonzero(np.append(True, (np.diff(row) != 0) | (np.diff(column) != 0)))
+        counts = np.diff(np.append(begins, len(order)))
+        left, right = _spread(np.repeat(begins, counts), np.repeat(counts, counts))
+        # Two pieces share several cells; they are compared in the one of greatest low corners.
+        i, j = which[left], which[right]
+        corner = (column[left] == np.maximum(low[i, 0], low[j, 0])) & (
+            row[left] == np.maximum(low[i, 1], low[j, 1])
         )
-        _, first, count = np.unique(cells[:, 0], return_index=True, return_counts=True)
-        left, right = _spread(np.repeat(first, count), np.repeat(count, count))
-        pairs = np.unique(cells[left, 1] * len(used) + cells[right, 1])
+        pairs = np.sort(owner[i[corner]] * len(used) + owner[j[corner]])
+        pairs = pairs[np.append(True, np.diff(pairs) != 0)]
         one, other = np.divmod(pairs, len(used))
         near = _distances(p[one], q[one], p[other], q[other]) <= reach
         found = used[one[near]]
@@ -189,7 +196,8 @@ def _coordinates(roadmap: Roadmap) -> tuple[list[Fraction], list[Fraction]]:
     grid = roadmap.grid
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
-        x, y = ([int(n) * grid.cell_size for n in axis] for axis in (columns, rows))
+        steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
+        x, y = ([steps[k] for k in axis.tolist()] for axis in (columns, rows))
     else:
         x, y = ([Fraction(str(v)) for v in axis] for axis in roadmap.positions.T.tolist())
     return x, y
@@ -263,8 +271,7 @@ def _judge_bookings(
         visit=np.concatenate((here, drives)),
         start=np.concatenate(((visits.enter - approach)[here], begun[drives])),
         end=np.concatenate(((visits.leave + headway)[here], (visits.leave + headway)[drives])),
-    )
-    bookings = bookings.where(np.array(bookings.start < bookings.end, bool))
+    ).in_order()
     found: list[tuple[Indices, Indices]] = []
     for one, other in shapes.together(bookings):
         limit = shapes.apart(bookings.robot[one], bookings.robot[other])
@@ -317,8 +324,7 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         visit=np.concatenate((here, drives)),
         start=np.concatenate((visits.enter[here], begun[drives])),
         end=np.concatenate((begun[here], visits.leave[drives])),
-    )
-    motions = motions.where(np.array(motions.start < motions.end, bool))
+    ).in_order()
     parts = [_encounters(visits, shapes, motions, *pair) for pair in shapes.together(motions)]
     one, other, square, when = (np.concatenate(each) for each in zip(*parts, strict=True))
     quantities = names.scenario.quantities

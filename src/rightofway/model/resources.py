@@ -89,9 +89,11 @@ def exact_positions(roadmap: Roadmap) -> list[tuple[Fraction, Fraction]]:
         The vertices; on a grid a position is a whole number of cells.
     """
     if roadmap.grid is not None:
-        size = roadmap.grid.cell_size
-        cells = map(roadmap.grid.cell, range(roadmap.n_vertices))
-        return [(column * size, row * size) for row, column in cells]
+        grid = roadmap.grid
+        steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
+        rows, columns = np.divmod(grid.cells, grid.columns)
+        cells = zip(rows.tolist(), columns.tolist(), strict=True)
+        return [(steps[column], steps[row]) for row, column in cells]
     return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
 
 
