@@ -135,6 +135,16 @@ def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
     assert words(reroutes=(Reroute(robot=1, because="x"),)) == "two-level; rerouted: R2"
 
 
+def test_of_a_large_fleet_the_robots_that_lose_time_are_listed() -> None:
+    """R22 is one tick late; of the others, each is as fast as alone."""
+    rows = [[3 * row, 3 * row + 1, 3 * row + 2] for row in range(22)]
+    trips = [(row, [0, 1, 2]) for row in rows[:21]]
+    lines = report(plan_of(["..."] * 22, *trips, (rows[21], [0, 1, 3])))
+    table = lines.index("times of the robots that lose most [s]")
+    assert [line.split()[0] for line in lines[table + 1 : table + 4]] == ["robot", "R22", "…"]
+    assert lines[table + 3] == "… and 21 more robots that lose less time"
+
+
 def test_a_plan_without_lost_time_is_called_optimal() -> None:
     lines = report(plan_of(["..."], ([0, 1, 2], [0, 1, 2])))
     assert lines[:4] == [

@@ -112,6 +112,8 @@ def _lost(words: Words, lost: Sequence[LostTime]) -> str:
 
 def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     most = sorted(range(len(lost)), key=lambda robot: -lost[robot].lost)[:MAX_LINES]
+    if len(lost) > MAX_LINES:
+        most = [robot for robot in most if lost[robot].lost] or most
     listed, cell = sorted(most), words.quantities.cell
     rows = [
         tuple(map(cell, (one.completion, one.alone, one.detours, one.making_room, one.waiting)))
