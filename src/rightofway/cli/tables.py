@@ -26,6 +26,7 @@ from rightofway.cli.terminal import (
     writable,
 )
 from rightofway.errors import InputError
+from rightofway.model.values import written
 
 if TYPE_CHECKING:
     from rightofway.model import Decision, Plan
@@ -235,7 +236,7 @@ def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
 def _clock_data(quantities: Quantities) -> dict[str, Any]:
     units = quantities.units
     return {
-        "tick": str(quantities.tick),
+        "tick": written(quantities.tick),
         "units": {"length": units.length, "time": units.time},
     }
 

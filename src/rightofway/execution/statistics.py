@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import NEVER, ExecutionTrace, Plan, VertexId
+from rightofway.model.values import written
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
 
@@ -346,5 +347,5 @@ class Outcome:
             "won": asdict(self.gain) if self.gain else None,
             "seed": self.seed,
             "delays": list(self.delays),
-            "tick": str(self.plan.scenario.problem.clock.tick),
+            "tick": written(self.plan.scenario.problem.clock.tick),
         }
