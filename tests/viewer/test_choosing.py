@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from rightofway.model import Units
+from rightofway.model import Tick, Units
 from tests.builders.plans import crowd, door, loop
 from tests.viewer.conftest import Opener
 
@@ -188,7 +188,7 @@ def test_enter_chooses_the_first_robot_found_and_arrows_move_on(show: Opener) ->
 
 def test_a_tie_is_called_a_tie_and_nothing_is_lost_by_nothing(show: Opener) -> None:
     plan = door()
-    free = replace(plan.run.decisions[0], ticks=0, completion_sums=(18, 19))
+    free = replace(plan.run.decisions[0], ticks=Tick(0), completion_sums=(18, 19))
     viewer = show(replace(plan, run=replace(plan.run, decisions=(*plan.run.decisions, free))))
     viewer.page.click("#tab-decisions")
     first, second = viewer.page.locator("#decision-list .row:visible").all_inner_texts()

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.viz import frame_of, page_of, payload_of, write_page
+from rightofway.viz import frame_of, page_of, payload_of, png_of, write_page
 from tests.builders.plans import (
     counter,
     counter_late,
@@ -155,9 +155,16 @@ def test_a_notebook_shows_laps_and_late_runs_too() -> None:
     assert dict(frame.attributes)["srcdoc"] == page_of(counter(), **extras)
 
 
+def test_a_notebook_without_frames_still_has_a_picture() -> None:
+    picture = dict(Elements(frame_of(door())).attributes)["src"] or ""
+    head, data = picture.split(",")
+    assert head == "data:image/png;base64"
+    assert base64.b64decode(data) == png_of(door())
+
+
 def test_a_notebook_shows_the_page_in_a_sandbox() -> None:
     frame = frame_of(hostile(EVIL))
     elements = Elements(frame)
-    assert elements.tags == ["iframe"]
+    assert elements.tags == ["div", "img", "iframe"]
     assert dict(elements.attributes)["sandbox"] == "allow-scripts"
     assert dict(elements.attributes)["srcdoc"] == page_of(hostile(EVIL))

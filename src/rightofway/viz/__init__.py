@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from rightofway.viz.page.background import Background
     from rightofway.viz.page.document import frame_of, page_of, write_page
     from rightofway.viz.page.payload import payload_of
-    from rightofway.viz.raster.picture import Film, write_gif, write_png
+    from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
 
 _MODULES = {
     "page.background": ("Background",),
     "page.document": ("frame_of", "page_of", "write_page"),
     "page.payload": ("payload_of",),
-    "raster.picture": ("Film", "write_gif", "write_png"),
+    "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
 }
 
 __all__ = [
@@ -28,6 +28,7 @@ __all__ = [
     "frame_of",
     "page_of",
     "payload_of",
+    "png_of",
     "write_gif",
     "write_page",
     "write_png",

@@ -158,7 +158,7 @@ def frame_of(
     steady: Sequence[SteadyState] = (),
     actual: ExecutionTrace | None = None,
 ) -> str:
-    """Return HTML that shows a plan in a notebook; for ``_repr_html_``.
+    """Return HTML that shows a plan in a notebook: its page, over a picture; for ``_repr_html_``.
 
     Parameters
     ----------
@@ -169,11 +169,20 @@ def frame_of(
 
     Notes
     -----
-    The frame is sandboxed: no name in a plan can reach the notebook.
+    The frame is sandboxed: no name in a plan can reach the notebook. Where frames are taken out of
+    notebooks, as code hosts do, the picture below it remains.
     """
+    from rightofway.viz.raster.picture import png_of
+
     document = html.escape(page_of(plan, steady=steady, actual=actual))
-    style = f"width:100%;height:{height}px;border:0;border-radius:8px"
-    return f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{style}"></iframe>'
+    picture = base64.b64encode(png_of(plan)).decode()
+    all_over = "position:absolute;inset:0;width:100%;height:100%;border:0;border-radius:8px"
+    return (
+        f'<div style="position:relative;height:{height}px">'
+        f'<img alt="Map of the plan" src="data:image/png;base64,{picture}"'
+        ' style="max-width:100%;max-height:100%">'
+        f'<iframe sandbox="allow-scripts" srcdoc="{document}" style="{all_over}"></iframe></div>'
+    )
 
 
 def _hash(text: str) -> str:

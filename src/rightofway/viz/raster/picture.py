@@ -32,23 +32,20 @@ FRAMES_PER_TICK = 8
 """The most frames: more cannot be distinguished."""
 
 
-def write_png(
+def png_of(
     plan: Plan,
-    path: str | os.PathLike[str],
     tick: int | None = None,
     *,
     scale: float | None = None,
     diagram: bool = False,
     theme: Theme = LIGHT,
-) -> None:
-    """Write a picture of a plan: the map with homes, stops, faint routes and the robots.
+) -> bytes:
+    """Return a picture of a plan as PNG: the map with homes, stops, faint routes and the robots.
 
     Parameters
     ----------
     plan
         The plan.
-    path
-        Where, usually ``….png``; the file is there whole or not at all.
     tick
         The instant to show [ticks]. None shows the robots at home, and no instant in the diagram.
     scale
@@ -61,8 +58,7 @@ def write_png(
     Raises
     ------
     InputError
-        For a tick below 0, a scale that makes the picture empty or too large to draw, or a file
-        that cannot be written.
+        For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
@@ -83,7 +79,33 @@ def write_png(
         below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
     content = io.BytesIO()
     image.reduce(fineness).save(content, "png", optimize=True)
-    write_whole(path, content.getvalue())
+    return content.getvalue()
+
+
+def write_png(
+    plan: Plan,
+    path: str | os.PathLike[str],
+    tick: int | None = None,
+    *,
+    scale: float | None = None,
+    diagram: bool = False,
+    theme: Theme = LIGHT,
+) -> None:
+    """Write a picture of a plan: the map with homes, stops, faint routes and the robots.
+
+    Parameters
+    ----------
+    plan, tick, scale, diagram, theme
+        As for `png_of`.
+    path
+        Where, usually ``….png``; the file is there whole or not at all.
+
+    Raises
+    ------
+    InputError
+        As for `png_of`, or if the file cannot be written.
+    """
+    write_whole(path, png_of(plan, tick, scale=scale, diagram=diagram, theme=theme))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,7 +140,7 @@ def write_gif(
     Parameters
     ----------
     plan, theme
-        As for `write_png`.
+        As for `png_of`.
     path
         Where, usually ``….gif``; the file is there whole or not at all.
     max_frames
