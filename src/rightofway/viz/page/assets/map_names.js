@@ -117,7 +117,7 @@ class MapNames {
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#width(context, name, font);
     const [x, y] = this.#at(index);
-    const away = this.#isHome(index) ? this.sizes.home : radius;
+    const away = this.#isHome(index) ? this.sizes.home : radius + (this.#isChosen(index) ? 5 : 0);
     const change = this.clock.playing ? 9 : 1;
     let [best, least, box] = [-1, Infinity, null];
     for (let step = 0; step < SIDES.length; step++) {
