@@ -85,8 +85,23 @@ def test_a_corridor_is_the_shortest_way_between_two_places(show: Opener) -> None
     viewer.wait_for("!frames.asked")
     assert viewer.text("#diagram-title").startswith("Distance over time, N0 to N8, 4 length units")
     assert viewer.ask("diagram.spaceTime.axis.rows.map(({ vertex }) => vertex)") == [0, 1, 3, 5, 6]
+    viewer.wait_for("location.hash.endsWith('from=N0&to=N8')")
     viewer.page.keyboard.press("c")
     assert viewer.ask("choice.corridor") is None
+
+
+def test_a_link_shows_a_corridor(show: Opener) -> None:
+    viewer = show(yard(), "#tick=2&from=gate&to=paint")
+    assert viewer.ask("choice.corridor") == [1, 2, 3]
+    assert show(yard(), "#from=gate&to=nowhere").ask("choice.corridor") is None
+
+
+def test_escape_ends_the_choice_of_a_corridor(show: Opener) -> None:
+    viewer = show(door())
+    viewer.page.keyboard.press("c")
+    assert viewer.ask("choice.picked") == []
+    viewer.page.keyboard.press("Escape")
+    assert viewer.ask("choice.picked") is None
 
 
 def test_a_corridor_against_one_way_lanes_is_found_the_other_way(show: Opener) -> None:

@@ -53,7 +53,9 @@ class Choice extends Observable {
     this.#set(this.plan.faults[index]?.robots[0] ?? -1, -1, index);
   }
 
+  /** Also ends the choice of a corridor that has begun. */
   chooseNothing() {
+    if (this.picked) this.toggleCorridor();
     this.#set(-1, -1);
   }
 
@@ -78,10 +80,15 @@ class Choice extends Observable {
   pickEnd(vertex) {
     if (this.picked.includes(vertex)) return;
     this.picked.push(vertex);
-    if (this.picked.length === 2) {
-      this.corridor = shortestWay(this.plan.roadmap, ...this.picked);
-      this.picked = this.corridor ? null : [];
-    }
+    if (this.picked.length === 2) this.showCorridor(...this.picked);
+    this.tell("corridor");
+  }
+
+  /** Show the shortest way between two places; nothing changes without one, or for the place -1. */
+  showCorridor(from, to) {
+    const corridor = from >= 0 && to >= 0 ? shortestWay(this.plan.roadmap, from, to) : null;
+    if (corridor) Object.assign(this, { corridor, picked: null });
+    else if (this.picked) this.picked = [];
     this.tell("corridor");
   }
 

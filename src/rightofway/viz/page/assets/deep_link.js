@@ -13,6 +13,7 @@ class DeepLink {
     clock.on("tick", () => this.#soon());
     choice.on("choice", () => this.#soon());
     choice.on("mode", () => this.#soon());
+    choice.on("corridor", () => this.#soon());
     window.addEventListener("hashchange", () => this.read());
   }
 
@@ -26,6 +27,7 @@ class DeepLink {
     else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
     if (this.plan.happened && MODES.includes(asked.get("show"))) this.choice.show(asked.get("show"));
+    this.choice.showCorridor(...["from", "to"].map((end) => this.plan.roadmap.vertexNamed(asked.get(end))));
     const tick = asked.get("tick") ?? this.choice.decision?.tick ?? 0;
     this.clock.seek(Number.parseFloat(tick) || 0);
     return asked.size > 0;
@@ -48,6 +50,8 @@ class DeepLink {
     else if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);
+    const { corridor } = this.choice;
+    if (corridor) ["from", "to"].forEach((end, i) => state.set(end, this.plan.roadmap.name(corridor.at(-i))));
     return `${location.href.split("#")[0]}#${state}`;
   }
 }

@@ -22,8 +22,8 @@ class MapNames {
   #widths = new Map();
   #spots = null;
 
-  constructor(plan, motion, viewport, sizes, theme, choice, use) {
-    Object.assign(this, { plan, motion, viewport, sizes, theme, choice, use });
+  constructor(plan, motion, viewport, sizes, clock, theme, choice, use) {
+    Object.assign(this, { plan, motion, viewport, sizes, clock, theme, choice, use });
     this.#sides = new Int8Array(plan.robots.length);
     this.written = []; // what the last frame shows: { name, box } of each label
     this.inks = plan.robots.map((robot) => inkOn(robot.colour));
@@ -108,21 +108,25 @@ class MapNames {
     this.written.push({ name, box: [x - half, y - radius * 0.4, x + half, y + radius * 0.4] });
   }
 
-  /** Beside its disc: where it was if that is free, rather not over the name of a place. */
+  /**
+   * Beside its disc: where it was if that is free, rather not over the name of a place or a mark.
+   * While time runs on, a name changes its side only for another robot.
+   */
   #beside(context, index, radius) {
     const name = cut(this.plan.robots[index].name);
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#width(context, name, font);
     const [x, y] = this.#at(index);
-    const away = this.#isHome(index) ? this.sizes.home : radius;
+    const away = this.#isHome(index) ? this.sizes.home : radius + (this.#isChosen(index) ? 5 : 0);
+    const change = this.clock.playing ? 9 : 1;
     let [best, least, box] = [-1, Infinity, null];
     for (let step = 0; step < SIDES.length; step++) {
       const side = (this.#sides[index] + step) % SIDES.length;
       const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
       if (!this.#robots.isFree(...there)) continue;
-      const cost = (this.#places.isFree(...there) ? 0 : 3) + (this.#marks.isFree(...there) ? 0 : 2) + (step ? 1 : 0);
+      const cost = (this.#places.isFree(...there) ? 0 : 3) + (this.#marks.isFree(...there) ? 0 : 2) + (step ? change : 0);
       if (cost < least) [best, least, box] = [side, cost, there];
-      if (!least) break;
+      if (least <= (step ? change : change - 1)) break;
     }
     if (!box && !this.#isChosen(index)) return;
     if (box) this.#sides[index] = best;

@@ -47,7 +47,7 @@ class MapSizes {
 
   /** Width of a route, and how far two routes on one way are apart. */
   get route() {
-    const line = Math.min(Math.max(this.viewport.scale * 0.06, 2), 5);
+    const line = Math.min(Math.max(this.viewport.scale * 0.06, 2.5), 5);
     return { line, apart: line + 1.5 };
   }
 }

@@ -16,7 +16,7 @@ class MapView {
     });
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
-    this.names = new MapNames(plan, motion, this.viewport, this.sizes, theme, choice, use);
+    this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use);
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
     canvas.setAttribute("aria-label", `Map with ${counted(plan.robots.length, "robot")}`);

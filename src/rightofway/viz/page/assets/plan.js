@@ -26,6 +26,12 @@ class Roadmap {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
   }
 
+  /** The vertex of a name, or -1. */
+  vertexNamed(name) {
+    if (this.names) return this.names.indexOf(name);
+    return /^N\d+$/.test(name) ? this.cells.indexOf(Number(name.slice(1))) : -1;
+  }
+
   /** Where a point of the drawing is in the site's frame [length unit]. */
   toSite(x, y) {
     const { frame, unit } = this;
