@@ -1,6 +1,7 @@
 """Whatever is in a document or a file: a scenario or plan, or an InputError that can be printed."""
 
 import copy
+import json
 import tempfile
 from collections.abc import Callable, Iterator
 from decimal import Decimal
@@ -11,7 +12,7 @@ import jsonschema
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, InputFault
 from rightofway.io import (
     dump_plan,
     load,
@@ -22,6 +23,7 @@ from rightofway.io import (
     scenario_of,
     schema,
 )
+from rightofway.io.marks import marked
 from rightofway.io.text import parse_json, parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
@@ -134,6 +136,14 @@ def accepts(read: Callable[..., object], *arguments: Any) -> bool:
     return told is None
 
 
+def _faults(read: Callable[..., object], *arguments: Any) -> tuple[InputFault, ...]:
+    try:
+        read(*arguments)
+    except InputError as error:
+        return error.faults
+    return ()
+
+
 def _told(read: Callable[..., object], *arguments: Any) -> str | None:
     try:
         read(*arguments)
@@ -157,6 +167,25 @@ def test_scenario_documents(document: Any) -> None:
 def test_plan_documents(document: Any) -> None:
     if accepts(plan_of, document):
         assert FITS["plan"](document)
+
+
+@given(mutated_scenarios(), st.sampled_from([None, 1]))
+@settings(max_examples=200, deadline=None)
+def test_marks_say_the_same_faults_with_lines_of_the_text(
+    document: Any, indent: int | None
+) -> None:
+    try:
+        text = json.dumps(document, indent=indent)
+    except TypeError:  # no JSON has decimals
+        return
+    faults = _faults(scenario_of, parse_json(text), HALL)
+    found = tuple(marked(faults, text))
+    assert [(one.place, one.message) for one in found] == [
+        (one.place, one.message) for one in faults
+    ]
+    lines = range(1, text.count("\n") + 2)
+    assert all(one.line is None or one.line in lines for one in found)
+    assert all(str(one).isprintable() for one in found)
 
 
 @given(values)

@@ -19,7 +19,7 @@ from rightofway.errors import InputError, InputFault, shown
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults, blaming
 from rightofway.io.text import read_text
-from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Stop
+from rightofway.model import Grid, Roadmap, Robot, Rules, Scenario, Stop, roadmap_of_grid
 
 _SIZE = re.compile(r"[0-9]{1,9}")
 _COLUMNS = "bucket, map, width, height, start x, start y, goal x, goal y, optimal length"
@@ -229,5 +229,7 @@ def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
         yield "speeds and the size of cells are left out; .scen robots drive one cell a tick"
     if any(robot.stops[0].work for robot in robots):
         yield "work times are left out"
+    if scenario.roadmap.frame != roadmap_of_grid(["."], cell_size=grid.cell_size).frame:
+        yield "y and origin of the map are left out"
     if any((robot.ends or scenario.rules.ends) == "home" for robot in robots):
         yield "ways back and laps are left out; .scen robots stay at their goals"

@@ -142,19 +142,21 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
     for index, robot in enumerate(scenario.robots):
         yield from (fault.within(f"robots[{index}]") for fault in _robot_faults(robot, scenario))
     name = scenario.roadmap.name
-    yield from _twice("name", [robot.name for robot in scenario.robots], "give each its own")
+    names = [robot.name for robot in scenario.robots]
+    numbers = [f"robots[{index}]" for index in range(len(names))]
+    yield from _twice("name", names, numbers, "give each its own")
     homes = [robot.home for robot in scenario.robots]
     if all(0 <= home < scenario.roadmap.n_vertices for home in homes):
         remedy = "a vertex holds one robot; move one of them"
-        yield from _twice("home", [name(home) for home in homes], remedy)
+        yield from _twice("home", [name(home) for home in homes], names, remedy)
 
 
-def _twice(key: str, values: list[str], remedy: str) -> Iterator[InputFault]:
+def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Iterator[InputFault]:
     first: dict[str, int] = {}
     for index, value in enumerate(values):
         earlier = first.setdefault(value, index)
         if earlier != index:
-            message = f"{value} is the {key} of robots[{earlier}] already ({remedy})"
+            message = f"{value} is the {key} of {owners[earlier]} already ({remedy})"
             yield InputFault(f"robots[{index}].{key}", message)
 
 
