@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import FEW, InputError, InputFault, shown
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
@@ -174,17 +174,24 @@ def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
 
 
 def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
-    """Report the first step of each agent at which it is in a wall or outside the map."""
-    faults, rows, columns = Faults(), len(lines), len(lines[0])
+    """Report the first step of an agent at which it is in a wall or outside the map.
+
+    On the map of another plan nearly all agents leave it: a few of them are enough.
+    """
+    faults, rows, columns, wrong = Faults(), len(lines), len(lines[0]), 0
     for agent in found.agents:
         for (row, column), step in agent.visits:
             inside = 0 <= row < rows and 0 <= column < columns
             if inside and lines[row][column] in FREE:
                 continue
-            where = "is blocked" if inside else f"is outside the map of {rows} x {columns} cells"
-            entered = f"{agent.name} enters [{row}, {column}] at step {step}"
-            faults.note(agent.place_of(step), f"{entered}, which {where} (is it this map?)")
+            wrong += 1
+            if wrong <= FEW:
+                where = "is blocked" if inside else f"is outside {rows} rows and {columns} columns"
+                entered = f"{agent.name} enters [{row}, {column}] at step {step}"
+                faults.note(agent.place_of(step), f"{entered}, which {where} (give its own map)")
             break
+    if wrong > FEW:
+        faults.note("", f"{wrong - FEW} more agents leave the map (give the map of this plan)")
     faults.stop()
 
 
