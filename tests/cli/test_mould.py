@@ -108,6 +108,44 @@ def test_several_plans_are_checked_at_once(cli: Cli, door: Path) -> None:
     ]
 
 
+def test_a_plan_that_cannot_be_read_does_not_keep_others_from_being_checked(
+    cli: Cli, door: Path
+) -> None:
+    with_plan(cli, door)
+    ended = cli("check", "nowhere.json", "plan.json")
+    assert ended.code == 2
+    assert ended.err == "nowhere.json: there is no such file (check the path)\n"
+    assert "plan.json: no fault" in ended.out
+
+
+def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> None:
+    """Two robots share a door and stay where they go."""
+    cli("convert", door, "-o", "hall.scen")
+    cli("plan", "hall.scen", "-o", "plan.json")
+    assert cli("convert", "plan.json", "--to", "lns2", "-o", "paths.txt").code == 0
+    assert Path("paths.txt").read_text(encoding="utf-8").startswith("Agent 0: (0,0)->(0,")
+    assert "the plan does not name its map (give it with --map" in cli("check", "paths.txt").err
+    for name in ("check", "table", "collisions"):
+        ended = cli(name, "paths.txt", "--map", "hall.map")
+        assert (ended.code, ended.err) == (0, "")
+    assert cli("check", "paths.txt", "--scen", "hall.scen").code == 0
+    improved = cli("improve", "paths.txt", "--map", "hall.map", "-o", "better.json")
+    assert (improved.code, cli("check", "better.json").code) == (0, 0)
+    assert cli("show", "paths.txt", "--map", "hall.map", "--page", "page.html").code == 0
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["--to", "lns", "-o", "a.txt"], "'lns' is no format (did you mean lns2?)"),
+        (["-o", "a.txt"], "'a.txt' does not end in .yaml, .yml, .json, .xlsx or .scen"),
+    ],
+)
+def test_a_format_that_is_not_known_is_refused(cli: Cli, args: list[str], message: str) -> None:
+    ended = cli("convert", "nowhere.json", *args)
+    assert (ended.code, message in ended.err) == (2, True)
+
+
 @pytest.mark.parametrize("name", ["plan", "bound", "convert", "show"])
 def test_the_first_robots_of_a_scen_file_are_taken_by_number(cli: Cli, name: str) -> None:
     target = {"convert": ["-o", "a.json"], "show": ["--page", "a.html"]}.get(name, [])

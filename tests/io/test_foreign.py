@@ -196,7 +196,7 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         ("0:(0,0),(2,0),\n1:(0,0),\n", "plan:2: 1 agents, the first step has 2"),
         ("0:(0,0),(2,x),\n", r"plan:1: '\(2,x\),' is no cell"),
         ("0:(0,0),\n1:(0,1),\n", r"plan:2: A0 enters \[1, 0\] at step 1, which is blocked"),
-        ("0:(0,0),\n1:(9,0),\n", r"plan:2: A0 enters \[0, 9\] at step 1, which is outside the map"),
+        ("0:(0,0),\n1:(9,0),\n", r"plan:2: A0 enters \[0, 9\] at step 1, which is outside 3 rows"),
         ("goals=(0,0),(1,0),\n0:(0,0),\n", "goals: 2 for 1 agents"),
         ("hello\n0:(0,0),\n", "plan:1: 'hello' is no step"),
         ("Agent 0: (0,0)->\nAgent 2: (0,1)->\n", "agent 1 has no path"),
@@ -212,9 +212,13 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         (log(["F"], actionModel="CAR"), "actionModel: 'CAR' is not known"),
         (log(["F"], start=[[0, 0, "Z"]]), r"start\[0\]: 'Z' is no heading"),
         (log(["F"], start=[]), "start: does not have a start for each of 1 agents"),
-        (log(["[(0,0,0,0,0):(F 3,R 2)]"], agentMaxCounter=10), "R begins after 3 of 10 steps of F"),
+        (
+            log(["[(0,0,0,0,0):(F 3,R 2)]"], agentMaxCounter=10),
+            "F ends after 3 of 10 steps",
+        ),
         (log(["[(0,0,0,0,0):(F 3)][(9,0,0,0,0):(W 1)]"]), "a part begins with step 9, the part"),
-        (log(["[(0,0,0,0,0):(F 999999)]"]), "F for 999999 cells leaves any map"),
+        (log(["[(0,0,0,0,0):(F 999999)]"]), r"A0 enters \[0, 3\] at step 3, which"),
+        (log(["[(0,0,0,0,0):(W 99999999)]"]), "99999999 steps are too many"),
         (log(["[(0,0,0,0):(F 1)]"]), "is no part"),
         (log(["F"], events=[[1, 0, 7, 1]]), r"events\[0\]: task 7 has no errand 1"),
         (log(["F"], tasks=[[1]]), r"tasks\[0\]: \[1\] is no task"),
@@ -224,6 +228,15 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
 def test_what_is_wrong_is_named_with_its_place(hall: Path, text: str, fault: str) -> None:
     with pytest.raises(InputError, match=fault):
         read(hall, text)
+
+
+def test_of_many_agents_on_a_wrong_map_a_few_are_named(hall: Path) -> None:
+    lines = [f"Agent {agent}: (8,{agent})->\n" for agent in range(30)]
+    with pytest.raises(InputError) as caught:
+        read(hall, "".join(lines))
+    *few, rest = caught.value.faults
+    assert [fault.line for fault in few] == [1, 2, 3, 4]
+    assert rest.message.startswith("26 more agents leave the map")
 
 
 def test_files_for_a_plan_of_ours_are_refused(hall: Path) -> None:

@@ -11,6 +11,7 @@ from rightofway.cli.completion import PLANS, SCENARIOS, files
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import (
     as_json_option,
+    complain,
     count_option,
     file_title,
     foreign_options,
@@ -22,6 +23,7 @@ from rightofway.cli.terminal import (
     say,
     writable,
 )
+from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from rightofway.check import Report
@@ -59,15 +61,21 @@ def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
     The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
     short, missed stops, wrong homes and ends, vertex and swap conflicts, headways that are too
     short and, where they are forbidden, rotations. A PLAN of - is standard input. With several
-    plans, --json prints a list.
+    plans, --json prints a list, and a plan that cannot be read (exit code 2) does not keep the
+    others from being checked.
     """
     from rightofway.check import check as judge
 
-    faulty, reports = False, []
+    code, reports = 0, []
     for path in plans:
-        found = read_plan(path)
+        try:
+            found = read_plan(path)
+        except InputError as error:  # the other plans are checked all the same
+            complain(str(error))
+            code = 2
+            continue
         report = judge(found, limit=limit)
-        faulty |= not report.ok
+        code = code or int(not report.ok)
         if as_json:
             reports.append({"plan": path, **_report_data(found, report)})
         elif report.ok:
@@ -75,9 +83,9 @@ def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
             put_report(f"{path}: no fault in {robots} robots and {visits} visits")
         else:
             put_report(f"{path}: {report}")
-    if as_json:
+    if as_json and reports:
         put_json(reports if len(plans) > 1 else reports[0])
-    return 1 if faulty else 0
+    return code
 
 
 def _report_data(found: Plan, report: Report) -> dict[str, Any]:

@@ -99,8 +99,9 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            gap = f"{search.flowtime / bound - 1:.2%} above the bound"
-            task.report(f"flowtime {search.flowtime}, {gap}, {rate:.0f} tries/s")
+            reached = task.scenario.quantities.duration(search.flowtime)
+            gap = f", {search.flowtime / bound - 1:.2%} above the bound" if bound else ""
+            task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per second")
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:

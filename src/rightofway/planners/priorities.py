@@ -139,7 +139,8 @@ def _best_of(
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
-            task.report(f"order {tried}: flowtime {reached} ticks")
+            flowtime = task.scenario.quantities.duration(reached)
+            task.report(f"order {tried}: flowtime {flowtime}")
         return reached
 
     try:

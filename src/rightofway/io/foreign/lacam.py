@@ -17,6 +17,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+import numpy as np
+
 from rightofway.errors import InputError, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
@@ -70,15 +72,13 @@ def read(text: str) -> ForeignPlan:
     if goals and len(goals) != len(steps[0] or ()):
         message = f"{len(goals)} for {len(steps[0] or ())} agents (give one for each)"
         raise InputError.at("goals", message)
-    agents = [
-        Trajectory(
-            name=f"A{index}",
-            visits=visits_of(iter(cells)),
-            lines=lines,
-            stops=goals[index : index + 1],
+    agents = []
+    for index, cells in enumerate(np.array(steps, np.int64).swapaxes(0, 1)):
+        own, entered = visits_of(cells)
+        goal = goals[index : index + 1]
+        agents.append(
+            Trajectory(name=f"A{index}", cells=own, steps=entered, lines=lines, stops=goal)
         )
-        for index, cells in enumerate(zip(*(step or () for step in steps), strict=True))
-    ]
     return ForeignPlan(agents=agents, map_name=header.get("map_file"))
 
 

@@ -12,14 +12,16 @@ is not read, or where any is larger the step at which the agent enters the cell.
 from __future__ import annotations
 
 import re
-from itertools import groupby, pairwise
+from itertools import pairwise
+
+import numpy as np
 
 from rightofway.errors import InputError, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     ForeignPlan,
     Trajectory,
-    Visit,
+    Visits,
     cells_of_plan,
     visits_of,
 )
@@ -44,7 +46,7 @@ def read(text: str) -> ForeignPlan:
     InputError
         For lines that are no path, and agents that are missing or given twice.
     """
-    paths: dict[int, tuple[int, list[Visit]]] = {}
+    paths: dict[int, tuple[int, Visits | None]] = {}
     faults = Faults()
     for number, line in enumerate(text.split("\n"), start=1):
         bare = "".join(line.split())
@@ -58,19 +60,20 @@ def read(text: str) -> ForeignPlan:
         if agent in paths:
             message = f"agent {agent} has a path in line {paths[agent][0]} already (take one out)"
             faults.note(f"line {number}", message)
-        paths[agent] = number, faults.attempt(f"line {number}", _visits, match[2]) or []
+        paths[agent] = number, faults.attempt(f"line {number}", _visits, match[2])
     missing = next((number for number in range(len(paths)) if number not in paths), None)
     if missing is not None:
         faults.note("", f"agent {missing} has no path (give one for each agent, from 0 on)")
     faults.stop()
     agents = [
-        Trajectory(name=f"A{agent}", visits=visits, place=f"line {line}")
+        Trajectory(name=f"A{agent}", cells=visits[0], steps=visits[1], place=f"line {line}")
         for agent, (line, visits) in sorted(paths.items())
+        if visits
     ]
     return ForeignPlan(agents=agents)
 
 
-def _visits(text: str) -> list[Visit]:
+def _visits(text: str) -> Visits:
     rest = _CELL.sub("", text)
     if rest:
         raise InputError.at("", f"{shown(rest)} is no cell (write (row,column)->(row,column)->…)")
@@ -80,11 +83,11 @@ def _visits(text: str) -> list[Visit]:
     cells = [(int(row), int(column)) for row, column, _ in found]
     steps = [int(third) for _, _, third in found if third]
     if max(steps, default=0) <= LARGEST_HEADING:
-        return visits_of(iter(cells))
+        return visits_of(cells)
     if len(steps) < len(cells) or steps[0] or not all(a < b for a, b in pairwise(steps)):
         raise InputError.at("", "the steps of the cells do not grow from 0 on (give all or none)")
-    entered = zip(cells, steps, strict=True)
-    return [next(run) for _, run in groupby(entered, lambda visit: visit[0])]
+    own, visits = visits_of(cells)
+    return own, np.array(steps, np.int64)[visits]
 
 
 def write(plan: Plan) -> str:

@@ -15,12 +15,11 @@ from __future__ import annotations
 
 import json
 import re
-from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.io.faults import Faults
@@ -29,7 +28,7 @@ from rightofway.io.foreign.trajectories import (
     Cell,
     ForeignPlan,
     Trajectory,
-    Visit,
+    Visits,
     cells_of_plan,
 )
 from rightofway.io.text import parse_json
@@ -42,20 +41,27 @@ HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 MOVES = {"U": (1, 0), "D": (-1, 0), "L": (0, -1), "R": (0, 1)}
 """Change of row and column of the action model MAPF, as PlanViz draws them today."""
 
+EARLIER_MOVES = {**MOVES, "U": MOVES["D"], "D": MOVES["U"]}
+
+TURNS = {"R": -1, "C": 1}
+
 WAITS = ("W", "T")
 """Actions of an agent that stays where it is; T where its planner was late."""
 
 MAX_COORDINATE = 100_000
-"""Rows and columns of an agent are below this."""
+"""Rows and columns of a start are below this."""
 
-MAX_VISITS = 5_000_000
-"""Visits of all agents at most."""
+MAX_STEPS = 10_000_000
+"""Steps of a path at most."""
+
+MAX_MOVES = 100_000_000
+"""Moves and turns of all agents at most."""
 
 _PART = re.compile(r"\[\(([0-9]{1,9})(?:,-?[0-9]{1,9}){4}\):\(([^()\[\]]*)\)\]")
 _RUN = re.compile(r"([A-Z])([0-9]{1,9})")
 
-Run = tuple[str, int]
-"""An action, and for how many steps."""
+Errands = dict[int, list[tuple[int, Cell]]]
+"""The errands that each agent finishes, in order, with their steps."""
 
 
 def recognizes(text: str) -> bool:
@@ -84,50 +90,94 @@ def read(text: str) -> ForeignPlan:
     counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths)
     steps_per_move = counter if counts else 1
     errands = faults.attempt("", _errands, log) or {}
-    ways = [HEADINGS] if turns else [MOVES, {**MOVES, "U": MOVES["D"], "D": MOVES["U"]}]
-    read = [_drives(paths, starts, way, steps_per_move, faults) for way in ways]
+    ways = [HEADINGS] if turns else [MOVES, EARLIER_MOVES]
+    read = [_all_visits(paths, starts, way, steps_per_move, faults) for way in ways]
     faults.stop()
-    drives = max(read, key=lambda drives: _hits(drives, errands))
+    visits = max(read, key=lambda visits: _hits(visits, errands))
     agents = []
-    for index, drive in enumerate(drives):
-        last = drive.visits[-1][0]
+    for index, (cells, steps) in enumerate(visits):
+        row, column = cells[-1].tolist()
         stops = [cell for _, cell in errands.get(index, [])]
-        if stops[-1:] != [last]:
-            stops.append(last)
+        if stops[-1:] != [(row, column)]:
+            stops.append((row, column))
         place = f"actualPaths[{index}]"
-        agents.append(Trajectory(name=f"A{index}", visits=drive.visits, place=place, stops=stops))
+        agents.append(
+            Trajectory(name=f"A{index}", cells=cells, steps=steps, place=place, stops=stops)
+        )
     return ForeignPlan(agents=agents, steps_per_move=steps_per_move)
 
 
-def _drives(
+def _all_visits(
     paths: list[Any],
     starts: list[Any],
     changes: Mapping[str, Cell],
     steps_per_move: int,
     faults: Faults,
-) -> list[_Drive]:
-    """Return each agent at the end of its path, or fewer after noting faults."""
-    drives, n_visits = list[_Drive](), 0
+) -> list[Visits]:
+    """Return the visits of each agent, or fewer after noting faults."""
+    found, n_moves = list[Visits](), 0
     for index, (path, start) in enumerate(zip(paths, starts, strict=False)):
+        begin = faults.attempt(f"start[{index}]", _start, start, changes)
         place = f"actualPaths[{index}]"
-        drive = faults.attempt(f"start[{index}]", _started, start, changes, steps_per_move)
-        if drive is None:
+        runs = faults.attempt(place, _runs, path, changes)
+        if begin is None or runs is None:
             continue
-        faults.attempt(place, drive.follow, path)
-        drives.append(drive)
-        n_visits += len(drive.visits)
-        if n_visits > MAX_VISITS:
-            raise InputError.at(place, f"more than {MAX_VISITS} moves (read a part of the plan)")
-    return drives
+        n_moves += int(runs[1].sum()) // steps_per_move
+        if n_moves > MAX_MOVES:
+            raise InputError.at(place, f"more than {MAX_MOVES} moves (read a part of the plan)")
+        visits = faults.attempt(place, _visits, begin, *runs, changes, steps_per_move)
+        found += [] if visits is None else [visits]
+    return found
 
 
-def _hits(drives: Sequence[_Drive], errands: Mapping[int, Sequence[tuple[int, Cell]]]) -> int:
+def _visits(
+    start: tuple[Cell, int],
+    actions: NDArray[np.uint8],
+    lengths: NDArray[np.int64],
+    changes: Mapping[str, Cell],
+    steps_per_move: int,
+) -> Visits:
+    """Return the visits of an agent, from a cell and heading on, with an action in each run."""
+    cell, heading = start
+    ends = np.cumsum(lengths)
+    busy = ~np.isin(actions, _codes(WAITS))
+    progress = np.cumsum(np.where(busy, lengths, 0))  # steps of moves and turns so far
+    at = np.flatnonzero(busy)
+    broken = (np.diff(actions[at]) != 0) & (progress[at[:-1]] % steps_per_move != 0)
+    if broken.any():
+        run = at[int(np.argmax(broken))]
+        message = f"{chr(actions[run])} ends after {progress[run] % steps_per_move} of"
+        remedy = "finish it before the next action"
+        raise InputError.at(f"step {ends[run]}", f"{message} {steps_per_move} steps ({remedy})")
+    marks = steps_per_move * np.arange(1, progress[-1:].sum() // steps_per_move + 1)
+    runs = np.searchsorted(progress, marks)  # that complete the moves and turns
+    steps = ends[runs] - (progress[runs] - marks)
+    done = actions[runs]
+    moves = np.ones(len(done), bool)
+    table = np.zeros((256, 2), np.int64)
+    if changes is HEADINGS:
+        turns = np.zeros(256, np.int64)
+        turns[_codes(TURNS)] = list(TURNS.values())
+        table[:4] = list(HEADINGS.values())
+        moves = done == ord("F")
+        done = ((heading + np.cumsum(turns[done])) % 4).astype(np.uint8)
+    else:
+        table[_codes(changes)] = list(changes.values())
+    cells = np.cumsum(np.vstack([[cell], table[done[moves]]]), axis=0)
+    return cells, np.concatenate(([0], steps[moves]))
+
+
+def _codes(letters: Iterable[str]) -> list[int]:
+    return [ord(letter) for letter in letters]
+
+
+def _hits(visits: Sequence[Visits], errands: Errands) -> int:
     """Return at how many of their errands the agents are when they finish them."""
     hits = 0
-    for index, drive in enumerate(drives):
-        steps = [step for _, step in drive.visits]
+    for index, (cells, steps) in enumerate(visits):
         for step, cell in errands.get(index, ()):
-            hits += drive.visits[bisect_right(steps, max(step, 0)) - 1][0] == cell
+            visit = np.searchsorted(steps, max(step, 0), side="right") - 1
+            hits += tuple(cells[visit].tolist()) == cell
     return hits
 
 
@@ -143,70 +193,14 @@ def _count(value: Any) -> int:
     return value
 
 
-@dataclass(slots=True, kw_only=True)
-class _Drive:
-    """An agent that follows its actions."""
-
-    visits: list[Visit]
-    changes: Mapping[str, Cell]  # of row and column, by action or heading
-    heading: str | None  # None where agents have none
-    steps_per_move: int
-    step: int = 0
-    done: int = 0  # steps of the move or turn that is under way
-    under_way: str = field(default="")
-
-    def follow(self, path: Any) -> None:
-        """Take the actions of a path one by one."""
-        for action, steps in _runs(path):
-            self.act(action, steps)
-
-    def act(self, action: str, steps: int) -> None:
-        known = [*("FRC" if self.heading else "UDLR"), *WAITS]
-        if action not in known:
-            message = f"{shown(action)} is no action (give one of {', '.join(known)})"
-            raise InputError.at(f"step {self.step}", message)
-        begin, self.step = self.step, self.step + steps
-        if self.step > MAX_STEP:
-            message = f"{action} lasts for {steps} steps (give at most {MAX_STEP} in all)"
-            raise InputError.at(f"step {begin}", message)
-        if action in WAITS:
-            return
-        if self.done and action != self.under_way:
-            message = f"{action} begins after {self.done} of {self.steps_per_move} steps of"
-            raise InputError.at(f"step {begin}", f"{message} {self.under_way} (finish that first)")
-        self.under_way = action
-        times, rest = divmod(self.done + steps, self.steps_per_move)
-        if times > MAX_COORDINATE:
-            raise InputError.at(f"step {begin}", f"{action} for {times} cells leaves any map")
-        first = begin - self.done + self.steps_per_move
-        for time in range(first, first + times * self.steps_per_move, self.steps_per_move):
-            self._complete(action, time)
-        self.done = rest
-
-    def _complete(self, action: str, step: int) -> None:
-        if self.heading and action != "F":
-            turned = list(HEADINGS).index(self.heading) + (1 if action == "C" else -1)
-            self.heading = list(HEADINGS)[turned % 4]
-            return
-        (row, column), _ = self.visits[-1]
-        down, right = self.changes[self.heading or action]
-        self.visits.append(((row + down, column + right), step))
-
-
-def _started(start: Any, changes: Mapping[str, Cell], steps_per_move: int) -> _Drive:
+def _start(start: Any, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
+    """Return the first cell of an agent, and the number of its heading."""
     if not isinstance(start, list) or len(start) not in {2, 3}:
         raise InputError.at("", f"{shown(start)} is no start (give [row, column, heading])")
-    heading = start[2] if len(start) > 2 else "E"  # noqa: PLR2004
-    turns = changes is HEADINGS
-    if turns and heading not in HEADINGS:
+    heading = start[2] if changes is HEADINGS and len(start) > 2 else "E"  # noqa: PLR2004
+    if not isinstance(heading, str) or heading not in HEADINGS:
         raise InputError.at("", f"{shown(heading)} is no heading (give E, N, W or S)")
-    cell = _cell(start[0], start[1])
-    return _Drive(
-        visits=[(cell, 0)],
-        changes=changes,
-        heading=heading if turns else None,
-        steps_per_move=steps_per_move,
-    )
+    return _cell(start[0], start[1]), list(HEADINGS).index(heading)
 
 
 def _cell(row: Any, column: Any) -> Cell:
@@ -217,32 +211,50 @@ def _cell(row: Any, column: Any) -> Cell:
     return row, column
 
 
-def _runs(path: Any) -> Iterator[Run]:
+def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Return the actions of a path, and for how many steps each is taken."""
     if not isinstance(path, str):
         raise InputError.at("", f'{shown(path)} is no path (give actions like "F,R,W")')
     bare = "".join(path.split())
-    if not bare.startswith("["):
-        yield from ((action, 1) for action in bare.split(",") if action)
-        return
+    if bare.startswith("["):
+        actions, lengths = _counted(bare)
+    else:
+        actions = [action for action in bare.split(",") if action]
+        lengths = [1] * len(actions)
+    known = ["F", *TURNS, *WAITS] if changes is HEADINGS else [*MOVES, *WAITS]
+    unknown = set(actions).difference(known)
+    if unknown:
+        index = next(index for index, action in enumerate(actions) if action in unknown)
+        message = f"{shown(actions[index])} is no action (give one of {', '.join(known)})"
+        raise InputError.at(f"step {sum(lengths[:index])}", message)
+    if sum(lengths) > MAX_STEPS:
+        raise InputError.at("", f"{sum(lengths)} steps are too many (give at most {MAX_STEPS})")
+    return np.frombuffer("".join(actions).encode(), np.uint8), np.array(lengths, np.int64)
+
+
+def _counted(bare: str) -> tuple[list[str], list[int]]:
+    """Return the runs of all parts of a path of the round of 2026."""
     rest = _PART.sub("", bare)
     if rest:
         message = f"{shown(rest)} is no part (write [(step,row,column,heading,counter):(F 10,W 5)])"
         raise InputError.at("", message)
-    step = 0
-    for first, actions in _PART.findall(bare):
+    actions, lengths, step = list[str](), list[int](), 0
+    for first, runs in _PART.findall(bare):
         if int(first) != step:
             message = f"a part begins with step {first}, the part before it ends with step {step}"
             raise InputError.at("", f"{message} (let the parts follow each other)")
-        for run in filter(None, actions.split(",")):
+        for run in filter(None, runs.split(",")):
             match = _RUN.fullmatch(run)
             if not match:
                 message = f"{shown(run)} is no run of actions (write F 10)"
                 raise InputError.at(f"step {step}", message)
-            yield match[1], int(match[2])
-            step += int(match[2])
+            actions.append(match[1])
+            lengths.append(int(match[2]))
+            step += lengths[-1]
+    return actions, lengths
 
 
-def _errands(log: dict[str, Any]) -> dict[int, list[tuple[int, Cell]]]:
+def _errands(log: dict[str, Any]) -> Errands:
     """Return the errands that each agent finishes, in order, with their steps."""
     events, tasks = log.get("events", []), log.get("tasks", [])
     for key, value in (("events", events), ("tasks", tasks)):
@@ -261,7 +273,7 @@ def _errands(log: dict[str, Any]) -> dict[int, list[tuple[int, Cell]]]:
                 message = f"task {row[2][0]} has no errand {row[2][1] + 1} (give it in tasks)"
                 faults.note(f"events[{index}]", message)
     faults.stop()
-    errands: dict[int, list[tuple[int, Cell]]] = {}
+    errands: Errands = {}
     for step, agent, errand in sorted(finished):
         errands.setdefault(agent, []).append((step, places[errand]))
     return errands

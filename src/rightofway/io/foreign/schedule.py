@@ -15,14 +15,18 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import numpy as np
+
 from rightofway.errors import InputError, is_printable, shown
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
+    Cell,
     ForeignPlan,
     Trajectory,
-    Visit,
+    Visits,
     cells_of_plan,
+    visits_of,
 )
 from rightofway.io.text import json_line, parse_yaml
 from rightofway.model import Plan
@@ -51,17 +55,18 @@ def read(text: str) -> ForeignPlan:
         name = str(key)
         visits = faults.attempt(f"schedule.{name}", _visits, name, states)
         if visits:
-            agents.append(Trajectory(name=name, visits=visits, place=f"schedule.{name}"))
+            cells, steps = visits
+            agents.append(Trajectory(name=name, cells=cells, steps=steps, place=f"schedule.{name}"))
     faults.stop()
     return ForeignPlan(agents=agents)
 
 
-def _visits(name: str, states: Any) -> list[Visit]:
+def _visits(name: str, states: Any) -> Visits:
     if not is_printable(name):
         raise InputError.at("", f"{shown(name)} is no name (give characters that can be printed)")
     if not isinstance(states, list) or not states:
         raise InputError.at("", f"{shown(states)} is no path (give a list of {{x, y, t}})")
-    faults, visits = Faults(), list[Visit]()
+    faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
     for index, state in enumerate(states):
         place = f"[{index}]"
@@ -74,10 +79,11 @@ def _visits(name: str, states: Any) -> list[Visit]:
             remedy = "begin with t 0, and let t grow"
             faults.note(place, f"t {t} stands after {max(latest, 0)} ({remedy})")
         latest = t
-        if not visits or visits[-1][0] != (y, x):
-            visits.append(((y, x), t))
+        cells.append((y, x))
+        steps.append(t)
     faults.stop()
-    return visits
+    own, visits = visits_of(cells)
+    return own, np.array(steps, np.int64)[visits]
 
 
 def write(plan: Plan) -> str:

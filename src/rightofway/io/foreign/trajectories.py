@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import FEW, InputError, InputFault, shown
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
@@ -27,8 +26,8 @@ from rightofway.model.roadmap import FREE
 Cell = tuple[int, int]
 """Row and column, from 0."""
 
-Visit = tuple[Cell, int]
-"""A cell, and the step at which an agent enters it."""
+Visits = tuple[NDArray[np.int64], NDArray[np.int64]]
+"""Cells, shape (n, 2), and for each the step at which an agent enters it, shape (n,)."""
 
 MAX_STEP = 100_000_000
 """The last step of a plan at most."""
@@ -42,8 +41,10 @@ class Trajectory:
     ----------
     name
         Its name.
-    visits
-        The cells in order, each with the step at which the agent enters it; it stays at the last.
+    cells
+        Where it is, visit by visit: row and column; int64, shape (n, 2). It stays at the last cell.
+    steps
+        When each visit begins; int64, shape (n,).
     place
         Where the agent stands in the file.
     lines
@@ -53,7 +54,8 @@ class Trajectory:
     """
 
     name: str
-    visits: Sequence[Visit]
+    cells: NDArray[np.int64]
+    steps: NDArray[np.int64]
     place: str = ""
     lines: Sequence[int] = ()
     stops: Sequence[Cell] = ()
@@ -82,13 +84,12 @@ class ForeignPlan:
     steps_per_move: int = 1
 
 
-def visits_of(cells: Iterator[Cell]) -> list[Visit]:
+def visits_of(cells: Sequence[Cell] | NDArray[np.int64]) -> Visits:
     """Return the visits of an agent that is at these cells, step by step."""
-    visits, step = list[Visit](), 0
-    for cell, run in groupby(cells):
-        visits.append((cell, step))
-        step += sum(1 for _ in run)
-    return visits
+    given = np.array(cells, np.int64).reshape(-1, 2)
+    moves = np.flatnonzero((np.diff(given, axis=0) != 0).any(axis=1)) + 1
+    steps = np.concatenate(([0], moves))
+    return given[steps], steps
 
 
 def plan_of_trajectories(
@@ -141,17 +142,18 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
     """Return the problem: the agents' own homes and stops, or those of a .scen file."""
     robots = []
     for number, agent in enumerate(found.agents):
-        home, stops = agent.visits[0][0], agent.stops or [agent.visits[-1][0]]
+        home, *_, last = agent.cells[[0, -1]].tolist()
+        stops: Sequence[Sequence[int]] = agent.stops or [last]
         if rows:
-            home, stops = rows[number].start, [rows[number].goal]
+            home, stops = list(rows[number].start), [rows[number].goal]
         robots.append(
-            {"name": agent.name, "home": list(home), "stops": [{"at": list(at)} for at in stops]}
+            {"name": agent.name, "home": home, "stops": [{"at": list(at)} for at in stops]}
         )
     moves = found.steps_per_move
-    if any(step % moves for agent in found.agents for _, step in agent.visits):
+    if any((agent.steps % moves).any() for agent in found.agents):
         # Agents move at steps between those of whole moves. The clock of a scenario follows from
         # its durations; work of one step makes it fine enough.
-        robots[0]["stops"][-1]["work"] = f"1/{moves}"  # type: ignore[index]
+        robots[0]["stops"][-1]["work"] = f"1/{moves}"
     document = {
         "format": SCENARIO_FORMAT,
         "map": {"grid": list(lines)},
@@ -174,25 +176,37 @@ def _renamed(fault: InputFault, found: ForeignPlan) -> InputFault:
 
 
 def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
-    """Report the first step of each agent at which it is in a wall or outside the map."""
-    faults, rows, columns = Faults(), len(lines), len(lines[0])
+    """Report the first step of an agent at which it is in a wall or outside the map.
+
+    On the map of another plan nearly all agents leave it: a few of them are enough.
+    """
+    free = np.array([[character in FREE for character in line] for line in lines])
+    faults, wrong = Faults(), 0
     for agent in found.agents:
-        for (row, column), step in agent.visits:
-            inside = 0 <= row < rows and 0 <= column < columns
-            if inside and lines[row][column] in FREE:
-                continue
-            where = "is blocked" if inside else f"is outside the map of {rows} x {columns} cells"
+        inside: NDArray[np.bool_] = np.all((agent.cells >= 0) & (agent.cells < free.shape), axis=1)
+        good = inside.copy()
+        good[inside] = free[tuple(agent.cells[inside].T)]
+        if good.all():
+            continue
+        wrong += 1
+        if wrong <= FEW:
+            first = int(np.argmin(good))
+            (row, column), step = agent.cells[first].tolist(), int(agent.steps[first])
+            where = "is blocked"
+            if not inside[first]:
+                where = f"is outside {free.shape[0]} rows and {free.shape[1]} columns"
             entered = f"{agent.name} enters [{row}, {column}] at step {step}"
-            faults.note(agent.place_of(step), f"{entered}, which {where} (is it this map?)")
-            break
+            faults.note(agent.place_of(step), f"{entered}, which {where} (give its own map)")
+    if wrong > FEW:
+        faults.note("", f"{wrong - FEW} more agents leave the map (give the map of this plan)")
     faults.stop()
 
 
 def _track(agent: Trajectory, grid: Grid, ticks: int) -> Track:
     """Return the track of an agent; a step lasts for some ticks."""
-    cells = np.array([cell for cell, _ in agent.visits])
-    vertices = grid.vertex_at[cells[:, 0] * grid.columns + cells[:, 1]]
-    return Track.of(vertices, [step * ticks for _, step in agent.visits])
+    rows, columns = agent.cells.T
+    vertices = grid.vertex_at[rows * grid.columns + columns]
+    return Track(vertices=vertices.astype(np.int32), enter=agent.steps * ticks)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

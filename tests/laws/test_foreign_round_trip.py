@@ -1,0 +1,55 @@
+"""A plan that is written for another program and read again has the same visits."""
+
+from __future__ import annotations
+
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
+from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, VertexId
+from rightofway.model.roadmap import roadmap_of_grid
+
+HALL = roadmap_of_grid([".....", ".@...", "....."])
+
+
+@st.composite
+def walks(draw: st.DrawFn) -> Track:
+    """Return a walk of a few visits along edges, each for a few ticks."""
+    vertices, enter = [draw(st.integers(0, HALL.n_vertices - 1))], [0]
+    for _ in range(draw(st.integers(0, 8))):
+        begin, end = HALL.indptr[vertices[-1]], HALL.indptr[vertices[-1] + 1]
+        vertices.append(draw(st.sampled_from(HALL.heads[begin:end].tolist())))
+        enter.append(enter[-1] + draw(st.integers(1, 3)))
+    return Track.of(vertices, enter)
+
+
+@st.composite
+def plans(draw: st.DrawFn) -> Plan:
+    """Return a plan that need not keep the rules: the robots walk as if they were alone."""
+    tracks = draw(
+        st.lists(walks(), min_size=1, max_size=4, unique_by=lambda track: int(track.vertices[0]))
+    )
+    robots = tuple(
+        Robot(
+            name=f"A{index}",
+            home=VertexId(int(track.vertices[0])),
+            stops=(Stop(at=VertexId(int(track.vertices[-1]))),),
+        )
+        for index, track in enumerate(tracks)
+    )
+    scenario = Scenario(roadmap=HALL, robots=robots, rules=Rules(turn=Fraction(0), ends="none"))
+    return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
+
+
+@settings(max_examples=60, deadline=None)
+@given(plan=plans(), name=st.sampled_from(sorted(FOREIGN_FORMATS)))
+def test_what_is_written_for_another_program_is_read_back(plan: Plan, name: str) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path, map_file = Path(folder, "plan"), Path(folder, "hall.map")
+        write_map(HALL, map_file)
+        path.write_text(foreign_text(plan, name), encoding="utf-8")
+        assert load_plan(path, map_file) == plan
