@@ -129,6 +129,17 @@ def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:
     )
 
 
+def test_a_dark_cell_is_blocked_whatever_is_written_there(tmp_path: Path) -> None:
+    path = edited(
+        tmp_path / "map.xlsx",
+        put("map", "B1", "press"), fill("map", "B1", "1F3864"),
+        fill("map", "A2", "FFFFFF"), fill("map", "B3", "000000"),
+    )  # fmt: skip
+    grid = rightofway.load(path).roadmap.grid
+    assert grid is not None
+    assert list(grid.lines()) == [".@.", "@.@", ".@."]
+
+
 def test_a_place_may_point_to_a_cell_of_the_map(tmp_path: Path) -> None:
     """As typed, and as a spreadsheet writes it when a user clicks on the cell."""
     path = edited(

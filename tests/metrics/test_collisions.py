@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.metrics import Collision, Swap, collisions, free_running, swaps
+from rightofway.metrics import Collision, Swap, collisions, free_running, near_misses, swaps
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track, VertexId
 from tests.builders.fleets import grid_fleet
 
@@ -117,3 +118,40 @@ def test_robots_that_follow_or_come_later_do_not_swap() -> None:
     ahead, behind = Track.of([3, 4, 5], [0, 2, 4]), Track.of([3, 4], [1, 2])
     later = Track.of([5, 4, 3], [0, 1, 3])
     assert swaps((ahead, behind, later)) == ()
+
+
+def sized(grid: Sequence[str], *tracks: Track, clearance: Fraction = Fraction(0)) -> Scenario:
+    """Return robots of radius 0.4 on cells of 1, at home where their tracks begin."""
+    trips = [(f"N{track.vertices[0]}", f"N{track.vertices[-1]}") for track in tracks]
+    rules = Rules(occupancy="both", ends="none")
+    fleet = grid_fleet(grid, trips, rules=rules)
+    return replace(
+        fleet,
+        robots=tuple(replace(robot, radius=Fraction(2, 5)) for robot in fleet.robots),
+        rules=replace(rules, clearance=clearance),
+    )
+
+
+def test_robots_on_neighbouring_cells_are_too_near_for_a_wide_clearance() -> None:
+    """0.8 between two centres is enough on cells of 1; with a clearance of 0.3 they need 1.1.
+
+    Both drive right, one row apart, and book the next cell while they drive, to the end.
+    """
+    tracks = (Track.of([0, 1], [0, 1]), Track.of([3, 4], [0, 2]))
+    assert near_misses(sized(OPEN, *tracks), tracks) == ()
+    found = near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
+    assert [(each.robots, each.places, each.start, each.end) for each in found] == [
+        ((0, 1), ((0,), (3,)), 0, None)
+    ]
+
+
+def test_a_robot_that_drives_by_is_too_near_while_it_books_the_cell() -> None:
+    """R2 stands in N4; R1 passes N1 in [1, 2), and books it from tick 0 until it is in N2."""
+    tracks = (Track.of([0, 1, 2], [0, 1, 2]), Track.of([4], [0]))
+    found = near_misses(sized(OPEN, *tracks, clearance=Fraction(3, 10)), tracks)
+    assert [(each.places, each.start, each.end) for each in found] == [(((1,), (4,)), 0, 2)]
+
+
+def test_robots_without_a_size_are_never_too_near() -> None:
+    tracks = (Track.of([0], [0]), Track.of([1], [0]))
+    assert near_misses(grid_fleet(OPEN, [("N0", "N0"), ("N1", "N1")]), tracks) == ()

@@ -355,6 +355,7 @@ def collisions(
 ) -> None:
     """List the collisions and swaps of free-running robots, which never wait for another robot.
 
+    Robots that are too near for their sizes are listed, too.
     The robots of a scenario drive their shortest routes; those of a plan the routes of the plan,
     and the conflicts before and after each decision of its planner follow. A file of - is standard
     input.
@@ -400,8 +401,9 @@ def _texts(lists: Sequence[Listing]) -> list[str]:
 
 def _counted(listed: Sequence[Meeting]) -> str:
     kinds = [each.kind for each in listed]
-    counts = ((kinds.count(kind), kind) for kind in ("collision", "swap"))
-    return " and ".join(f"{count} {kind}" + "s" * (count != 1) for count, kind in counts)
+    collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
+    words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
+    return f"{words}, {near} near miss{'es' * (near != 1)}" if near else words
 
 
 def _collision_data(

@@ -1,7 +1,15 @@
 """What a plan costs, what it must cost at least, what robots lose, where and to which robots."""
 
 from rightofway.metrics.alone import alone_completions
-from rightofway.metrics.collisions import Collision, Swap, collisions, free_running, swaps
+from rightofway.metrics.collisions import (
+    Collision,
+    NearMiss,
+    Swap,
+    collisions,
+    free_running,
+    near_misses,
+    swaps,
+)
 from rightofway.metrics.events import Event, event_columns, events
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
@@ -11,6 +19,7 @@ __all__ = [
     "Collision",
     "Event",
     "Metrics",
+    "NearMiss",
     "Swap",
     "alone_completions",
     "collisions",
@@ -20,6 +29,7 @@ __all__ = [
     "joined_waits",
     "lost_time",
     "measure",
+    "near_misses",
     "swaps",
     "waits",
 ]

@@ -1,16 +1,19 @@
-"""Bookings of vertices, and where robots meet: collisions and swaps, of free-running robots too."""
+"""Bookings, and where robots meet: collisions, swaps, robots that are too near for their sizes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, groupby
+from itertools import chain, combinations, groupby, pairwise, product
 from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
 
 
@@ -161,3 +164,104 @@ def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
         if one != other and (start, end) == (head_of_other, tail_of_other) and start != end
     ]
     return tuple(found)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NearMiss:
+    """Two robots are nearer to each other than their sizes allow, on different places.
+
+    Attributes
+    ----------
+    robots
+        The two, by index, the smaller first.
+    places
+        Where each of them is at first: a vertex, or the two vertices of an edge.
+    start, end
+        From when to when [ticks]; an end of None is never.
+    """
+
+    robots: tuple[int, int]
+    places: tuple[tuple[VertexId, ...], tuple[VertexId, ...]]
+    start: Tick
+    end: Tick | None
+
+
+def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
+    """Return where robots of any tracks are too near for their sizes, by start, then by robots.
+
+    Parameters
+    ----------
+    scenario
+        The problem; without a robot that has a size there is none.
+    tracks
+        One track for each robot.
+
+    Notes
+    -----
+    Bookings of places that exclude each other overlap. What follows without a gap for the same two
+    robots is one near miss.
+    """
+    resources = scenario.problem.resources
+    if resources is None:
+        return ()
+    of_row: defaultdict[int, list[_Booking]] = defaultdict(list)
+    for robot, (track, stay) in enumerate(zip(tracks, stays_of(scenario, tracks), strict=True)):
+        for row, booking in _places_booked(scenario, resources, robot, track, stay):
+            of_row[row].append(booking)
+    meetings: defaultdict[tuple[int, int], list[_Meeting]] = defaultdict(list)
+    for row, bookings in of_row.items():
+        others = chain.from_iterable(of_row.get(each, ()) for each in resources.excluded_by(row))
+        for one, other in product(bookings, list(others)):
+            start, end = max(one.start, other.start), min(one.end, other.end)
+            if one.robot < other.robot and start < end and one.place != other.place:
+                meeting = start, end, (one.place, other.place)
+                meetings[one.robot, other.robot].append(meeting)
+    found = [
+        NearMiss(
+            robots=robots,
+            places=places,
+            start=Tick(start),
+            end=None if end == NEVER else Tick(end),
+        )
+        for robots, times in meetings.items()
+        for start, end, places in _joined(times)
+    ]
+    return tuple(sorted(found, key=lambda each: (each.start, each.robots)))
+
+
+class _Booking(NamedTuple):
+    start: int
+    end: int
+    robot: int
+    place: tuple[VertexId, ...]
+
+
+_Meeting = tuple[int, int, tuple[tuple[VertexId, ...], tuple[VertexId, ...]]]
+
+
+def _places_booked(
+    scenario: Scenario, resources: Resources, robot: int, track: Track, stay: Stays
+) -> Iterator[tuple[int, _Booking]]:
+    """Yield what one robot books, with the row of the resource: vertices, and edges it drives."""
+    vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
+    edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+    starts = (track.enter - np.append(0, stay.drive[:-1])).tolist()
+    ends = [*(track.enter[1:] + scenario.problem.headway).tolist(), NEVER]
+    for vertex, start, end in zip(vertices, starts, ends, strict=True):
+        yield resources.vertex_row(robot, vertex), _Booking(start, end, robot, (vertex,))
+    for edge, ends_of_edge, start, end in zip(
+        edges, pairwise(vertices), starts[1:], ends[:-1], strict=True
+    ):
+        if edge >= 0:
+            yield resources.edge_row(robot, edge), _Booking(start, end, robot, ends_of_edge)
+
+
+def _joined(times: Iterable[_Meeting]) -> list[_Meeting]:
+    """Join what follows without a gap; the places are those of the first."""
+    joined: list[_Meeting] = []
+    for start, end, places in sorted(times):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(joined[-1][1], end), joined[-1][2]
+        else:
+            joined.append((start, end, places))
+    return joined

@@ -110,10 +110,9 @@ def _grid(
     for row in range(top, bottom + 1):
         line = ""
         for column in range(left, right + 1):
-            value = sheet.values.get((row, column))
-            if value is None:
-                dark = sheet.dark.get((row, column))
-                if dark is None:
+            value, dark = sheet.values.get((row, column)), sheet.dark.get((row, column))
+            if value is None or dark:
+                if value is dark is None:
                     empty.append((row, column))
                 line += "@" if dark else "."
             elif isinstance(value, str) and len(value) == 1:

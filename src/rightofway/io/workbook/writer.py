@@ -12,8 +12,8 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 
-WALL, FREE, HEAD = "404040", "FFFFFF", "D9E2EF"
-"""Fills of blocked and free cells, and of headings."""
+WALL, HEAD = "404040", "D9E2EF"
+"""Fills of blocked cells and of headings."""
 
 ROWS = 1000
 """Rows with hints, below the headings."""
@@ -51,7 +51,8 @@ HELP = (
     "    rightofway plan FILE.xlsx --page plan.html",
     "    rightofway plan FILE.xlsx -o result.xlsx",
     "map: one cell of the sheet is one cell of the floor. Write . for free and @ for blocked, or",
-    "fill cells: a dark colour is blocked, no colour or a light one is free.",
+    "fill cells: a dark colour is blocked, whatever is written there; an empty cell without a dark",
+    "colour is free.",
     "robots: one robot in a row. Select a cell to see what belongs there. A place is a cell of the",
     "map (write map!A1, or type = and click on the cell), its number (N0 is the first cell, they",
     "are counted row by row), its [row, column] from 0, or the name of a vertex.",
@@ -134,6 +135,8 @@ def _refuse_more(document: dict[str, Any]) -> None:
 
 
 def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
+    """Write a map; blocked cells are coloured by a rule, so that another character changes them."""
+    from openpyxl.formatting.rule import FormulaRule  # type: ignore[import-untyped]
     from openpyxl.styles import (  # type: ignore[import-untyped]
         Alignment,
         Border,
@@ -145,16 +148,17 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
     side = Side(style="thin", color="BFBFBF")
     border, centre = Border(side, side, side, side), Alignment("center", "center")
-    wall, faint = PatternFill("solid", fgColor=WALL), Font(name="Calibri", size=11, color="A6A6A6")
+    faint = Font(name="Calibri", size=11, color="A6A6A6")
     for row, line in enumerate(lines, 1):
         for column, character in enumerate(line, 1):
             cell = sheet.cell(row, column, character)
             cell.border, cell.alignment, cell.font = border, centre, faint
-            if character not in ".GS":
-                cell.fill = wall
     for column in range(1, len(lines[0]) + 1):
         sheet.column_dimensions[get_column_letter(column)].width = 4
     last = f"{get_column_letter(len(lines[0]))}{len(lines)}"
+    is_wall = 'AND(LEN(A1)=1,ISERROR(FIND(A1,".GS")))'
+    wall = PatternFill("solid", bgColor=WALL)
+    sheet.conditional_formatting.add(f"A1:{last}", FormulaRule(formula=[is_wall], fill=wall))
     hint = "Write . for free and @ for blocked, or fill the cell: dark is blocked."
     _add_hint(sheet, f"A1:{last}", "map", hint, ".,@", strict=False)
 

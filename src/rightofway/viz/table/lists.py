@@ -5,8 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from rightofway.metrics import Collision, Event, collisions, event_columns, events, free_running
-from rightofway.metrics.collisions import Swap, swaps
+from rightofway.metrics import (
+    Collision,
+    Event,
+    NearMiss,
+    Swap,
+    collisions,
+    event_columns,
+    events,
+    free_running,
+    near_misses,
+    swaps,
+)
 from rightofway.model import Decision, Plan, Scenario, Tick, Track
 from rightofway.model.quantities import Quantities
 from rightofway.viz.table.listing import Column, Listing
@@ -90,7 +100,7 @@ def event_list(
 
 
 class Meeting(NamedTuple):
-    """A collision, or a swap, of two robots i and j."""
+    """A collision, a swap or a near miss of two robots i and j."""
 
     i: str
     j: str
@@ -101,7 +111,7 @@ class Meeting(NamedTuple):
 
 
 def meetings(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Meeting, ...]:
-    """Return the collisions and swaps of any tracks, by time, with the names of places.
+    """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
 
     Parameters
     ----------
@@ -111,12 +121,16 @@ def meetings(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Meeting, ...]
         One track for each robot.
     """
     name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
-    found: list[Collision | Swap] = [*collisions(scenario, tracks), *swaps(tracks)]
+    found: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
+    found += near_misses(scenario, tracks)
     rows = []
     for each in found:
         i, j = (name[robot] for robot in each.robots)
         if isinstance(each, Collision):
             row = Meeting(i, j, each.start, each.end, (place(each.vertex),), "collision")
+        elif isinstance(each, NearMiss):
+            near = tuple("-".join(map(place, vertices)) for vertices in each.places)
+            row = Meeting(i, j, each.start, each.end, near, "too near")
         else:
             places = tuple(map(place, each.vertices))
             row = Meeting(i, j, each.tick, each.tick, places, "swap")
@@ -203,10 +217,10 @@ def conflicts_before(plan: Plan) -> list[int | None]:
     -------
     list
         Ticks of overlap, and swaps unless the planner leaves them: first those of the free-running
-        robots, then what the decision before has left. None where robots were rerouted, a
-        collision never ends, or the planner did not count.
+        robots, then what the decision before has left. None where robots were rerouted or have
+        sizes, a collision never ends, or the planner did not count.
     """
-    if plan.run.reroutes:
+    if plan.run.reroutes or plan.scenario.problem.resources is not None:
         return [None] * len(plan.run.decisions)
     tracks, total = free_running(plan), 0
     found = collisions(plan.scenario, tracks)

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from rightofway.errors import InputError, InputFault
-from rightofway.metrics import collisions, free_running, swaps
+from rightofway.metrics import collisions, free_running, near_misses, swaps
 from rightofway.metrics.waits import waits_in
 from rightofway.model import (
     NEVER,
@@ -29,9 +29,10 @@ from rightofway.model.quantities import DIGITS, Quantities, decimal
 MAX_CELLS = 2_000_000
 """Larger tables than this are not written out."""
 
-Mark = Literal["collision", "swap", "wait"]
+Mark = Literal["collision", "swap", "near", "wait"]
 """``collision``: another robot books the place too. ``swap``: last tick before, or first tick
-after, two robots exchange their places. ``wait``: nothing but waiting to do."""
+after, two robots exchange their places. ``near``: another robot is too near for their sizes.
+``wait``: nothing but waiting to do."""
 
 MARKS: tuple[Mark, ...] = get_args(Mark)
 """Where a tick has several, the first of these is shown."""
@@ -310,6 +311,10 @@ def _marks(
     for swap in swaps(tracks):
         for robot in swap.robots:
             spans["swap"].setdefault(robot, []).append((swap.tick - 1, swap.tick + 1))
+    for miss in near_misses(scenario, tracks):
+        end = NEVER if miss.end is None else miss.end
+        for robot in miss.robots:
+            spans["near"].setdefault(robot, []).append((miss.start, end))
     for wait in waits_in(scenario, tracks, stays):
         span = wait.tick, wait.tick + wait.ticks
         spans["wait"].setdefault(wait.robot, []).append(span)

@@ -20,6 +20,7 @@ FILLS: dict[Mark | None, Any] = {
     # Orange and light blue: apart for colour-blind eyes too.
     "collision": PatternFill("solid", fgColor="F4B183"),
     "swap": PatternFill("solid", fgColor="D9A6E8"),
+    "near": PatternFill("solid", fgColor="FFE699"),
     "wait": PatternFill("solid", fgColor="BDD7EE"),
     None: None,
 }
@@ -32,6 +33,7 @@ LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
     ("final", "where it is in the plan", None, None),
     ("", "another robot has the same place", None, "collision"),
     ("", "two robots exchange their places", None, "swap"),
+    ("", "another robot is too near for their sizes", None, "near"),
     ("", "the robot waits", None, "wait"),
 )
 

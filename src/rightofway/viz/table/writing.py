@@ -18,10 +18,11 @@ MAX_TICKS_OF_SHEET = 16_384 - 2
 MAX_LINES = 120
 """Lines of a text that people read; a longer one ends with how to see the rest."""
 
-SIGNS: dict[Mark | None, str] = {"collision": "*", "swap": "!", "wait": "=", None: " "}
+SIGNS: dict[Mark | None, str] = {"collision": "*", "swap": "!", "near": "~", "wait": "=", None: " "}
 MEANINGS: dict[Mark, str] = {
     "collision": "two robots in one place",
     "swap": "two robots swap their places",
+    "near": "two robots are too near",
     "wait": "waits",
 }
 
@@ -46,7 +47,8 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     -------
     str
         Blocks of ticks one below the other, each row with its robot's name, without those that have
-        ended. After a place, ``*`` marks a collision, ``!`` a swap and ``=`` a wait.
+        ended. After a place, ``*`` marks a collision, ``!`` a swap, ``~``
+        robots that are too near for their sizes, and ``=`` a wait.
 
     Raises
     ------
