@@ -22,6 +22,7 @@ SLOW = (
     "laws/test_io_fuzz.py",
     "laws/test_io_round_trip.py",
     "laws/test_laps.py",
+    "laws/test_optimum_with_sizes.py",
     "laws/test_precedence_graph.py",
     "laws/test_monitor.py",
     "laws/test_workbook_fuzz.py",

@@ -19,7 +19,7 @@ from rightofway.model import (
 )
 from tests.builders.fleets import random_fleet
 
-__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "with_radii"]
+__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii"]
 
 
 def with_radii(
@@ -103,6 +103,34 @@ def _sized_on_lanes(seed: int, robots: int) -> Scenario:
             ends="none",
             clearance=Fraction(draw.choice([0, 1]), 10),
         ),
+    )
+
+
+def tiny(seed: int, *, robots: int = 2) -> Scenario:
+    """Return a few robots with sizes, one way trips and no work, on six vertices."""
+    fleets = (_tiny(seed + 1000 * k, robots) for k in range(1000))
+    return next(
+        fleet for fleet in fleets if has_room(fleet) and fleet.problem.clock.tick >= Fraction(1, 8)
+    )
+
+
+def _tiny(seed: int, robots: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    roadmap = crowded_roadmap(draw, vertices=6, edges=7)
+    homes, targets = (draw.sample(range(roadmap.n_vertices), robots) for _ in range(2))
+    return Scenario(
+        roadmap=roadmap,
+        robots=tuple(
+            Robot(
+                name=f"R{k + 1}",
+                home=VertexId(home),
+                stops=(Stop(at=VertexId(target)),),
+                speed=Fraction(draw.choice([1, 2, 4])),
+                radius=Fraction(draw.randint(2, 8), 10),
+            )
+            for k, (home, target) in enumerate(zip(homes, targets, strict=True))
+        ),
+        rules=Rules(ends="none"),
     )
 
 

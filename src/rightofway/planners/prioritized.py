@@ -19,10 +19,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.errors import GaveUp
 from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
+from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
 from rightofway.search import FleetSearch
 
@@ -39,8 +39,8 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
-SEARCHES_WITH_SIZES = 30
-"""The same for robots with a size, for which there is no second method."""
+SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.7
+"""The same for robots with a size, and the part of the time left for that."""
 
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
@@ -55,11 +55,6 @@ def prioritized(task: Task) -> Draft:
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
-    if task.scenario.problem.resources is not None:
-        raise GaveUp(
-            f"robots one after another found no way in {SEARCHES_WITH_SIZES} searches for each"
-            " (try another order or seed)"
-        )
     status = "all together, because robots one after another found no way"
     return replace(plan_fleet(task), status=status)
 
@@ -75,28 +70,37 @@ def fleet_search(task: Task) -> FleetSearch:
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
-    None if no plan was found, or no time is left; that proves nothing.
+    None if no plan was found, or no time is left; that proves nothing. Robots with a size get a
+    plan, or an error.
     """
+    if task.scenario.problem.resources is not None:
+        return _with_sizes(task, search, order)
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
-    has_sizes = task.scenario.problem.resources is not None
-    searches = (SEARCHES_WITH_SIZES if has_sizes else SEARCHES) * len(turns)
-    deadline = task.deadline
+    searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
         searches=searches,
-        time_limit=_part(deadline, 1 if has_sizes else SHARE),
+        time_limit=_part(deadline, SHARE),
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
-    if has_sizes:
-        return None  # one pace is for points
     drafts = [_at_one_pace(task, turns)]
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
     return min(there, key=lambda draft: flowtime_of(task.scenario, draft.tracks), default=None)
+
+
+def _with_sizes(task: Task, search: FleetSearch, order: str) -> Draft:
+    """Plan robots with a size one after another, or else by an order of moves."""
+    turns = _in_order(task.scenario, search, order, task.seed)
+    searches = SEARCHES_WITH_SIZES * len(turns)
+    limit = _part(task.deadline, SHARE_WITH_SIZES)
+    if search.prioritize(turns, searches=searches, time_limit=limit):
+        return _at_own_speeds(task, search)
+    return plan_by_moves(task, search)
 
 
 def _part(deadline: Deadline, share: float) -> float | None:

@@ -1,0 +1,206 @@
+"""An order of single moves for robots with a size: where planning one after another finds no way.
+
+A state is where all robots stand, and which stage each of them has to serve next. In a move, one
+robot drives along one edge while all others stand. A greedy search, nearest to the end first, looks
+for moves that bring all robots through their trips. The order of the moves then gives each robot a
+route and every two bookings that exclude each other an order, and all visits are shifted to the
+earliest times that keep it.
+
+References
+----------
+Doran and Michie, *Experiments with the graph traverser program*, Proceedings of the Royal Society
+A 294, 1966 (greedy search).
+
+Notes
+-----
+Complete: the drives of any plan, in the order of their starts, are such moves, because a robot that
+drives has booked the vertex that it drives to. So if no order of moves exists, no plan does. The
+number of states grows with the power of the number of robots; the search ends undecided after
+`MOST_STATES`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from heapq import heappop, heappush
+from itertools import count
+from typing import NamedTuple
+
+from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
+from rightofway.model import Resources, Tick, Track, VertexId, least_dwell
+from rightofway.planners.task import Draft, Task
+from rightofway.search import Distances, FleetSearch
+
+MOST_STATES = 100_000
+"""States that are expanded at most."""
+
+BETWEEN_CHECKS = 500
+"""States from one look at the clock to the next."""
+
+MOST_NAMED = 6
+"""A proof names the robots of fleets up to this size."""
+
+
+class _State(NamedTuple):
+    """Where each robot stands, and the stage that it serves next."""
+
+    places: tuple[int, ...]
+    stages: tuple[int, ...]
+
+
+class _Move(NamedTuple):
+    robot: int
+    vertex: int
+
+
+def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
+    """Plan robots with a size by an order of single moves.
+
+    Parameters
+    ----------
+    task
+        The problem; its robots have sizes.
+    search
+        The search for its fleet, to shift visits.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists.
+    GaveUp
+        After too many states, or when time ran out.
+    """
+    resources = task.scenario.problem.resources
+    assert resources is not None, "this is for robots with a size"
+    search.start(_in_sequence(task, _moves(task, resources)))
+    search.retime()
+    task.has_plan()
+    return Draft(tracks=search.tracks(), status="order of moves first")
+
+
+def _moves(task: Task, resources: Resources) -> list[_Move]:
+    """Return moves that bring all robots through their trips."""
+    floor = _Floor(task, resources)
+    start = floor.served(_State(tuple(one.home for one in floor.itineraries), floor.no_stage))
+    came_from: dict[_State, tuple[_State, _Move] | None] = {start: None}
+    order = count()  # of equally near states, the latest first
+    waiting = [(floor.to_go(start), 0, start)]
+    for expanded in count():
+        if not waiting:
+            raise NoPlanExists([_blockage(task)])
+        if expanded == MOST_STATES:
+            raise GaveUp(f"no order of moves in {MOST_STATES} states (give robots more room)")
+        if expanded % BETWEEN_CHECKS == 0:
+            task.deadline.check("searching for an order of moves")
+        to_go, _, state = heappop(waiting)
+        if to_go == 0:
+            return _path(came_from, state)
+        for move, after in floor.successors(state):
+            if after not in came_from:
+                came_from[after] = state, move
+                heappush(waiting, (floor.to_go(after), -next(order), after))
+    raise AssertionError("the loop ends by itself")
+
+
+def _path(came_from: dict[_State, tuple[_State, _Move] | None], state: _State) -> list[_Move]:
+    moves = []
+    while (step := came_from[state]) is not None:
+        state, move = step
+        moves.append(move)
+    return moves[::-1]
+
+
+def _blockage(task: Task) -> Blockage:
+    names = tuple(robot.name for robot in task.scenario.robots)
+    who = listed(names) if len(names) <= MOST_NAMED else f"all {len(names)} robots"
+    message = f"{who} have no room to pass each other (give more room, or other places)"
+    return Blockage(message, names, ())
+
+
+class _Floor:
+    """The moves of a fleet, and how far a state is from the end."""
+
+    def __init__(self, task: Task, resources: Resources) -> None:
+        self.itineraries = task.scenario.problem.itineraries
+        self.no_stage = (0,) * len(self.itineraries)
+        self._roadmap, self._resources = task.scenario.roadmap, resources
+        self._excluded: dict[int, int] = {}
+        distances = Distances(self._roadmap)
+        self._ways = [
+            [distances.to(stage.vertex, one.edge_ticks).tolist() for stage in one.stages]
+            for one in self.itineraries
+        ]
+        self._later = [
+            [
+                sum(ways[k][one.stages[k - 1].vertex] for k in range(stage + 1, len(ways)))
+                for stage in range(len(ways))
+            ]
+            for one, ways in zip(self.itineraries, self._ways, strict=True)
+        ]
+
+    def served(self, state: _State) -> _State:
+        """Return the state after each robot has served its stages where it stands."""
+        stages = list(state.stages)
+        for robot, (one, place) in enumerate(zip(self.itineraries, state.places, strict=True)):
+            while stages[robot] < len(one.stages) - 1 and one.stages[stages[robot]].vertex == place:
+                stages[robot] += 1
+        return _State(state.places, tuple(stages))
+
+    def to_go(self, state: _State) -> int:
+        """Return the ticks that all robots drive to their ends, each as if it were alone."""
+        return sum(
+            ways[stage][place] + later[stage]
+            for ways, later, place, stage in zip(
+                self._ways, self._later, state.places, state.stages, strict=True
+            )
+        )
+
+    def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
+        """Yield every move that the places of all other robots allow, and the state after it."""
+        rows = map(self._resources.vertex_row, range(len(state.places)), state.places)
+        excluded = [self._excluded_by(row) for row in rows]
+        before, after = [0], [0]
+        for mask in excluded:
+            before.append(before[-1] | mask)
+        for mask in reversed(excluded):
+            after.append(after[-1] | mask)
+        for robot, place in enumerate(state.places):
+            by_others = before[robot] | after[len(excluded) - 1 - robot]
+            first, end = int(self._roadmap.indptr[place]), int(self._roadmap.indptr[place + 1])
+            for edge in range(first, end):
+                head = int(self._roadmap.heads[edge])
+                needed = 1 << self._resources.vertex_row(robot, head)
+                needed |= 1 << self._resources.edge_row(robot, edge)
+                if needed & by_others or self._ways[robot][state.stages[robot]][head] < 0:
+                    continue
+                places = (*state.places[:robot], head, *state.places[robot + 1 :])
+                yield _Move(robot, head), self.served(_State(places, state.stages))
+
+    def _excluded_by(self, row: int) -> int:
+        """Return the rows that a booking excludes, as bits."""
+        if row not in self._excluded:
+            bits = (1 << other for other in self._resources.excluded_by(row).tolist())
+            self._excluded[row] = sum(bits)
+        return self._excluded[row]
+
+
+def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
+    """Return tracks in which the robots make their moves one after another."""
+    roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
+    vertices = [[one.home] for one in itineraries]
+    enter = [[Tick(0)] for _ in itineraries]
+    stages, now = [0] * len(itineraries), 0
+    for robot, head in moves:
+        one, place = itineraries[robot], vertices[robot][-1]
+        served = []
+        while stages[robot] < len(one.stages) - 1 and one.stages[stages[robot]].vertex == place:
+            served.append(one.stages[stages[robot]])
+            stages[robot] += 1
+        edge = roadmap.edge(place, head)
+        assert edge is not None, "moves are along edges"
+        ready = enter[robot][-1] + least_dwell(served, leaves=True)
+        now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
+        now += task.scenario.problem.headway
+        vertices[robot].append(VertexId(head))
+        enter[robot].append(Tick(now))
+    return [Track.of(*track) for track in zip(vertices, enter, strict=True)]
