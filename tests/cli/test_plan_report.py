@@ -111,6 +111,19 @@ def test_a_home_on_the_way_of_another_robot_is_named_with_a_remedy() -> None:
     ) in " ".join(words.split())
 
 
+def test_a_robot_that_waits_far_from_its_home_because_that_is_on_the_way_of_another() -> None:
+    """R1 waits in N5 for R2 to leave N1, because R2 has to come through N2 twice before."""
+    scenario = grid_fleet(["....", "@.@@"], [("N2", "N5"), ("N0", "N3")])
+    tracks = (
+        Track.of([2, 1, 4, 1, 2], [0, 1, 2, 8, 9]),
+        Track.of([0, 1, 2, 3, 2, 1, 0], [0, 2, 3, 4, 6, 7, 8]),
+    )
+    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
+    lines = report(in_seconds(plan))
+    assert "R1 waits 4 s in N5 at 3 s, for R2 to leave N1." in lines
+    assert lines[-2].startswith("N2, the home of R1, is on the way of R2 and costs R1 4 s: a home")
+
+
 def test_a_tie_is_called_a_tie() -> None:
     words = " ".join(decision_log(door(), door().scenario.quantities).split())
     assert "A tie: either way they complete after 19 time units in sum, and R1 waits by rule." in (

@@ -10,7 +10,7 @@ from typing import Any
 
 from rightofway.cli.terminal import COLUMNS, counted, further, measures, row, short, wrapped
 from rightofway.metrics import Metrics, lost_time, measure, waits
-from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal
+from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal, stays_of
 
 MAX_LINES = 20
 """Lines of a list; longer lists end with the number of further ones, --json has them all."""
@@ -149,7 +149,7 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     if len(sentences) > MAX_LINES:
         yield f"… and {len(sentences) - MAX_LINES} more (--json lists all)"
     yield from _detours(words, lost)
-    yield from _homes_in_the_way(words, groups.values())
+    yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
 
 
 def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
@@ -201,15 +201,25 @@ def _sentence(words: Words, group: Sequence[Loss]) -> str:
     return f"{robot} waits {total} {where} {begin}{reason}."
 
 
-def _homes_in_the_way(words: Words, groups: Iterable[Sequence[Loss]]) -> Iterator[str]:
-    """Say where the last place of a robot that loses time is on the way of others."""
-    scenario = words.plan.scenario
+def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[str]:
+    """Say where the last place of a robot that loses time is on the way of others.
+
+    Such a robot makes room at its last place; or it waits on its way there, while the other robot
+    has yet to come through.
+    """
+    scenario, tracks = words.plan.scenario, words.plan.tracks
+    stays = stays_of(scenario, tracks)
     found: dict[int, dict[int, int]] = {}
-    for loss in chain.from_iterable(groups):
-        blocked = loss.vertex if loss.kind == "makes room" else loss.freed
+    for loss in losses:
         if loss.for_robot is None or loss.kind == "follows":
             continue
-        if blocked == scenario.problem.itineraries[loss.robot].last:
+        stay, other = stays[loss.robot], tracks[loss.for_robot]
+        last = scenario.problem.itineraries[loss.robot].last
+        comes = other.enter[other.vertices == last]
+        before_last = tracks[loss.robot].enter[list(stay.serves[-2:-1])]
+        is_last_leg = bool((loss.tick >= before_last).all())
+        is_blocked = bool(((comes >= loss.tick) & (comes < stay.completion)).any())
+        if loss.vertex == last if loss.kind == "makes room" else is_last_leg and is_blocked:
             others = found.setdefault(loss.robot, {})
             others[loss.for_robot] = others.get(loss.for_robot, 0) + loss.ticks
     largest = sorted(found, key=lambda robot: -sum(found[robot].values()))
