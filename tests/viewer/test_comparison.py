@@ -48,3 +48,10 @@ def test_both_maps_show_the_same_part(both: Viewer) -> None:
     scales = both.ask("[mapView.viewport.scale, comparison.view.viewport.scale]")
     assert scales[0] == scales[1]
     assert both.complaints == []
+
+
+def test_a_faulty_plan_gains_nothing(show: Opener) -> None:
+    viewer = show(door(), title="A.json", other=(door_shifted(-1), "bad.json"))
+    assert "bad.json has 6 faults: do not run it" in viewer.text("#headline")
+    assert viewer.text("#figures") == ""
+    assert viewer.text("#other-title").split("\n") == ["bad.json", "6 faults"]

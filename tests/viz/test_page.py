@@ -168,3 +168,8 @@ def test_a_notebook_shows_the_page_in_a_sandbox() -> None:
     assert elements.tags == ["div", "img", "iframe"]
     assert dict(elements.attributes)["sandbox"] == "allow-scripts"
     assert dict(elements.attributes)["srcdoc"] == page_of(hostile(EVIL))
+
+
+def test_a_plan_of_another_scenario_is_not_compared() -> None:
+    with pytest.raises(InputError, match=r"B.json: the plan has other robots and another map"):
+        page_of(door(), other=(loop(), "B.json"))

@@ -153,7 +153,7 @@ def show(
     is_picture = Path(output or "").suffix.lower() == ".png"
     if not is_picture and (diagram or tick is not None):
         raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
-    if other and not all(path.lower().endswith(PAGE_SUFFIXES) for path in (page, output) if path):
+    if other and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
         raise click.UsageError("two plans are compared on a page (give --page FILE)")
     under = _background(background, background_scale, [page, output])
     found = read_either(plan, count)

@@ -108,12 +108,12 @@ def payload_of(
         payload["noPlan"] = True
         payload["faults"] = _blockages(scenario, no_plan)
     if other is not None:
-        _refuse_other_scenario(plan, other[0])
+        _refuse_other_scenario(plan, *other)
         payload["other"] = {**payload_of(other[0], title=other[1]), "map": {}}
     return payload
 
 
-def _refuse_other_scenario(plan: Plan, other: Plan) -> None:
+def _refuse_other_scenario(plan: Plan, other: Plan, title: str) -> None:
     """Refuse a plan whose robots or places are others."""
     ours, theirs = plan.scenario, other.scenario
     reasons = {
@@ -125,7 +125,7 @@ def _refuse_other_scenario(plan: Plan, other: Plan) -> None:
     }
     if found := [reason for reason, is_so in reasons.items() if is_so]:
         what = f"the plan has {' and '.join(found)}"
-        raise InputError.at("other", f"{what} (give two plans of one scenario)")
+        raise InputError.at(title or "other", f"{what} (give two plans of one scenario)")
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:

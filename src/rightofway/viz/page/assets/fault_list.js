@@ -15,6 +15,7 @@ class FaultList {
     });
     connectFind(this.find, this.list, () => this.#select());
     choice.on("choice", () => this.list.setChosen(this.items[choice.faultIndex] ?? null));
+    if (plan.faultCount > plan.faults.length) this.find.placeholder = `Find among the first ${plan.faults.length}`;
     this.#select();
   }
 

@@ -29,7 +29,7 @@ class MapRobots {
   /** A red ring round the robots that break a rule. */
   #faulty(context, radius, scale) {
     context.strokeStyle = this.theme.held;
-    context.lineWidth = Math.max(0.07, 2 / scale);
+    context.lineWidth = Math.max(0.03, 2 / scale);
     for (const index of this.choice.faulty) ring(context, this.motion.x[index], this.motion.y[index], Math.max(radius * 1.75, 9 / scale));
   }
 

@@ -12,7 +12,7 @@ class Summary {
       element("b", { className: "name" }, plan.title || robots),
       ...(plan.other ? [element("span", {}, "→"), element("b", { className: "name" }, plan.other.title)] : []),
       ...rest.filter(Boolean).map((part) => element("span", {}, part)));
-    document.body.classList.toggle("faulty", plan.faultCount > 0);
+    document.body.classList.toggle("faulty", plan.faultCount > 0 || plan.other?.faultCount > 0);
     document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
       element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat()))));
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
@@ -20,8 +20,9 @@ class Summary {
 
   /** What cannot be told in figures: faults, robots that are stuck, what repeats itself. */
   #outcome() {
-    const { faultCount, noPlan, happened, steady, robots } = this.plan;
+    const { faultCount, noPlan, other, happened, steady, robots } = this.plan;
     if (noPlan) return "no plan exists";
+    if (other) return this.#comparedOutcome();
     if (faultCount) return `${counted(faultCount, "fault")}: do not run this plan`;
     if (happened) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
@@ -30,6 +31,12 @@ class Summary {
     const stuck = robots.filter(({ ending }) => ending === WAIT).length;
     if (stuck) return `${stuck} of them stuck for ever`;
     return steady ? this.#repetition(steady) : "";
+  }
+
+  /** Which of two plans has faults. */
+  #comparedOutcome() {
+    const faulty = [this.plan, this.plan.other].filter(({ faultCount }) => faultCount);
+    return faulty.map(({ title, faultCount }) => `${title} has ${counted(faultCount, "fault")}: do not run it`).join(", ");
   }
 
   /** What a robot is that has done everything. */
@@ -47,7 +54,8 @@ class Summary {
   get figures() {
     const { noPlan, faultCount, happened, steady } = this.plan;
     if (noPlan) return [];
-    if (faultCount) return Object.entries(this.plan.faultKinds).map(([kind, count]) => [kind, String(count), ""]);
+    if (this.plan.other?.faultCount) return [];
+    if (faultCount) return Object.entries(this.plan.faultKinds).map(([kind, count]) => [kind, String(count), this.words.remedy({ kind })]);
     if (this.comparison) return this.#comparedFigures();
     const figures = happened ? this.#floorFigures() : steady ? this.#steadyFigures() : this.#planFigures();
     return figures.filter(([, value]) => value);
