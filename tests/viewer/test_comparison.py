@@ -55,3 +55,25 @@ def test_a_faulty_plan_gains_nothing(show: Opener) -> None:
     assert "bad.json has 6 faults: do not run it" in viewer.text("#headline")
     assert viewer.text("#figures") == ""
     assert viewer.text("#other-title").split("\n") == ["bad.json", "6 faults"]
+
+
+def test_the_tip_of_each_map_stands_on_it(both: Viewer) -> None:
+    box = both.page.locator("#other-map").bounding_box()
+    assert box
+    left, top, scale = both.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
+    both.page.mouse.move(box["x"] + left, box["y"] + top + 2 * scale)  # N6 of the other plan
+    tip = both.page.locator(".map.other .hover")
+    assert tip.inner_text().startswith("N6, stop of R1")
+    assert not both.page.locator("#hover").is_visible()
+    at = tip.bounding_box()
+    assert at
+    assert at["x"] > box["x"]
+
+
+def test_titles_stand_above_the_maps(both: Viewer) -> None:
+    title = both.page.locator("#map-title").bounding_box()
+    box = both.page.locator("#map").bounding_box()
+    assert title
+    assert box
+    top = both.ask("mapView.viewport.top - mapView.viewport.scale / 2")
+    assert title["y"] + title["height"] <= box["y"] + top

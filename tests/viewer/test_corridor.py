@@ -90,6 +90,14 @@ def test_a_corridor_is_the_shortest_way_between_two_places(show: Opener) -> None
     assert viewer.ask("choice.corridor") is None
 
 
+def test_a_decision_shows_both_robots_in_full(show: Opener) -> None:
+    """All seven places of the door, also those where only the robot comes that goes first."""
+    viewer = show(door(), "#decision=1")
+    viewer.wait_for("!frames.asked")
+    assert viewer.ask("diagram.spaceTime.axis.rows.length") == 7
+    assert viewer.text("#diagram-title").startswith("Place over time")
+
+
 def test_a_link_shows_a_corridor(show: Opener) -> None:
     viewer = show(yard(), "#tick=2&from=gate&to=paint")
     assert viewer.ask("choice.corridor") == [1, 2, 3]

@@ -63,6 +63,14 @@ def test_the_chosen_robot_has_its_name_in_any_crowd(show: Opener) -> None:
     assert "Robot 7" in [label["name"] for label in labels(viewer)]
 
 
+def test_names_of_robots_that_meet_do_not_cover_each_other(show: Opener) -> None:
+    """Robots 2 and 3 are shown while they drive through each other, others close by."""
+    viewer = show(crowd(6), "#fault=1")
+    boxes = [label["box"] for label in labels(viewer)]
+    assert len(boxes) > 4
+    assert not any(overlap(one, other) for one, other in combinations(boxes, 2))
+
+
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_robots_can_be_seen_on_every_screen(show: Opener, width: int, height: int) -> None:
     viewer = show(crowd(50), viewport={"width": width, "height": height})

@@ -12,10 +12,7 @@ from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
-from rightofway.viz.raster.sizes import Sizes
-
-MOST_LANES = 5
-"""Of routes side by side."""
+from rightofway.viz.raster.sizes import MOST_ROUTES, Sizes
 
 ARROW_GAP = 56
 """Between two arrow heads of a lane, about [pixels]."""
@@ -92,7 +89,7 @@ def _arrows(pen: Pen, scene: Scene, sizes: Sizes, tail: Point, head: Point) -> N
 
 def _route(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     """Draw a route a little to its right, so that routes along one way show side by side."""
-    aside = (robot % MOST_LANES + 0.5) * sizes.apart * pen.hairline
+    aside = (robot % MOST_ROUTES + 0.5) * sizes.apart * pen.hairline
     points = to_the_right([scene.points[vertex] for vertex in scene.trips[robot].vertices], aside)
     if len(points) > 1:
         strength = max(0.55 - len(scene.trips) / 300, 0.12)  # many routes are a backdrop

@@ -16,6 +16,9 @@ SMALLEST_CAP = {"many": 4.5, "few": 7.0}
 LARGEST_RADIUS = {"grid": 44.0, "network": 20.0}
 """Of a robot [pixels]."""
 
+MOST_ROUTES = 5
+"""Side by side on one way."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sizes:
@@ -57,6 +60,7 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
     robot = min(max(scale * 0.31, least, 1.8), largest)
     lane = min(max(scale * 0.42, 7), max(scale * 1.1, 1.5), 18)
     route = min(max(scale * 0.04, 1.5), 4)
+    beside = (scale * 0.45 if is_grid else lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
     return Sizes(
         robot=robot,
         home=max(scale * 0.37 if is_grid else 0, robot + 1.5),
@@ -64,5 +68,5 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
         lane=lane,
         vertex=min(lane * 0.45, 5.5),
         route=route,
-        apart=route + 1,
+        apart=min(route + 1, beside),
     )

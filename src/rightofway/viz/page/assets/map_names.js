@@ -130,12 +130,18 @@ class MapNames {
     }
     if (!box && !this.#isChosen(index)) return;
     if (box) this.#sides[index] = best;
-    else box = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[0]); // a chosen robot's name may cover others
+    else box = this.#overOthers(SIDES.map((side) => boxBeside(x, y, away, width, ROBOT_TYPE + 2, side)));
     this.#robots.take(...box);
     context.font = font;
     context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
     this.#write(context, name, box, this.motion.activity[index] === DONE ? this.theme.muted : this.theme.ink);
     context.globalAlpha = 1;
+  }
+
+  /** Where the name of a chosen robot stands in a crowd: over other robots, but over no other name. */
+  #overOthers(boxes) {
+    const covers = (box, it) => box[0] < it.box[2] && it.box[0] < box[2] && box[1] < it.box[3] && it.box[1] < box[3];
+    return boxes.find((box) => !this.written.some((it) => covers(box, it))) ?? boxes[0];
   }
 
   #isHome(index) {

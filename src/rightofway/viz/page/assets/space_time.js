@@ -14,13 +14,22 @@ class SpaceTime {
     return this.choice.mode === "plan" ? `${this.#where}: ${this.#signs}` : `${this.#where}: ${this.#signsOfFloor}`;
   }
 
+  /** The vertices along which distances are true; null for all places of a small fleet in one line. */
+  get #route() {
+    const { robot, decision, fault, corridor } = this.choice;
+    if (corridor) return corridor;
+    const isOfTwo = decision || fault;
+    return robot && !(isOfTwo && this.plan.line.length) ? robot.vertices : null;
+  }
+
   /** What the axis is. */
   get #where() {
     const { robot, corridor } = this.choice;
-    const length = (vertices) => this.plan.quantities.length(this.#rounded(new Corridor(this.plan.roadmap, vertices).length));
-    if (corridor) return `Distance over time, ${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length(corridor)}`;
-    if (robot) return `Distance over time along the route of ${robot.name}, ${length(robot.vertices)}`;
-    return "Place over time";
+    const vertices = this.#route;
+    if (!vertices) return "Place over time";
+    const length = this.plan.quantities.length(this.#rounded(new Corridor(this.plan.roadmap, vertices).length));
+    if (!corridor) return `Distance over time along the route of ${robot.name}, ${length}`;
+    return `Distance over time, ${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length}`;
   }
 
   #rounded(length) {
@@ -53,11 +62,9 @@ class SpaceTime {
     if (this.choice.decision) this.#mark(context, this.choice.decision);
   }
 
-  /** The corridor, the route of the chosen robot, or all places where these fit in. */
   #axis(area) {
-    const { robot, corridor } = this.choice;
     const { roadmap, line } = this.plan;
-    if (corridor || robot) return new CorridorAxis(new Corridor(roadmap, corridor ?? robot.vertices), area);
+    if (this.#route) return new CorridorAxis(new Corridor(roadmap, this.#route), area);
     return new LineAxis(line, area, (tail, head) => roadmap.distance(tail, head));
   }
 

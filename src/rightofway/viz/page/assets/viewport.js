@@ -39,11 +39,13 @@ class Viewport extends Observable {
     const { rows, width: columns, height: lines } = this.roadmap;
     const [across, down] = rows ? [columns, lines] : [columns - 1, lines - 1];
     const margin = rows ? 16 : 26;
-    const room = { width: width - 2 * margin, height: height - 1.25 * margin - LEGEND_HEIGHT };
+    const title = this.canvas.parentElement.querySelector(".map-title");
+    const above = Math.max(1.25 * margin, title?.textContent ? title.offsetTop + title.offsetHeight + 4 : 0);
+    const room = { width: width - 2 * margin, height: height - above - LEGEND_HEIGHT };
     const fitting = Math.min(room.width / Math.max(across, 1e-9), room.height / Math.max(down, 1e-9));
     this.scale = Math.max(Math.min(fitting, LARGEST_FITTED[rows ? "cell" : "edge"]), 0.1);
     this.left = (width - (columns - 1) * this.scale) / 2;
-    this.top = 1.25 * margin + (room.height - (lines - 1) * this.scale) / 2;
+    this.top = above + (room.height - (lines - 1) * this.scale) / 2;
     this.#changed(true);
   }
 
