@@ -255,7 +255,7 @@ BROKEN: dict[str, tuple[list[Edit], list[str]]] = {
         [put("robots", "A3", "R1"), put("robots", "B3", "map!A1")],
         [
             "robots!A3: R1 is the name of robots!A2 already (give each its own)",
-            "robots!B3: N0 is the home of robots!A2 already",
+            "robots!B3: N0 is the home of R1 already",
         ],
     ),
 }
