@@ -139,6 +139,7 @@ def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> No
 @pytest.mark.parametrize(
     ("args", "message"),
     [
+        (["--map", "hall.yaml", "-o", "a.json"], "'hall.yaml' does not end in .map (give a .map"),
         (["--to", "lns", "-o", "a.txt"], "'lns' is no format (did you mean lns2?)"),
         (["-o", "a.txt"], "'a.txt' does not end in .yaml, .yml, .json, .xlsx or .scen"),
     ],
