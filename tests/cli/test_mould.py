@@ -132,11 +132,14 @@ def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> No
     improved = cli("improve", "paths.txt", "--map", "hall.map", "-o", "better.json")
     assert (improved.code, cli("check", "better.json").code) == (0, 0)
     assert cli("show", "paths.txt", "--map", "hall.map", "--page", "page.html").code == 0
+    assert "paths.txt: is a plan of another program, not a" in cli("plan", "paths.txt").err
+    assert "hall.scen: a .scen file holds a scenario, not a" in cli("check", "hall.scen").err
 
 
 @pytest.mark.parametrize(
     ("args", "message"),
     [
+        (["--map", "hall.yaml", "-o", "a.json"], "'hall.yaml' does not end in .map (give a .map"),
         (["--to", "lns", "-o", "a.txt"], "'lns' is no format (did you mean lns2?)"),
         (["-o", "a.txt"], "'a.txt' does not end in .yaml, .yml, .json, .xlsx or .scen"),
     ],

@@ -210,6 +210,11 @@ def test_faults_of_a_plan_are_left_to_the_judge(hall: Path) -> None:
         ("schedule: 3\n", "plan:1: schedule: 3 is no schedule"),
         (log(["F,X"]), r"plan:1: actualPaths\[0\].step 1: 'X' is no action \(give one of F, R,"),
         (log(["F"], actionModel="CAR"), "actionModel: 'CAR' is not known"),
+        (log(["F"], actionModel=[1]), r"actionModel: \[1\] is not known"),
+        (
+            '{"note": "no \\"actualPaths\\" here, but \\"actualPaths\\": 1", "actualPaths" : 3}',
+            "3 is",
+        ),
         (log(["F"], start=[[0, 0, "Z"]]), r"start\[0\]: 'Z' is no heading"),
         (log(["F"], start=[]), "start: does not have a start for each of 1 agents"),
         (

@@ -176,6 +176,9 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
+    suffix = f".{parameter.name}"
+    if given is not None and Path(given).suffix.lower() != suffix:
+        raise click.BadParameter(f"{given!r} does not end in {suffix} (give a {suffix} file)")
     context.meta[f"{FILES}{parameter.name}"] = given
 
 

@@ -82,7 +82,8 @@ def read(text: str) -> ForeignPlan:
     faults = Faults()
     turns = faults.attempt("actionModel", _has_headings, log.get("actionModel", "MAPF_T"))
     counter = faults.attempt("agentMaxCounter", _count, log.get("agentMaxCounter", 1)) or 1
-    paths, starts = log["actualPaths"], log.get("start")
+    faults.stop()
+    paths, starts = log.get("actualPaths"), log.get("start")
     if not isinstance(paths, list) or not paths:
         raise InputError.at("actualPaths", f"{shown(paths)} is no list of paths (one an agent)")
     if not isinstance(starts, list) or len(starts) < len(paths):
@@ -176,13 +177,13 @@ def _hits(visits: Sequence[Visits], errands: Errands) -> int:
     hits = 0
     for index, (cells, steps) in enumerate(visits):
         for step, cell in errands.get(index, ()):
-            visit = np.searchsorted(steps, max(step, 0), side="right") - 1
+            visit = np.searchsorted(steps, min(max(step, 0), MAX_STEPS), side="right") - 1
             hits += tuple(cells[visit].tolist()) == cell
     return hits
 
 
 def _has_headings(model: Any) -> bool:
-    if model not in {"MAPF", "MAPF_T"}:
+    if model not in ("MAPF", "MAPF_T"):
         raise InputError.at("", f"{shown(model)} is not known (give MAPF or MAPF_T)")
     return bool(model == "MAPF_T")
 

@@ -32,6 +32,9 @@ Visits = tuple[NDArray[np.int64], NDArray[np.int64]]
 MAX_STEP = 100_000_000
 """The last step of a plan at most."""
 
+MAX_CELLS = 50_000_000
+"""Robots times ticks of a plan that is written cell by cell, at most."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trajectory:
@@ -218,14 +221,14 @@ class CellsOfPlan:
     names
         The robots.
     rows, columns
-        Where each robot is; int64, shape (R, T + 1).
+        Where each robot is; int32, shape (R, T + 1).
     goals
         The last stop of each robot.
     """
 
     names: Sequence[str]
-    rows: NDArray[np.int64]
-    columns: NDArray[np.int64]
+    rows: NDArray[np.int32]
+    columns: NDArray[np.int32]
     goals: Sequence[Cell]
 
     def path(self, robot: int) -> Iterator[Cell]:
@@ -247,7 +250,7 @@ def cells_of_plan(plan: Plan) -> CellsOfPlan:
         message = "the roadmap is no grid, this format holds nothing else (choose another format)"
         raise InputError.at("map", message)
     last = max(int(track.enter[-1]) for track in plan.tracks)
-    if last * len(plan.tracks) > MAX_STEP:
+    if last * len(plan.tracks) > MAX_CELLS:
         message = f"{last} ticks for {len(plan.tracks)} robots are too many for a list of cells"
         raise InputError.at("robots", f"{message} (write .json)")
     ticks = np.arange(last + 1)
@@ -256,7 +259,7 @@ def cells_of_plan(plan: Plan) -> CellsOfPlan:
             grid.cells[track.vertices[np.searchsorted(track.enter, ticks, side="right") - 1]]
             for track in plan.tracks
         ]
-    ).astype(np.int64)
+    )
     return CellsOfPlan(
         names=[robot.name for robot in plan.scenario.robots],
         rows=cells // grid.columns,

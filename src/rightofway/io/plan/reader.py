@@ -69,9 +69,10 @@ def load_plan(
         at fault here: `rightofway.check` judges it.
     """
     path = Path(path)
-    if path.suffix.lower() in WORKBOOKS:
-        message = "a workbook holds a scenario, not a plan (plan it first)"
-        raise InputError.at("", message, str(path))
+    kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
+    kind = kinds.get(path.suffix.lower())
+    if kind:
+        raise InputError.at("", f"{kind} holds a scenario, not a plan (plan it first)", str(path))
     text, foreign = _foreign(path, map_file, scen)
     if foreign is not None:
         return foreign

@@ -21,6 +21,7 @@ from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.text import read_text
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
@@ -97,9 +98,20 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
 
         refuse_count(count)
         return load_workbook_scenario(path)
-    with document_of(path) as document:
+    with blaming(str(path)):
         refuse_count(count)
+        text = read_text(path)
+        _refuse_foreign(text)
+    with document_of(path, text) as document:
         return read_scenario(document, path.parent)
+
+
+def _refuse_foreign(text: str) -> None:
+    from rightofway.io.foreign import recognized  # reads scenarios itself
+
+    if recognized(text):
+        message = "is a plan of another program, not a scenario (check, show or improve it)"
+        raise InputError.at("", message)
 
 
 def refuse_count(count: int | None) -> None:
