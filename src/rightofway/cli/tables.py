@@ -77,6 +77,8 @@ def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
     for option in (
         ticks_option,
         click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
+        click.option("--step", type=_Time(), metavar="TIME",
+                     help="Time from one column of the table to the next; a tick by default."),
         click.option("--to", "last", type=_Time(), metavar="TIME", help="Last time shown."),
         click.option("--from", "first", type=_Time(), default="0", metavar="TIME",
                      help="First time shown, in the scenario's unit, or in ticks with --ticks."),
@@ -93,10 +95,17 @@ class _Shown:
     last_tick: int | None
     robots: list[str] | None
     quantities: Quantities
+    step: int
 
 
 def _shown(
-    plan: Plan, *, first: Fraction, last: Fraction | None, robots: str | None, in_ticks: bool
+    plan: Plan,
+    *,
+    first: Fraction,
+    last: Fraction | None,
+    robots: str | None,
+    step: Fraction | None,
+    in_ticks: bool,
 ) -> _Shown:
     from rightofway.viz.table import end_of
 
@@ -114,6 +123,7 @@ def _shown(
         last_tick=None if last is None else max(math.floor(last / tick), math.ceil(first / tick)),
         robots=names,
         quantities=quantities,
+        step=1 if step is None else max(round(step / tick), 1),
     )
 
 
@@ -184,6 +194,7 @@ def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
         last_tick=shown.last_tick,
         robots=shown.robots,
         quantities=shown.quantities,
+        step=shown.step,
     )
 
 
