@@ -294,5 +294,5 @@ def test_a_long_text_of_short_ticks_has_round_columns() -> None:
     text = as_text(table_of(plan), width=40, max_lines=4)
     assert text.splitlines()[0] == "time            0     1     2     3"
     assert text.splitlines()[-1] == "= waits"
-    assert table_of(plan).with_fewer(2).step == 4
-    assert table_of(plan).with_fewer(2, Fraction(1)).step == 2
+    assert table_of(plan).with_fewer(3).step == 4
+    assert table_of(plan).with_fewer(3, Fraction(1)).step == 2
