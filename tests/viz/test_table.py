@@ -282,7 +282,7 @@ def test_columns_may_be_several_ticks_apart() -> None:
     assert list(table.ticks) == [0, 4, 8, 10]
     cells = planned.cells_at(table.ticks, table.step)
     assert [(cell.place, cell.mark) for cell in cells] == [
-        (0, "collision"), (6, "collision"), (1, "collision"),
+        (0, "collision"), (6, "collision"), (1, "collision"), (0, None),
     ]  # fmt: skip
     places = [cell.place for cell in final.cells_at(table.ticks, table.step)]
     assert places == [0, 7, 4, 0]

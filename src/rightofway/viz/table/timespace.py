@@ -98,14 +98,15 @@ class Row:
     def cells_at(self, ticks: Sequence[int], step: int) -> list[Cell]:
         """Return the cells of ticks some steps apart; fewer where the row ends before.
 
-        A cell has the place at its tick, and the first of all marks within a step.
+        A cell has the place at its tick, and the first of all marks within a step. A robot that is
+        done between two ticks is in its last place at the second one.
         """
         if step == 1:
             return self.cells(ticks[0], ticks[-1])
         found, begins = list[Cell](), [run.start for run in self.runs]
-        end = self.runs[-1].end if self.runs else 0
+        done = self.runs[-1].end - 1 if self.runs else -1
         for tick in ticks:
-            if tick >= end:
+            if tick - step >= done:
                 break
             at, after = bisect_right(begins, tick) - 1, bisect_left(begins, tick + step)
             marks = {run.cell.mark for run in self.runs[at:after]}
@@ -246,6 +247,7 @@ def table_of_groups(
     first_tick: int = 0,
     last_tick: int | None = None,
     quantities: Quantities | None = None,
+    step: int = 1,
 ) -> TimeSpaceTable:
     """Make one table of the two movement groups of a decision: planned rows, list one, list two.
 
@@ -257,7 +259,7 @@ def table_of_groups(
         The robots to show, by index.
     groups
         The tracks of the fleet in both groups; None for a group that found no way.
-    first_tick, last_tick, quantities
+    first_tick, last_tick, quantities, step
         As for `table_of`.
 
     Raises
@@ -269,7 +271,8 @@ def table_of_groups(
     fleets: list[tuple[RowKind, Sequence[Track]]] = [("planned", free_running(plan))]
     fleets += [(kind, each) for kind, each in zip(kinds, groups, strict=True) if each is not None]
     order = [(robot, fleet) for fleet in fleets for robot in robots]
-    return _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    return replace(table, step=step)
 
 
 def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:

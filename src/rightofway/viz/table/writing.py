@@ -22,6 +22,9 @@ MAX_LINES = 120
 LONGEST_STEP = Fraction(1)
 """A long text has columns up to this [time unit], where a tick is shorter."""
 
+LEGEND_WIDTH = 40
+"""Columns that a legend takes, however narrow the terminal is."""
+
 SIGNS: dict[Mark | None, str] = {"collision": "*", "swap": "!", "near": "~", "wait": "=", None: " "}
 MEANINGS: dict[Mark, str] = {
     "collision": "two robots in one place",
@@ -79,7 +82,7 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
         blocks.append("\n".join(block[:max_lines]))
         lines += len(block) + 1
     hints = _hints(table, min(len(blocks) * columns, len(table.ticks)), lines, max_lines)
-    return "\n\n".join((*blocks, *_legend(table), *hints))
+    return "\n\n".join((*blocks, *_legend(table, max(width, LEGEND_WIDTH)), *hints))
 
 
 def _column(table: TimeSpaceTable) -> int:
@@ -105,7 +108,7 @@ def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
     return f"{label}{' ' * (names - text_width(label))}{GAP}{columns}".rstrip()
 
 
-def _legend(table: TimeSpaceTable) -> Iterator[str]:
+def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
     marks = {run.cell.mark for row in table.rows for run in row.runs}
     notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
     quantities = replace(table.quantities, in_ticks=False)
@@ -113,8 +116,14 @@ def _legend(table: TimeSpaceTable) -> Iterator[str]:
         notes.append(f"a tick lasts {quantities.duration(1)}")
     elif table.step * quantities.tick != 1:
         notes.append(f"a column lasts {quantities.duration(table.step)}")
-    if notes:
-        yield "   ".join(notes)
+    lines: list[str] = []
+    for note in notes:
+        if lines and text_width(lines[-1]) + len("   ") + text_width(note) <= width:
+            lines[-1] += f"   {note}"
+        else:
+            lines.append(note)
+    if lines:
+        yield "\n".join(lines)
 
 
 def _hints(table: TimeSpaceTable, ticks: int, lines: int, max_lines: int | None) -> Iterator[str]:
