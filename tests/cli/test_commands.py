@@ -251,7 +251,7 @@ def test_a_table_for_programs_has_a_run_for_each_stretch_of_equal_cells(
 ) -> None:
     cli("plan", door, "-o", "plan.json")
     data = json.loads(cli("table", "plan.json", "--json", "--robots", "R1", "--to", "2").out)
-    assert (data["first_tick"], data["last_tick"], data["tick"]) == (0, 2, "1")
+    assert (data["first_tick"], data["last_tick"], data["tick"]) == (0, 2, 1)
     assert data["rows"][1] == {
         "robot": "R1",
         "kind": "final",

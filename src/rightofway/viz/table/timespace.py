@@ -101,10 +101,10 @@ class Row:
         A cell has the place at its tick, and the first of all marks within a step. A robot that is
         done between two ticks is in its last place at the second one.
         """
-        if step == 1:
+        if step == 1 or not self.runs:
             return self.cells(ticks[0], ticks[-1])
         found, begins = list[Cell](), [run.start for run in self.runs]
-        done = self.runs[-1].end - 1 if self.runs else -1
+        done = self.runs[-1].end - 1
         for tick in ticks:
             if tick - step >= done:
                 break
