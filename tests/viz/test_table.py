@@ -258,7 +258,7 @@ def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
     # Columns of "1000000" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
     assert text.splitlines()[-3:] == [
         "… columns after 13, up to 1000000 are left out",
-        "  (choose with --from, --to and --robots; -o FILE.txt writes all;",
+        "  (choose with --from, --to, --step and --robots; -o FILE.txt writes all;",
         "  --events lists each visit in one line)",
     ]
     assert len(text.splitlines()) < 15
@@ -273,3 +273,26 @@ def test_a_table_of_too_many_robots_is_not_written_out() -> None:
         "table: 120 rows of 20001 columns are more than 2000000 cells"
         " (choose fewer with --robots, or with --from and --to)"
     )
+
+
+def test_columns_may_be_several_ticks_apart() -> None:
+    """Table 4, R1 planned: 0 1* 4* 7* 6 6 7* 4* 1* 0; a mark within a step is shown."""
+    table = table_of(published("door-1"), robots=["R1"], step=4)
+    planned, final = table.rows
+    assert list(table.ticks) == [0, 4, 8, 10]
+    cells = planned.cells_at(table.ticks, table.step)
+    assert [(cell.place, cell.mark) for cell in cells] == [
+        (0, "collision"), (6, "collision"), (1, "collision"), (0, None),
+    ]  # fmt: skip
+    places = [cell.place for cell in final.cells_at(table.ticks, table.step)]
+    assert places == [0, 7, 4, 0]
+
+
+def test_a_long_text_of_short_ticks_has_round_columns() -> None:
+    """A tick is 1/2, and 4 lines are one block of 4 columns; steps go up to one time unit."""
+    plan = named()
+    text = as_text(table_of(plan), width=40, max_lines=4)
+    assert text.splitlines()[0] == "time            0     1     2     3"
+    assert text.splitlines()[-1] == "= waits"
+    assert table_of(plan).with_fewer(3).step == 4
+    assert table_of(plan).with_fewer(3, Fraction(1)).step == 2

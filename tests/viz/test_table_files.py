@@ -124,7 +124,7 @@ def test_a_plan_longer_than_a_sheet_is_refused_and_nothing_written(tmp_path: Pat
         write_xlsx(table_of(plan), tmp_path / "table.xlsx")
     assert str(raised.value) == (
         "table: 16383 columns, room is for 16382 (choose fewer with --from and --to,"
-        " in Python with first_tick and last_tick; --events has no such limit)"
+        " or longer ones with --step; --events has no such limit)"
     )
     assert list(tmp_path.iterdir()) == []
 

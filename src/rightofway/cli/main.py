@@ -25,13 +25,14 @@ import click
 
 from rightofway import __version__
 from rightofway.cli.bench import bench
+from rightofway.cli.collisions import collisions
 from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
 from rightofway.cli.laps import laps
 from rightofway.cli.paper import paper
 from rightofway.cli.planning import bound, improve, plan
 from rightofway.cli.simulate import simulate
-from rightofway.cli.tables import collisions, table
+from rightofway.cli.tables import table
 from rightofway.cli.terminal import complain, quiet_option, speak_utf8
 from rightofway.cli.views import check, show
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists

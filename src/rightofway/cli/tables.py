@@ -1,4 +1,4 @@
-"""``rightofway table`` and ``collisions``: a plan as tables that other programs read too."""
+"""``rightofway table``: where robots are, when, as tables that other programs read too."""
 
 from __future__ import annotations
 
@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.completion import PLANS, SCENARIOS, files, planners
+from rightofway.cli.completion import PLANS, files
 from rightofway.cli.terminal import (
     as_json_option,
-    count_option,
     foreign_options,
     put_json,
     quantities_of,
-    read_either,
     read_plan,
     say,
     ticks_option,
@@ -31,7 +29,7 @@ from rightofway.model.values import written
 if TYPE_CHECKING:
     from rightofway.model import Decision, Plan
     from rightofway.model.quantities import Quantities
-    from rightofway.viz.table import Listing, Meeting, TimeSpaceTable
+    from rightofway.viz.table import Listing, TimeSpaceTable
 
     NumberType = click.ParamType[Fraction]
 else:
@@ -44,13 +42,6 @@ Examples:
   rightofway table plan.json --events -o events.csv
   rightofway table plan.json --decision 1
   rightofway table plan.json --all -o result.xlsx
-"""
-
-COLLISIONS_EXAMPLES = """\b
-Examples:
-  rightofway collisions door.yaml
-  rightofway collisions door.yaml --each-tick -o collisions.csv
-  rightofway collisions plan.json
 """
 
 
@@ -77,6 +68,8 @@ def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
     for option in (
         ticks_option,
         click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
+        click.option("--step", type=_Time(), metavar="TIME",
+                     help="Time from one column of the table to the next; a tick by default."),
         click.option("--to", "last", type=_Time(), metavar="TIME", help="Last time shown."),
         click.option("--from", "first", type=_Time(), default="0", metavar="TIME",
                      help="First time shown, in the scenario's unit, or in ticks with --ticks."),
@@ -93,10 +86,17 @@ class _Shown:
     last_tick: int | None
     robots: list[str] | None
     quantities: Quantities
+    step: int
 
 
 def _shown(
-    plan: Plan, *, first: Fraction, last: Fraction | None, robots: str | None, in_ticks: bool
+    plan: Plan,
+    *,
+    first: Fraction,
+    last: Fraction | None,
+    robots: str | None,
+    step: Fraction | None,
+    in_ticks: bool,
 ) -> _Shown:
     from rightofway.viz.table import end_of
 
@@ -114,6 +114,7 @@ def _shown(
         last_tick=None if last is None else max(math.floor(last / tick), math.ceil(first / tick)),
         robots=names,
         quantities=quantities,
+        step=1 if step is None else max(round(step / tick), 1),
     )
 
 
@@ -157,12 +158,11 @@ def table(
         raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
     if as_json and output == "-":
         raise click.UsageError("--json and -o - both go to standard output")
+    if events and given["step"]:
+        raise click.UsageError("--step is for the table, --events lists visits: choose one")
     found = read_plan(plan)
     if everything:
-        from rightofway.viz.table.result import write_result
-
-        write_result(found, output or "")
-        say(f"wrote {output}")
+        _write_all(found, output or "", given)
         return
     if events:
         _events(found, _shown(found, **given), output, as_json=as_json)
@@ -175,6 +175,16 @@ def table(
     _put_table(made, output, as_json=as_json, words=words)
 
 
+def _write_all(found: Plan, path: str, given: dict[str, Any]) -> None:
+    from rightofway.viz.table.result import write_result
+
+    if any(given.values()):
+        message = "--all writes everything (leave out --from, --to, --step, --robots and --ticks)"
+        raise click.UsageError(message)
+    write_result(found, path)
+    say(f"wrote {path}")
+
+
 def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
     from rightofway.viz.table import table_of
 
@@ -184,6 +194,7 @@ def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
         last_tick=shown.last_tick,
         robots=shown.robots,
         quantities=shown.quantities,
+        step=shown.step,
     )
 
 
@@ -218,7 +229,7 @@ def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
     return {
         "first_tick": found.first_tick,
         "last_tick": found.last_tick,
-        **_clock_data(found.quantities),
+        **clock_data(found.quantities),
         "rows": [
             {
                 "robot": row.robot,
@@ -233,7 +244,8 @@ def _table_data(found: TimeSpaceTable) -> dict[str, Any]:
     }
 
 
-def _clock_data(quantities: Quantities) -> dict[str, Any]:
+def clock_data(quantities: Quantities) -> dict[str, Any]:
+    """Return what the times of a report for programs are measured in."""
     units = quantities.units
     return {
         "tick": written(quantities.tick),
@@ -253,7 +265,7 @@ def _events(found: Plan, shown: _Shown, output: str | None, *, as_json: bool) ->
         _write(output, parquet_of(event_columns(found, chosen)))
         say(f"wrote {output}")
     elif output:
-        _put_lists([made], output)
+        put_lists([made], output)
     elif not as_json:
         click.echo(made.as_text())
     if as_json:
@@ -262,10 +274,10 @@ def _events(found: Plan, shown: _Shown, output: str | None, *, as_json: bool) ->
         keys = [key for key in columns if key not in exact.values()]
         values = zip(*(columns[exact.get(key, key)] for key in keys), strict=True)
         rows = [dict(zip(keys, row, strict=True)) for row in values]
-        put_json({**_clock_data(shown.quantities), "events": rows})
+        put_json({**clock_data(shown.quantities), "events": rows})
 
 
-def _put_lists(lists: Sequence[Listing], output: str) -> None:
+def put_lists(lists: Sequence[Listing], output: str) -> None:
     """Write lists by the ending of the file: all as sheets or text, the first one as CSV."""
     from rightofway.viz.table.workbook import sheets_of
 
@@ -303,6 +315,7 @@ def _groups(found: Plan, number: int, given: dict[str, Any]) -> tuple[TimeSpaceT
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,
         quantities=shown.quantities,
+        step=shown.step,
     )
     completions = [None if group is None else group.completions for group in groups]
     words = _group_words(found, decision, completions, shown.quantities)
@@ -320,7 +333,7 @@ def _group_words(
     lines = [f"{i} and {j} meet at {place} at {quantities.moment(decision.tick)}."]
     for number, pair in enumerate(completions, 1):
         if pair is None:
-            lines.append(f"List {number}: no way.")
+            lines.append(f"List {number}: no way was found.")
             continue
         one, other = map(quantities.cell, pair)
         total = quantities.duration(sum(pair))
@@ -328,116 +341,3 @@ def _group_words(
     waits = found.scenario.robots[decision.waits].name
     lines.append(f"{waits} waits ({decision.level} level).")
     return lines
-
-
-@click.command(epilog=COLLISIONS_EXAMPLES, short_help="List where robots meet that never wait.")
-@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
-                shell_complete=files(*SCENARIOS))  # fmt: skip
-@count_option
-@foreign_options
-@click.option("-o", "--output", metavar="FILE", callback=writable(".txt", ".csv", ".xlsx"),
-              help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
-@click.option("--each-tick", is_flag=True,
-              help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
-@click.option("--planner", metavar="NAME", shell_complete=planners(improving=False),
-              help="Plan a scenario first, and list each decision too.")  # fmt: skip
-@ticks_option
-@as_json_option("list")
-def collisions(
-    *,
-    source: str,
-    count: int | None,
-    output: str | None,
-    each_tick: bool,
-    planner: str | None,
-    in_ticks: bool,
-    as_json: bool,
-) -> None:
-    """List the collisions and swaps of free-running robots, which never wait for another robot.
-
-    Robots that are too near for their sizes are listed, too.
-    The robots of a scenario drive their shortest routes; those of a plan the routes of the plan,
-    and the conflicts before and after each decision of its planner follow. A file of - is standard
-    input.
-    """
-    from rightofway.metrics import free_running
-    from rightofway.model import Scenario, completions_of
-    from rightofway.planners.routing import free_running_tracks
-    from rightofway.solve import solve
-    from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
-
-    found = read_either(source, count)
-    if isinstance(found, Scenario) and planner:
-        found = solve(found, planner, report=say)
-    plan = None if isinstance(found, Scenario) else found
-    scenario = found if isinstance(found, Scenario) else found.scenario
-    tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
-    quantities = quantities_of(scenario, in_ticks=in_ticks)
-    listed = meetings(scenario, tracks)
-    if each_tick:
-        end = max(completions_of(scenario, tracks))
-        lists = [collision_ticks(listed, quantities, end)]
-    else:
-        lists = [collision_list(listed, quantities)]
-    if plan is not None and plan.run.decisions:
-        lists.append(decision_list(plan, quantities))
-    if output:
-        _put_lists(lists, output)
-    if as_json:
-        put_json(_collision_data(listed, plan, quantities))
-    elif not output:
-        routes = "shortest routes" if plan is None else "routes of the plan"
-        parts = [f"On the {routes}, without waits: {_counted(listed)}.", *_texts(lists)]
-        if plan is not None:
-            left = meetings(scenario, plan.tracks)
-            parts.append(f"Left in the plan: {_counted(left)}.")
-            parts += _texts([collision_list(left, quantities)])
-        click.echo("\n\n".join(parts))
-
-
-def _texts(lists: Sequence[Listing]) -> list[str]:
-    return [each.as_text() for each in lists if len(each)]
-
-
-def _counted(listed: Sequence[Meeting]) -> str:
-    kinds = [each.kind for each in listed]
-    collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
-    words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
-    return f"{words}, {near} near miss{'es' * (near != 1)}" if near else words
-
-
-def _collision_data(
-    listed: Sequence[Meeting], plan: Plan | None, quantities: Quantities
-) -> dict[str, Any]:
-    """Return collisions and decisions for programs; times in ticks."""
-    from rightofway.viz.table import conflicts_before, meetings
-
-    data = {**_clock_data(quantities), "collisions": [_meeting_data(each) for each in listed]}
-    if plan is not None:
-        names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
-        data["decisions"] = [
-            {
-                "tick": each.tick,
-                "kind": each.kind,
-                "vertices": list(map(place, each.vertices)),
-                "robots": [names[robot] for robot in each.robots],
-                "waits": names[each.waits],
-                "level": each.level,
-                "conflicts_before": before,
-                "conflicts_left": each.conflicts_left,
-                "completion_sums": each.completion_sums,
-            }
-            for each, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
-        ]
-        data["left"] = [_meeting_data(each) for each in meetings(plan.scenario, plan.tracks)]
-    return data
-
-
-def _meeting_data(each: Meeting) -> dict[str, Any]:
-    return {
-        "robots": [each.i, each.j],
-        "vertices": each.places,
-        "start": each.start,
-        "end": each.until,
-        "kind": each.kind,
-    }

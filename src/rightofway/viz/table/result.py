@@ -25,7 +25,7 @@ from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.table.listing import Column, Listing
 from rightofway.viz.table.lists import collision_list, decision_list, event_list, meetings
-from rightofway.viz.table.timespace import table_of
+from rightofway.viz.table.timespace import MAX_CELLS, table_of
 from rightofway.viz.table.workbook import (
     BOLD,
     cell_of,
@@ -77,7 +77,7 @@ def result_of(plan: Plan) -> bytes:
     left_out: list[tuple[str, str]] = []
     try:
         table = table_of(plan)
-        table.refuse_more_than(MAX_TICKS_OF_SHEET)
+        table = table.with_fewer(min(MAX_TICKS_OF_SHEET, MAX_CELLS // len(table.rows)))
         write_table(_sheet(workbook, "time and space"), table)
         write_legend(_sheet(workbook, "legend"), table)
     except InputError as error:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from itertools import pairwise
+from fractions import Fraction
+from itertools import count, pairwise
+from math import floor, log10
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -92,6 +95,25 @@ class Row:
             for _ in range(max(run.start, first), min(run.end, last + 1))
         ]
 
+    def cells_at(self, ticks: Sequence[int], step: int) -> list[Cell]:
+        """Return the cells of ticks some steps apart; fewer where the row ends before.
+
+        A cell has the place at its tick, and the first of all marks within a step. A robot that is
+        done between two ticks is in its last place at the second one.
+        """
+        if step == 1 or not self.runs:
+            return self.cells(ticks[0], ticks[-1])
+        found, begins = list[Cell](), [run.start for run in self.runs]
+        done = self.runs[-1].end - 1
+        for tick in ticks:
+            if tick - step >= done:
+                break
+            at, after = bisect_right(begins, tick) - 1, bisect_left(begins, tick + step)
+            marks = {run.cell.mark for run in self.runs[at:after]}
+            mark = next((mark for mark in MARKS if mark in marks), None)
+            found.append(Cell(self.runs[at].cell.place, mark))
+        return found
+
     @property
     def places(self) -> list[Place]:
         """What the robot holds, tick by tick."""
@@ -110,17 +132,44 @@ class TimeSpaceTable:
         How times are written.
     rows
         Planned and final row of each robot in turn; or one kind of rows after another.
+    step
+        How much later the next column is [ticks].
     """
 
     first_tick: Tick
     last_tick: Tick
     quantities: Quantities
     rows: tuple[Row, ...]
+    step: int = 1
 
     @property
-    def ticks(self) -> range:
-        """The ticks of its columns."""
-        return range(self.first_tick, self.last_tick + 1)
+    def ticks(self) -> Sequence[int]:
+        """The ticks of its columns; the last one is among them, whatever the step."""
+        ticks = range(self.first_tick, self.last_tick + 1, self.step)
+        return ticks if ticks[-1] == self.last_tick else (*ticks, self.last_tick)
+
+    def with_fewer(self, columns: int, longest: Fraction | None = None) -> TimeSpaceTable:
+        """Return the table with at most so many columns, each longer by a round step.
+
+        Parameters
+        ----------
+        columns
+            Columns that are wanted.
+        longest
+            The longest step [time unit]; the table may have more columns then. None for any.
+        """
+        tick, table = self.quantities.tick, self
+        lengths = (
+            digit * Fraction(10) ** power
+            for power in count(floor(log10(tick)))
+            for digit in (1, 2, 5)
+        )
+        while len(table.ticks) > columns:
+            length = next(lengths)
+            if longest is not None and length > longest:
+                break
+            table = replace(self, step=max(int(length / tick), 1))
+        return table
 
     @property
     def heading(self) -> str:
@@ -129,12 +178,12 @@ class TimeSpaceTable:
 
     def time(self, tick: int) -> str:
         """Return the time of a column, with as many decimals as tell two columns apart."""
-        length, digits = self.quantities.tick, DIGITS
+        length, digits = self.step * self.quantities.tick, DIGITS
         if self.quantities.in_ticks:
             return str(tick)
         while (length * 10**digits).denominator > 1 and length * 10**digits < 10:  # noqa: PLR2004
             digits += 1
-        return decimal(tick * length, digits)
+        return decimal(tick * self.quantities.tick, digits)
 
     def refuse_more_than(self, columns: int) -> None:
         """Raise an InputError for more ticks than ``columns``, or more than `MAX_CELLS` cells."""
@@ -142,7 +191,7 @@ class TimeSpaceTable:
         if ticks > columns:
             message = (
                 f"{ticks} columns, room is for {columns} (choose fewer with --from and --to,"
-                " in Python with first_tick and last_tick; --events has no such limit)"
+                " or longer ones with --step; --events has no such limit)"
             )
             raise InputError.at("table", message)
         if ticks * rows > MAX_CELLS:
@@ -160,6 +209,7 @@ def table_of(
     last_tick: int | None = None,
     robots: Sequence[str] | None = None,
     quantities: Quantities | None = None,
+    step: int = 1,
 ) -> TimeSpaceTable:
     """Make the time/space table of a plan.
 
@@ -174,6 +224,8 @@ def table_of(
         with robots that are not shown are marked all the same.
     quantities
         How times are written; by default as the scenario does.
+    step
+        How much later the next column is [ticks], 1 or more.
 
     Raises
     ------
@@ -183,7 +235,8 @@ def table_of(
     shown = chosen_robots(plan.scenario, robots)
     fleets: Fleets = (("planned", free_running(plan)), ("final", plan.tracks))
     order = [(robot, fleet) for robot in shown for fleet in fleets]
-    return _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    return replace(table, step=step)
 
 
 def table_of_groups(
@@ -194,6 +247,7 @@ def table_of_groups(
     first_tick: int = 0,
     last_tick: int | None = None,
     quantities: Quantities | None = None,
+    step: int = 1,
 ) -> TimeSpaceTable:
     """Make one table of the two movement groups of a decision: planned rows, list one, list two.
 
@@ -205,7 +259,7 @@ def table_of_groups(
         The robots to show, by index.
     groups
         The tracks of the fleet in both groups; None for a group that found no way.
-    first_tick, last_tick, quantities
+    first_tick, last_tick, quantities, step
         As for `table_of`.
 
     Raises
@@ -217,7 +271,8 @@ def table_of_groups(
     fleets: list[tuple[RowKind, Sequence[Track]]] = [("planned", free_running(plan))]
     fleets += [(kind, each) for kind, each in zip(kinds, groups, strict=True) if each is not None]
     order = [(robot, fleet) for fleet in fleets for robot in robots]
-    return _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    return replace(table, step=step)
 
 
 def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:

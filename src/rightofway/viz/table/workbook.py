@@ -110,7 +110,7 @@ def write_table(sheet: Any, table: TimeSpaceTable) -> None:
         names = [cell_of(sheet, row.robot, font=BOLD), cell_of(sheet, row.kind, font=font)]
         cells = (
             cell_of(sheet, place, font=None if mark else font, mark=mark)
-            for place, mark in row.cells(table.first_tick, table.last_tick)
+            for place, mark in row.cells_at(table.ticks, table.step)
         )
         sheet.append([*names, *cells])
 
@@ -121,7 +121,7 @@ def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     for name, meaning, font, mark in LEGEND:
         sheet.append([cell_of(sheet, name, font=font, mark=mark), meaning])
-    lasts = replace(table.quantities, in_ticks=False).duration(1)
+    lasts = replace(table.quantities, in_ticks=False).duration(table.step)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
 
 

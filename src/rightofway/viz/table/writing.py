@@ -5,8 +5,9 @@ from __future__ import annotations
 import csv
 import io
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from unicodedata import combining, east_asian_width
 
 from rightofway.files import write_whole
@@ -17,6 +18,12 @@ MAX_TICKS_OF_SHEET = 16_384 - 2
 
 MAX_LINES = 120
 """Lines of a text that people read; a longer one ends with how to see the rest."""
+
+LONGEST_STEP = Fraction(1)
+"""A long text has columns up to this [time unit], where a tick is shorter."""
+
+LEGEND_WIDTH = 40
+"""Columns that a legend takes, however narrow the terminal is."""
 
 SIGNS: dict[Mark | None, str] = {"collision": "*", "swap": "!", "near": "~", "wait": "=", None: " "}
 MEANINGS: dict[Mark, str] = {
@@ -40,8 +47,8 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     width
         Columns of the terminal. A block shows at least one tick, however narrow it is.
     max_lines
-        About how many lines to write before the table is cut, with a last line that says so; None
-        for all.
+        About how many lines to write; None for all. A longer table has columns of several ticks, up
+        to one time unit, and is cut if that is not enough; both are said below it.
 
     Returns
     -------
@@ -59,10 +66,13 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
         table.refuse_more_than(MAX_CELLS)
     labels = [f"{row.robot} {row.kind}" for row in table.rows]
     names = max(map(text_width, (table.heading, *labels)))
-    places = {str(run.cell.place) for row in table.rows for run in row.runs}
-    times = table.time(table.last_tick), table.time(max(table.last_tick - 1, 0))
-    size = max(map(text_width, (*places, *times)))
-    columns = max((width - names - len(GAP) + 1) // (size + len("* ")), 1)
+    room = width - names - len(GAP) + 1
+    size = _column(table)
+    if max_lines is not None and not table.quantities.in_ticks and table.step == 1:
+        blocks_shown = max(max_lines // (len(labels) + 2), 1)
+        table = table.with_fewer(blocks_shown * (room // (size + len("* "))), LONGEST_STEP)
+        size = _column(table)
+    columns = max(room // (size + len("* ")), 1)
     blocks: list[str] = []
     lines = 0
     for begin in range(0, len(table.ticks), columns):
@@ -72,15 +82,22 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
         blocks.append("\n".join(block[:max_lines]))
         lines += len(block) + 1
     hints = _hints(table, min(len(blocks) * columns, len(table.ticks)), lines, max_lines)
-    return "\n\n".join((*blocks, *_legend(table), *hints))
+    return "\n\n".join((*blocks, *_legend(table, max(width, LEGEND_WIDTH)), *hints))
+
+
+def _column(table: TimeSpaceTable) -> int:
+    """Return how wide places and times are."""
+    places = {str(run.cell.place) for row in table.rows for run in row.runs}
+    times = table.time(table.last_tick), table.time(max(table.last_tick - table.step, 0))
+    return max(map(text_width, (*places, *times)))
 
 
 def _block(
-    table: TimeSpaceTable, labels: list[str], ticks: range, names: int, size: int
+    table: TimeSpaceTable, labels: list[str], ticks: Sequence[int], names: int, size: int
 ) -> Iterator[str]:
     yield _line(table.heading, [Cell(table.time(tick), None) for tick in ticks], names, size)
     for label, row in zip(labels, table.rows, strict=True):
-        cells = row.cells(ticks[0], ticks[-1])
+        cells = row.cells_at(ticks, table.step)
         if cells:
             yield _line(label, cells, names, size)
 
@@ -91,15 +108,22 @@ def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
     return f"{label}{' ' * (names - text_width(label))}{GAP}{columns}".rstrip()
 
 
-def _legend(table: TimeSpaceTable) -> Iterator[str]:
+def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
     marks = {run.cell.mark for row in table.rows for run in row.runs}
     notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
-    quantities = table.quantities
-    if quantities.tick != 1:
-        column = "a tick" if quantities.in_ticks else "a column"
-        notes.append(f"{column} lasts {replace(quantities, in_ticks=False).duration(1)}")
-    if notes:
-        yield "   ".join(notes)
+    quantities = replace(table.quantities, in_ticks=False)
+    if table.quantities.in_ticks and quantities.tick != 1:
+        notes.append(f"a tick lasts {quantities.duration(1)}")
+    elif table.step * quantities.tick != 1:
+        notes.append(f"a column lasts {quantities.duration(table.step)}")
+    lines: list[str] = []
+    for note in notes:
+        if lines and text_width(lines[-1]) + len("   ") + text_width(note) <= width:
+            lines[-1] += f"   {note}"
+        else:
+            lines.append(note)
+    if lines:
+        yield "\n".join(lines)
 
 
 def _hints(table: TimeSpaceTable, ticks: int, lines: int, max_lines: int | None) -> Iterator[str]:
@@ -108,12 +132,12 @@ def _hints(table: TimeSpaceTable, ticks: int, lines: int, max_lines: int | None)
     if max_lines is not None and lines > max(max_lines, len(table.rows) + 2):
         missing.append("rows")
     if ticks < len(table.ticks):
-        shown, last = table.time(table.first_tick + ticks - 1), table.time(table.last_tick)
+        shown, last = table.time(table.ticks[ticks - 1]), table.time(table.last_tick)
         missing.append(f"columns after {shown}, up to {last}")
     if missing:
         yield (
             f"… {' and '.join(missing)} are left out"
-            "\n  (choose with --from, --to and --robots; -o FILE.txt writes all;"
+            "\n  (choose with --from, --to, --step and --robots; -o FILE.txt writes all;"
             "\n  --events lists each visit in one line)"
         )
 
@@ -151,10 +175,10 @@ def as_csv(table: TimeSpaceTable) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["robot", "row", *map(table.time, table.ticks)])
     for row in table.rows:
-        writer.writerow([row.robot, row.kind, *row.places])
-        marks = [run.cell.mark or "" for run in row.runs for _ in range(run.start, run.end)]
-        if any(marks):
-            writer.writerow([row.robot, f"{row.kind} marks", *marks])
+        cells = row.cells_at(table.ticks, table.step)
+        writer.writerow([row.robot, row.kind, *(cell.place for cell in cells)])
+        if any(cell.mark for cell in cells):
+            writer.writerow([row.robot, f"{row.kind} marks", *(cell.mark or "" for cell in cells)])
     return text.getvalue()
 
 

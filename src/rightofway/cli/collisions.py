@@ -1,0 +1,147 @@
+"""``rightofway collisions``: where free-running robots meet, and what each decision has left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.completion import SCENARIOS, files, planners
+from rightofway.cli.tables import clock_data, put_lists
+from rightofway.cli.terminal import (
+    as_json_option,
+    count_option,
+    foreign_options,
+    progress,
+    put_json,
+    quantities_of,
+    read_either,
+    ticks_option,
+    writable,
+)
+
+if TYPE_CHECKING:
+    from rightofway.model import Plan
+    from rightofway.model.quantities import Quantities
+    from rightofway.viz.table import Listing, Meeting
+
+EXAMPLES = """\b
+Examples:
+  rightofway collisions door.yaml
+  rightofway collisions door.yaml --each-tick -o collisions.csv
+  rightofway collisions plan.json
+"""
+
+
+@click.command(epilog=EXAMPLES, short_help="List where robots meet that never wait.")
+@click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
+@count_option
+@foreign_options
+@click.option("-o", "--output", metavar="FILE", callback=writable(".txt", ".csv", ".xlsx"),
+              help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
+@click.option("--each-tick", is_flag=True,
+              help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
+@click.option("--planner", metavar="NAME", shell_complete=planners(improving=False),
+              help="Plan a scenario first, and list each decision too.")  # fmt: skip
+@ticks_option
+@as_json_option("list")
+def collisions(
+    *,
+    source: str,
+    count: int | None,
+    output: str | None,
+    each_tick: bool,
+    planner: str | None,
+    in_ticks: bool,
+    as_json: bool,
+) -> None:
+    """List the collisions and swaps of free-running robots, which never wait for another robot.
+
+    Robots that are too near for their sizes are listed, too. The robots of a scenario drive their
+    shortest routes. Those of a plan drive the routes of the plan; the decisions of its planner
+    follow, with the conflicts before and after each. A file of - is standard input.
+    """
+    from rightofway.metrics import free_running
+    from rightofway.model import Scenario, completions_of
+    from rightofway.planners.routing import free_running_tracks
+    from rightofway.solve import solve
+    from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
+
+    found = read_either(source, count)
+    if isinstance(found, Scenario) and planner:
+        with progress() as report:
+            found = solve(found, planner, report=report)
+    plan = None if isinstance(found, Scenario) else found
+    scenario = found if isinstance(found, Scenario) else found.scenario
+    tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
+    quantities = quantities_of(scenario, in_ticks=in_ticks)
+    listed = meetings(scenario, tracks)
+    if each_tick:
+        end = max(completions_of(scenario, tracks))
+        lists = [collision_ticks(listed, quantities, end)]
+    else:
+        lists = [collision_list(listed, quantities)]
+    if plan is not None and plan.run.decisions:
+        lists.append(decision_list(plan, quantities))
+    if output:
+        put_lists(lists, output)
+    if as_json:
+        put_json(_collision_data(listed, plan, quantities))
+    elif not output:
+        routes = "shortest routes" if plan is None else "routes of the plan"
+        parts = [f"On the {routes}, without waits: {_counted(listed)}.", *_texts(lists)]
+        if plan is not None:
+            left = meetings(scenario, plan.tracks)
+            parts.append(f"Left in the plan: {_counted(left)}.")
+            parts += _texts([collision_list(left, quantities)])
+        click.echo("\n\n".join(parts))
+
+
+def _texts(lists: Sequence[Listing]) -> list[str]:
+    return [each.as_text() for each in lists if len(each)]
+
+
+def _counted(listed: Sequence[Meeting]) -> str:
+    kinds = [each.kind for each in listed]
+    collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
+    words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
+    return f"{words}, {near} near miss{'es' * (near != 1)}" if near else words
+
+
+def _collision_data(
+    listed: Sequence[Meeting], plan: Plan | None, quantities: Quantities
+) -> dict[str, Any]:
+    """Return collisions and decisions for programs; times in ticks."""
+    from rightofway.viz.table import conflicts_before, meetings
+
+    data = {**clock_data(quantities), "collisions": [_meeting_data(each) for each in listed]}
+    if plan is not None:
+        names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
+        data["decisions"] = [
+            {
+                "tick": each.tick,
+                "kind": each.kind,
+                "vertices": list(map(place, each.vertices)),
+                "robots": [names[robot] for robot in each.robots],
+                "waits": names[each.waits],
+                "level": each.level,
+                "conflicts_before": before,
+                "conflicts_left": each.conflicts_left,
+                "completion_sums": each.completion_sums,
+            }
+            for each, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
+        ]
+        data["left"] = [_meeting_data(each) for each in meetings(plan.scenario, plan.tracks)]
+    return data
+
+
+def _meeting_data(each: Meeting) -> dict[str, Any]:
+    return {
+        "robots": [each.i, each.j],
+        "vertices": each.places,
+        "start": each.start,
+        "end": each.until,
+        "kind": each.kind,
+    }
