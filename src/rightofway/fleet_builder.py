@@ -28,6 +28,7 @@ from rightofway.model import (
 )
 from rightofway.model.places import as_place, is_cell, vertex_at
 from rightofway.model.resources import circle_around
+from rightofway.model.spacing import split_lanes
 from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
 
@@ -57,6 +58,8 @@ class FleetBuilder:
         the corner that has the least x and y by default.
     units
         What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
+    spacing
+        Edges that are longer are split into pieces of at most that length [length unit].
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
         ``ends``, ``laps``, ``rotations``, ``clearance``.
@@ -94,6 +97,7 @@ class FleetBuilder:
         y: Literal["down", "up"] = "down",
         origin: tuple[Number, Number] | None = None,
         units: Units | Mapping[str, Any] | None = None,
+        spacing: Number | None = None,
         **rules: Any,
     ) -> None:
         given = {"grid": grid, "map_file": map_file, "graph": graph}
@@ -104,8 +108,11 @@ class FleetBuilder:
             raise InputError.at("y", f"{shown(y)} is unknown (give down or up)")
         if origin is not None and not (grid or map_file):
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
+        if spacing is not None and (grid or map_file):
+            raise InputError.at("spacing", "is for vertices and edges (take it out)")
+        self._spacing = None if spacing is None else exact_length(spacing, "spacing")
         self._positions: dict[str, Point] = {}
-        self._edges: list[tuple[str, str, Fraction | None]] = []
+        self._edges: list[tuple[str, str, Fraction | None, Fraction | None]] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
         self._rules = _rules(rules)
@@ -149,7 +156,13 @@ class FleetBuilder:
         return self
 
     def add_edge(
-        self, tail: str, head: str, length: Number | None = None, *, both_ways: bool = True
+        self,
+        tail: str,
+        head: str,
+        length: Number | None = None,
+        *,
+        both_ways: bool = True,
+        max_speed: Number | None = None,
     ) -> Self:
         """Add an edge between two vertices.
 
@@ -163,6 +176,8 @@ class FleetBuilder:
             1/1000000.
         both_ways
             Whether it is driven from head to tail, too.
+        max_speed
+            Its speed limit [length unit per time unit]; none by default.
 
         Raises
         ------
@@ -180,9 +195,10 @@ class FleetBuilder:
         given = None if length is None else exact_length(length, f"{place}: length")
         if given is None:
             _within(place, straight_length, self._square(tail, head))
-        self._edges.append((tail, head, given))
+        limit = None if max_speed is None else exact_length(max_speed, f"{place}: max_speed")
+        self._edges.append((tail, head, given, limit))
         if both_ways:
-            self._edges.append((head, tail, given))
+            self._edges.append((head, tail, given, limit))
         return self
 
     def add_robot(
@@ -284,7 +300,7 @@ class FleetBuilder:
                 remedy = "give grid, map_file or graph, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
             squares = [
-                self._square(tail, head) for tail, head, given in self._edges if given is None
+                self._square(tail, head) for tail, head, given, _ in self._edges if given is None
             ]
             step = rounding_step(squares)
             edges = [
@@ -292,10 +308,14 @@ class FleetBuilder:
                     tail=tail,
                     head=head,
                     length=given or straight_length(self._square(tail, head), step),
+                    max_speed=limit,
                 )
-                for tail, head, given in self._edges
+                for tail, head, given, limit in self._edges
             ]
-            drawn = {name: (float(x), float(y)) for name, (x, y) in self._positions.items()}
+            positions = self._positions
+            if self._spacing is not None:
+                positions, edges = split_lanes(positions, edges, self._spacing)
+            drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
             self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up)
         return self._roadmap
 

@@ -137,7 +137,7 @@ def turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
 
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
-    yield from (length / robot.speed for length in roadmap.lengths)
+    yield from roadmap.durations(robot.speed)
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
 
@@ -150,5 +150,5 @@ def _itinerary(roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock) -> It
     return Itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
-        edge_ticks=tuple(clock.ticks(length / robot.speed) for length in roadmap.lengths),
+        edge_ticks=tuple(map(clock.ticks, roadmap.durations(robot.speed))),
     )

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
+from rightofway.model.geometry import Point, squared_distance
 from rightofway.model.roadmap import Roadmap
 
 RADIUS_STEP = Fraction(1, 10**6)
@@ -33,6 +34,9 @@ RADIUS_STEP = Fraction(1, 10**6)
 SLACK = 1e-9
 """Candidates are this part of the roadmap's extent farther apart than resources that exclude each
 other; exact arithmetic decides."""
+
+ROUNDING = Fraction(1, 10**9)
+"""An edge may be shorter than the straight line by this part."""
 
 Ints = NDArray[np.int64]
 Pairs = tuple[Ints, Ints]
@@ -80,7 +84,7 @@ def circle_around(length: Fraction, width: Fraction) -> Fraction:
     return (below + (below**2 < square)) * RADIUS_STEP
 
 
-def exact_positions(roadmap: Roadmap) -> list[tuple[Fraction, Fraction]]:
+def exact_positions(roadmap: Roadmap) -> list[Point]:
     """Return the position of each vertex; a coordinate is the shortest decimal that stands for it.
 
     Parameters
@@ -107,15 +111,14 @@ def distance(roadmap: Roadmap, one: int, other: int) -> float:
     one, other
         Two of them.
     """
-    return sqrt(_square(exact_positions(roadmap), one, other))
-
-
-def _square(at: Sequence[tuple[Fraction, Fraction]], one: int, other: int) -> Fraction:
-    return (at[one][0] - at[other][0]) ** 2 + (at[one][1] - at[other][1]) ** 2
+    at = exact_positions(roadmap)
+    return sqrt(squared_distance(at[one], at[other]))
 
 
 def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
     """Yield tail, head, length and straight distance of edges that are shorter than straight.
+
+    A part in 10**9 is rounding: positions are decimals, and pieces of lanes are not.
 
     Parameters
     ----------
@@ -128,8 +131,8 @@ def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, floa
     for tail in range(roadmap.n_vertices):
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
             head, length = int(roadmap.heads[edge]), roadmap.lengths[roadmap.length_class[edge]]
-            square = _square(at, tail, head)
-            if square > length**2:
+            square = squared_distance(at[tail], at[head])
+            if square > (length * (1 + ROUNDING)) ** 2:
                 yield tail, head, length, sqrt(square)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError, shown
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
-from rightofway.model.values import Number, coerced, length, number
+from rightofway.model.values import Number, coerced, length, number, optional
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -79,6 +79,9 @@ class Roadmap:
         The grid this roadmap was cut from, if any.
     frame
         Where the plane of the positions lies in the site's frame.
+    speed_limits
+        Speed limit of each length class [length unit per time unit], None for none; empty where no
+        edge has one. Classes of one length may differ in it.
     """
 
     indptr: NDArray[np.int32]
@@ -89,6 +92,7 @@ class Roadmap:
     labels: tuple[str, ...] | None = None
     grid: Grid | None = None
     frame: Frame = field(default_factory=Frame)
+    speed_limits: tuple[Fraction | None, ...] = ()
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -102,6 +106,7 @@ class Roadmap:
             return NotImplemented
         return (
             self.lengths == other.lengths
+            and self.speed_limits == other.speed_limits
             and self.labels == other.labels
             and self.frame == other.frame
             and _same_grid(self.grid, other.grid)
@@ -118,6 +123,15 @@ class Roadmap:
         grid = self.grid
         cut = f", grid of {grid.columns} x {grid.rows} cells" if grid else ""
         return f"Roadmap({self.n_vertices} vertices, {self.n_edges} edges{cut})"
+
+    def durations(self, speed: Fraction) -> list[Fraction]:
+        """Return how long a robot of a speed drives along an edge of each class [time unit]."""
+        if not self.speed_limits:
+            return [length / speed for length in self.lengths]
+        return [
+            length / (speed if limit is None else min(speed, limit))
+            for length, limit in zip(self.lengths, self.speed_limits, strict=True)
+        ]
 
     @property
     def n_vertices(self) -> int:
@@ -314,14 +328,18 @@ class Edge:
         Names of the vertices it leaves and enters.
     length
         Its length [length unit], positive.
+    max_speed
+        Speed limit [length unit per time unit], positive; None for none.
     """
 
     tail: str
     head: str
     length: Fraction
+    max_speed: Fraction | None = None
 
     def __post_init__(self) -> None:
-        coerced(self, f"edge {self.tail!r} to {self.head!r}", length=number)
+        source = f"edge {self.tail!r} to {self.head!r}"
+        coerced(self, source, length=number, max_speed=optional(number))
 
 
 def roadmap_of_edges(
@@ -347,16 +365,27 @@ def roadmap_of_edges(
     ids = {name: vertex for vertex, name in enumerate(positions)}
     _check_edges(ids, edges)
     # Floats first: fractions are slow to compare, and only equal floats need it.
-    lengths = tuple(sorted({edge.length for edge in edges}, key=lambda one: (float(one), one)))
-    class_of = {length: index for index, length in enumerate(lengths)}
+    lengths = sorted({edge.length for edge in edges}, key=lambda one: (float(one), one))
+    limits = sorted({edge.max_speed for edge in edges if edge.max_speed is not None})
+    known = {(edge.length, edge.max_speed) for edge in edges}
+    classes = [
+        (length, limit)
+        for length in lengths
+        for limit in (None, *limits)
+        if (length, limit) in known
+    ]
+    class_of = {each: index for index, each in enumerate(classes)}
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
     down = (1.0, -1.0 if y_up else 1.0)
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
-        length_class=np.array([class_of[edge.length] for edge in ordered], np.int32),
-        lengths=lengths,
+        length_class=np.array(
+            [class_of[edge.length, edge.max_speed] for edge in ordered], np.int32
+        ),
+        lengths=tuple(length for length, _ in classes),
+        speed_limits=tuple(limit for _, limit in classes) if limits else (),
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
         frame=Frame(y_up=y_up),
@@ -382,6 +411,8 @@ def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) 
         return f"leads from {edge.tail!r} to itself (take it out)"
     if edge.length <= 0:
         return f"length {edge.length} is not positive (give a length above 0)"
+    if edge.max_speed is not None and edge.max_speed <= 0:
+        return f"max_speed {edge.max_speed} is not positive (give a speed above 0)"
     if (edge.tail, edge.head) in seen:
         return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
     return None

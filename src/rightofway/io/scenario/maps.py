@@ -31,6 +31,7 @@ from rightofway.model import (
 )
 from rightofway.model.clustering import MAX_CELLS
 from rightofway.model.places import Place, vertex_at
+from rightofway.model.spacing import split_lanes
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import (
@@ -90,7 +91,7 @@ def map_of(
     """
     if document.roadmap is not None:
         with under("roadmap"):
-            return _drawn(document.roadmap, y_up=document.y_up)
+            return _drawn(document.roadmap, document.spacing, y_up=document.y_up)
     if document.floor is not None:
         return _clustered(document, speeds)
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
@@ -154,7 +155,7 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     )
 
 
-def _drawn(document: RoadmapDocument, *, y_up: bool) -> LoadedMap:
+def _drawn(document: RoadmapDocument, spacing: Fraction | None, *, y_up: bool) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
     positions, lengths = document.vertices, list[Fraction | None]()
@@ -177,9 +178,12 @@ def _drawn(document: RoadmapDocument, *, y_up: bool) -> LoadedMap:
                 message = f"leads from {tail!r} to {head!r} as edges[{earlier}] does (take one out)"
                 faults.note(place, message)
                 break
-            edges.append(Edge(tail=tail, head=head, length=length))
+            edges.append(Edge(tail=tail, head=head, length=length, max_speed=edge.max_speed))
     faults.stop()
-    drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
+    all_positions = dict(positions)
+    if spacing is not None:
+        all_positions, edges = split_lanes(positions, edges, spacing)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in all_positions.items()}
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
     return LoadedMap(

@@ -72,6 +72,7 @@ class EdgeDocument(Document):
         "its length [length unit]; by default the straight distance, rounded up to 1/1000"
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
+    max_speed: Positive = optional("its speed limit [length unit per time unit]; none by default")
 
     @model_validator(mode="before")
     @classmethod
@@ -118,7 +119,8 @@ class MapDocument(Document):
         json_schema_extra=described(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentSchemas={
-                key: {"not": {"required": ["roadmap"]}} for key in ("cell_size", "origin")
+                **{key: {"not": {"required": ["roadmap"]}} for key in ("cell_size", "origin")},
+                "spacing": {"required": ["roadmap"]},
             },
         )
     )
@@ -132,6 +134,7 @@ class MapDocument(Document):
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
+    spacing: Positive = optional("split longer edges of a roadmap into pieces [length unit]")
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
@@ -142,6 +145,10 @@ class MapDocument(Document):
             raise ValueError(
                 "origin is given with a roadmap, whose vertices have coordinates of the site"
                 " (take it out)"
+            )
+        if kind != "roadmap" and self.spacing is not None:
+            raise ValueError(
+                f"spacing is given with a {kind}, which has no long edges (take it out)"
             )
         if kind != "floor" and self.cell_size == "clustered":
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")

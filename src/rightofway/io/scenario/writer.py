@@ -135,11 +135,18 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
             "to": name(int(roadmap.heads[edge])),
             "length": written(roadmap.lengths[roadmap.length_class[edge]]),
             "both_ways": False,
+            **_speed_limit(roadmap, edge),
         }
         for tail in range(roadmap.n_vertices)
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
     ]
     return {"vertices": vertices, "edges": edges}
+
+
+def _speed_limit(roadmap: Roadmap, edge: int) -> dict[str, Any]:
+    limits = roadmap.speed_limits
+    limit = limits[roadmap.length_class[edge]] if limits else None
+    return {} if limit is None else {"max_speed": written(limit)}
 
 
 def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:

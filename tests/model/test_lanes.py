@@ -1,0 +1,123 @@
+"""Speed limits of edges, and long lanes split into pieces."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+
+import rightofway
+from rightofway import FleetBuilder
+from rightofway.errors import InputError
+from rightofway.io import dump_scenario, scenario_of
+from rightofway.model import Edge, Scenario
+from rightofway.model.spacing import split_lanes
+from rightofway.planners import registered
+
+
+def limited() -> Scenario:
+    """Return two robots that meet on a lane of 2 pieces; the second one is slow for all."""
+    fleet = FleetBuilder()
+    for name, x, y in [("A", 0, 0), ("B", 6, 0), ("C", 12, 0), ("D", 6, 3)]:
+        fleet.add_vertex(name, x, y)
+    fleet.add_edge("A", "B").add_edge("B", "C", max_speed="1/2").add_edge("B", "D")
+    fleet.add_robot("R1", home="A", target="C", speed=2)
+    return fleet.add_robot("R2", home="C", target="D", speed="1/3").scenario()
+
+
+def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it() -> None:
+    """6 long: 3 and 18 time units at 2 and 1/3; 12 and 18 where 1/2 is the limit."""
+    roadmap = limited().roadmap
+    assert roadmap.lengths == (3, 6, 6)
+    assert roadmap.speed_limits == (None, None, Fraction(1, 2))
+    assert roadmap.durations(Fraction(2)) == [Fraction(3, 2), 3, 12]
+    assert roadmap.durations(Fraction(1, 3)) == [9, 18, 18]
+
+
+@pytest.mark.parametrize("planner", sorted(registered()))
+def test_every_planner_keeps_speed_limits(planner: str) -> None:
+    plan = rightofway.solve(limited(), planner, time_limit=2)
+    may_swap = {"swap conflict"} if registered()[planner].leaves_swaps else set()
+    assert set(rightofway.check(plan).counts) <= may_swap
+    assert plan.flowtime >= plan.lower_bound
+
+
+def test_limits_are_written_and_read() -> None:
+    document = dump_scenario(limited())
+    assert document["map"]["roadmap"]["edges"][2]["max_speed"] == "1/2"
+    assert scenario_of(document) == limited()
+
+
+def test_a_limit_is_above_zero() -> None:
+    document = dump_scenario(limited())
+    document["map"]["roadmap"]["edges"][2]["max_speed"] = 0
+    with pytest.raises(InputError, match=r"edges\[2\].max_speed: 0 is not positive"):
+        scenario_of(document)
+
+
+def test_both_directions_of_a_lane_share_its_pieces() -> None:
+    at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(4), Fraction(3))}
+    edges = [
+        Edge(tail="B", head="A", length=Fraction(5)),
+        Edge(tail="A", head="B", length=Fraction(6)),
+    ]
+    positions, pieces = split_lanes(at, edges, Fraction(2))
+    assert list(positions) == ["A", "B", "B-A/1", "B-A/2"]
+    assert positions["B-A/1"] == (Fraction(8, 3), Fraction(2))
+    assert [(one.tail, one.head, one.length) for one in pieces[3:]] == [
+        ("A", "B-A/2", Fraction(2)),
+        ("B-A/2", "B-A/1", Fraction(2)),
+        ("B-A/1", "B", Fraction(2)),
+    ]
+
+
+def test_a_lane_that_is_short_enough_stays_whole() -> None:
+    at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(2), Fraction(0))}
+    edges = [Edge(tail="A", head="B", length=Fraction(2))]
+    assert split_lanes(at, edges, Fraction(2)) == (at, edges)
+
+
+def test_the_name_of_a_piece_may_not_be_taken() -> None:
+    fleet = FleetBuilder(spacing=1)
+    fleet.add_vertex("A", 0, 0).add_vertex("B", 2, 0).add_vertex("A-B/1", 5, 5).add_edge("A", "B")
+    with pytest.raises(InputError, match="'A-B/1' is the name of a piece of a lane"):
+        fleet.roadmap()
+
+
+def test_a_convoy_on_a_lane_of_40_loses_no_more_than_two_pieces_for_each_robot() -> None:
+    """Ten robots of radius 0.5, pieces of 2: the next one starts when 2 pieces are free."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {
+            "spacing": 2,
+            "roadmap": {
+                "vertices": {
+                    "A": [0, 0],
+                    "B": [40, 0],
+                    **{f"H{k}": [-20, 4 * k - 18] for k in range(10)},
+                    **{f"G{k}": [60, 4 * k - 18] for k in range(10)},
+                },
+                "edges": [
+                    {"from": "A", "to": "B", "both_ways": False},
+                    *({"from": f"H{k}", "to": "A"} for k in range(10)),
+                    *({"from": "B", "to": f"G{k}"} for k in range(10)),
+                ],
+            },
+        },
+        "robots": [
+            {"name": f"R{k}", "home": f"H{k}", "target": f"G{k}", "radius": 0.5} for k in range(10)
+        ],
+        "rules": {"return": "none"},
+    }
+    scenario = scenario_of(document)
+    assert "A-B/19" in (scenario.roadmap.labels or ())
+    plan = rightofway.solve(scenario, "prioritized")
+    passing = sorted(
+        int(track.enter[list(track.vertices).index(scenario.roadmap.vertex("B"))])
+        for track in plan.tracks
+    )
+    tick = scenario.problem.clock.tick
+    gaps = [(b - a) * tick for a, b in pairwise(passing)]
+    assert min(gaps) >= 4
+    assert passing[-1] - passing[0] <= 9 * 32 / tick
