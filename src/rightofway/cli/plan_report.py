@@ -249,8 +249,8 @@ def summary_data(plan: Plan) -> dict[str, Any]:
             "options": dict(run.options),
             "seed": run.seed,
             "status": run.status,
-            "seconds": run.seconds,
-            "first_plan_seconds": run.first_plan_seconds,
+            "seconds": _rounded(run.seconds),
+            "first_plan_seconds": _rounded(run.first_plan_seconds),
         },
         **measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
@@ -270,6 +270,10 @@ def summary_data(plan: Plan) -> dict[str, Any]:
         ],
         "rerouted": [names[reroute.robot] for reroute in run.reroutes],
     }
+
+
+def _rounded(seconds: float | None) -> float | None:
+    return None if seconds is None else round(seconds, 6)
 
 
 def decision_log(plan: Plan, quantities: Quantities) -> str:
