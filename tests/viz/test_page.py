@@ -98,6 +98,8 @@ def test_every_script_is_on_the_page_and_short() -> None:
     page = page_of(door())
     assets = Path(page_of.__code__.co_filename).parent / "assets"
     for script in assets.glob("*.js"):
+        if script.stem == "widget":
+            continue  # of notebooks only
         lines = [line.strip() for line in script.read_text("utf-8").splitlines()]
         code = [line for line in lines if line and not line.startswith(("/*", "*", "//"))]
         assert "\n".join(code[-6:]) in page

@@ -253,6 +253,11 @@ class Plan:
         page: str = _from_above("frame_of")(self)
         return page
 
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
+        """Return the page of the plan as a live part of a notebook that has anywidget."""
+        bundle: dict[str, Any] = _from_above("bundle_of")(self)
+        return bundle
+
     def once(self, figure: str, compute: Callable[[], T]) -> T:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
         if figure not in self._figures:
@@ -368,6 +373,7 @@ FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
 
 ROOMS_ABOVE = {
     "alone_completions": "rightofway.metrics",
+    "bundle_of": "rightofway.viz",
     "event_columns": "rightofway.metrics",
     "frame_of": "rightofway.viz",
     "lost_time": "rightofway.metrics",

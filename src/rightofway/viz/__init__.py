@@ -13,18 +13,21 @@ if TYPE_CHECKING:
     from rightofway.viz.page.background import Background
     from rightofway.viz.page.document import frame_of, page_of, write_page
     from rightofway.viz.page.payload import payload_of
+    from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
 
 _MODULES = {
     "page.background": ("Background",),
     "page.document": ("frame_of", "page_of", "write_page"),
     "page.payload": ("payload_of",),
+    "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
 }
 
 __all__ = [
     "Background",
     "Film",
+    "bundle_of",
     "frame_of",
     "page_of",
     "payload_of",

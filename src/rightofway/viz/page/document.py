@@ -15,6 +15,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
@@ -83,12 +84,8 @@ def page_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
     """
-    themes = (
-        f":root{{{LIGHT.css()}}}",
-        f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.css()}}}}}",
-    )
-    style = "\n".join([*themes, _asset("style.css")])
-    scripts = [_script(name) for name in SCRIPTS]
+    style = style_sheet()
+    scripts = [lean_script(name) for name in SCRIPTS]
     count = len(plan.scenario.robots)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
@@ -107,11 +104,11 @@ def page_of(
         "policy": "default-src 'none'; img-src data:; "
         f"style-src {_hash(style)}; script-src {allowed}",
         "style": style,
-        "payload": json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP),
+        "payload": as_script(payload),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("template.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("template.html"))
 
 
 def write_page(
@@ -185,17 +182,38 @@ def frame_of(
     )
 
 
+def payload_text(plan: Plan) -> str:
+    """Return what the page needs of a plan as JSON that may stand in a script element."""
+    return as_script(payload_of(plan))
+
+
+def as_script(payload: dict[str, Any]) -> str:
+    """Return plain data as JSON that may stand in a script element."""
+    return json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP)
+
+
+@cache
+def style_sheet() -> str:
+    """Return the style of the page, light and dark."""
+    themes = (
+        f":root{{{LIGHT.css()}}}",
+        f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.css()}}}}}",
+    )
+    return "\n".join([*themes, asset("style.css")])
+
+
 def _hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"
 
 
 @cache
-def _script(name: str) -> str:
+def lean_script(name: str) -> str:
     """Return a script without comments that fill lines and without indentation: a fifth less."""
-    return re.sub(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*", "", _asset(f"{name}.js"))
+    return re.sub(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*", "", asset(f"{name}.js"))
 
 
 @cache
-def _asset(name: str) -> str:
+def asset(name: str) -> str:
+    """Return the text of a file under ``assets/``."""
     return files(__package__).joinpath("assets", name).read_text("utf-8")

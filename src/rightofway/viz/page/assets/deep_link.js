@@ -1,7 +1,7 @@
 "use strict";
 
 /** Whether the page is part of another one, such as a notebook. */
-const EMBEDDED = window.parent !== window;
+const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
 
 /** Keeps moment and choice in the address, so that a link shows what its sender saw. */
 class DeepLink {
@@ -19,7 +19,7 @@ class DeepLink {
 
   /** Show what the address says; returns whether it says anything. */
   read() {
-    const asked = new URLSearchParams(location.hash.slice(1));
+    const asked = new URLSearchParams(EMBEDDED ? "" : location.hash.slice(1));
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;

@@ -1,0 +1,84 @@
+"""The page as a live part of a notebook: the same scripts in a shadow tree, without a frame."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import sys
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
+
+from rightofway.model import Plan
+from rightofway.viz.page.document import (
+    FRAME_HEIGHT,
+    SCRIPTS,
+    asset,
+    lean_script,
+    payload_text,
+    style_sheet,
+)
+
+WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;overflow:auto}}"
+"""A page in a notebook has a height of its own."""
+
+
+def bundle_of(plan: Plan) -> dict[str, Any]:
+    """Return a plan as a live part of a notebook, by media type; for ``_repr_mimebundle_``.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+
+    Returns
+    -------
+    dict
+        The widget, and a picture for where no widget runs.
+
+    Raises
+    ------
+    NotImplementedError
+        Without anywidget or a notebook's kernel: IPython then takes the next best, which is
+        ``_repr_html_`` in a notebook and ``repr`` in a terminal.
+    """
+    if not (in_notebook() and find_spec("anywidget")):
+        raise NotImplementedError
+    from rightofway.viz.raster.picture import png_of
+
+    shown = _widget_class()(payload=payload_text(plan))._repr_mimebundle_()
+    widget = shown[0] if isinstance(shown, tuple) else shown
+    picture = base64.b64encode(png_of(plan)).decode()
+    return {**widget, "text/plain": repr(plan), "image/png": picture}
+
+
+def in_notebook() -> bool:
+    """Return whether this process is the kernel of a notebook."""
+    return "ipykernel" in sys.modules
+
+
+@cache
+def widget_module() -> str:
+    """Return the JavaScript module of the widget: the page's markup, its scripts, and `render`."""
+    body = re.search(r"<body>(.*)<noscript>", asset("template.html"), re.DOTALL)
+    assert body is not None
+    style = re.sub(r":root|\bbody\b", ".page", style_sheet())
+    payload = '<script type="application/json" id="plan"></script>'
+    markup = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1">{body[1]}</div>'
+    scripts = "\n".join(lean_script(name) for name in SCRIPTS)
+    return "\n".join(
+        [
+            f"const MARKUP = {json.dumps(markup + payload)};",
+            f"function mount(document) {{\n{scripts}\nreturn {{ clock }};\n}}",
+            lean_script("widget"),
+        ]
+    )
+
+
+@cache
+def _widget_class() -> Any:
+    widgets, traits = import_module("anywidget"), import_module("traitlets")
+    members = {"_esm": widget_module(), "payload": traits.Unicode().tag(sync=True)}
+    return type("PlanWidget", (widgets.AnyWidget,), members)
