@@ -17,6 +17,7 @@ def test_a_notebook_with_anywidget_has_a_live_page_and_a_picture_for_elsewhere(
     bundle = door()._repr_mimebundle_()
     assert "application/vnd.jupyter.widget-view+json" in bundle
     assert base64.b64decode(bundle["image/png"]) == png_of(door())
+    assert bundle["text/html"].endswith(f'{bundle["image/png"]}">')  # and no frame
     assert bundle["text/plain"] == repr(door())
 
 

@@ -51,7 +51,12 @@ def bundle_of(plan: Plan) -> dict[str, Any]:
     shown = _widget_class()(payload=payload_text(plan))._repr_mimebundle_()
     widget = shown[0] if isinstance(shown, tuple) else shown
     picture = base64.b64encode(png_of(plan)).decode()
-    return {**widget, "text/plain": repr(plan), "image/png": picture}
+    return {
+        **widget,
+        "text/plain": repr(plan),
+        "text/html": f'<img alt="Map of the plan" src="data:image/png;base64,{picture}">',
+        "image/png": picture,
+    }
 
 
 def in_notebook() -> bool:
