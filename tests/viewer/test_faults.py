@@ -21,6 +21,13 @@ def test_the_head_counts_faults_and_praises_nothing(faulty: Viewer) -> None:
     assert faulty.ask("clock.playing") is False
 
 
+def test_the_details_of_a_faulty_plan_have_no_figures(faulty: Viewer) -> None:
+    faulty.page.click("#about-open")
+    details = faulty.text("#made")
+    assert "Planner" in details
+    assert "Flowtime" not in details
+
+
 def test_faults_are_listed_first_and_lead_to_their_moment_and_place(faulty: Viewer) -> None:
     row = faulty.page.locator("#fault-list .row").first
     assert row.inner_text() == "R1 and R2 are both in N1\nat time 1 · vertex conflict"

@@ -15,6 +15,7 @@ class Summary {
     document.body.classList.toggle("faulty", plan.faultCount > 0 || plan.other?.faultCount > 0);
     document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
       element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat()))));
+    document.getElementById("about-open").hidden = plan.noPlan;
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
@@ -140,9 +141,10 @@ class Summary {
     const { planner, metrics: { flowtime, makespan, lowerBound }, tick } = this.plan;
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
+    const origin = [["Planner", planner.name], ["Reports", planner.status]];
+    if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
-      ["Planner", planner.name],
-      ["Reports", planner.status],
+      ...origin,
       ["Flowtime", this.words.time(flowtime)],
       ["Lower bound", this.words.time(lowerBound)],
       ["Gap", gap],
@@ -152,6 +154,7 @@ class Summary {
   }
 
   #explanation() {
+    if (this.plan.faultCount) return [];
     return [
       "The flowtime is the sum of the times at which the robots are there. No plan can have less than the lower bound, " +
         "the sum if each robot drove alone; the gap says how far the plan is above it. The least possible flowtime " +
