@@ -160,3 +160,21 @@ def test_a_picture_lies_under_the_map(show: Opener, tmp_path: Path) -> None:
     floor = {x: pixel(viewer, "map", left + x * scale, top + scale)[0] for x in (0.7, 1.3)}
     assert floor == {0.7: 255, 1.3: 0}
     assert viewer.requests == []  # the picture is in the page
+
+
+def test_lanes_out_of_sight_are_not_drawn(show: Opener) -> None:
+    viewer = show(yard())
+    drawn = """(right) => {
+      let lines = 0;
+      const draw = CanvasRenderingContext2D.prototype.lineTo;
+      CanvasRenderingContext2D.prototype.lineTo = function (...args) {
+        lines++;
+        draw.apply(this, args);
+      };
+      mapView.viewport.pan(right, 0);
+      mapView.paint();
+      CanvasRenderingContext2D.prototype.lineTo = draw;
+      return lines;
+    }"""
+    in_sight, out_of_sight = (viewer.page.evaluate(drawn, right) for right in (0, 5000))
+    assert in_sight - out_of_sight >= 5  # a lane for both ways and its dashes, three for one way

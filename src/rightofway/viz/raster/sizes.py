@@ -58,7 +58,7 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
     least = min(spacing * 0.16, READABLE_RADIUS, cap)
     largest = LARGEST_RADIUS["grid" if is_grid else "network"]
     robot = min(max(scale * 0.31, least, 1.8), largest)
-    lane = min(max(scale * 0.42, 7), max(scale * 1.1, 1.5), 18)
+    lane = min(max(scale * 0.42, 7), max(scale * 0.8, 1.5), 18)
     route = min(max(scale * 0.04, 1.5), 4)
     beside = (scale * 0.45 if is_grid else lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
     return Sizes(

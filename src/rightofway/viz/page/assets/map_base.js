@@ -3,6 +3,7 @@
 const RULED_CELL = 13; // cells have lines between them from this size on [pixels]
 const MANY_ROBOTS = 200; // of more, homes and stops are faint, or they would hide the robots
 const ARROW_GAP = 56; // pixels between two arrow heads of a lane
+const MOST_SIGNED = 3000; // lanes in sight; of more, none has arrow heads or a dashed middle
 
 /** What does not move: background, floor, walls, lanes, heat, homes, stops. */
 class MapBase {
@@ -81,8 +82,8 @@ class MapBase {
 
   /** Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way. */
   #network(context) {
-    const { x, y, size } = this.plan.roadmap;
-    const { oneWay, bothWays } = this.plan.roadmap.lanes;
+    const { x, y } = this.plan.roadmap;
+    const [oneWay, bothWays] = [this.plan.roadmap.lanes.oneWay, this.plan.roadmap.lanes.bothWays].map((lanes) => this.#inSight(lanes));
     const { lane } = this.sizes;
     const draw = (lanes, width, colour) => {
       context.strokeStyle = colour;
@@ -95,17 +96,41 @@ class MapBase {
     draw(bothWays, lane, this.theme.wall);
     draw(oneWay, lane * 0.7, this.theme.wall);
     context.lineCap = "butt";
-    if (lane < 4) return;
-    context.setLineDash([this.#pixels(5), this.#pixels(5)]);
-    draw(bothWays, 1, this.theme.paper);
-    context.setLineDash([]);
-    this.#arrows(context, oneWay);
-    context.fillStyle = this.theme.paper;
+    if (lane < 3.5) return;
+    if (oneWay.length + bothWays.length <= MOST_SIGNED) {
+      context.setLineDash([this.#pixels(5), this.#pixels(5)]);
+      draw(bothWays, 1, this.theme.paper);
+      context.setLineDash([]);
+      this.#arrows(context, oneWay);
+    }
+    this.#vertices(context, [...oneWay, ...bothWays]);
+  }
+
+  /** The lanes of which something may be seen. */
+  #inSight(lanes) {
+    const { x, y } = this.plan.roadmap;
+    const { viewport } = this;
+    const { clientWidth: width, clientHeight: height } = viewport.canvas;
+    const [left, top, right, bottom] = [viewport.toX(-20), viewport.toY(-20), viewport.toX(width + 20), viewport.toY(height + 20)];
+    return lanes.filter(([tail, head]) =>
+      Math.max(x[tail], x[head]) >= left && Math.min(x[tail], x[head]) <= right &&
+      Math.max(y[tail], y[head]) >= top && Math.min(y[tail], y[head]) <= bottom);
+  }
+
+  /** The ends of lanes, and vertices without any. */
+  #vertices(context, lanes) {
+    const { x, y, lonely } = this.plan.roadmap;
+    const isMany = lanes.length > MOST_SIGNED; // then they are plain dots, which are drawn sooner
+    const side = this.#pixels(this.sizes.vertex);
+    context.fillStyle = isMany ? this.theme.muted : this.theme.paper;
     context.strokeStyle = this.theme.muted;
     context.lineWidth = this.#pixels(1.25);
-    for (let vertex = 0; vertex < size; vertex++) {
-      disc(context, x[vertex], y[vertex], this.#pixels(this.sizes.vertex));
-      context.stroke();
+    for (const vertex of new Set([...lanes.flat(), ...lonely])) {
+      if (isMany) context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side, side);
+      else {
+        disc(context, x[vertex], y[vertex], side);
+        context.stroke();
+      }
     }
   }
 

@@ -2,6 +2,7 @@
 
 const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
 const MOST_PLACES = 300; // names of places in sight
+const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
 const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
 const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
 const ROBOT_TYPE = 13; // pixels
@@ -20,11 +21,13 @@ class MapNames {
   #lanes = new LabelBoard();
   #sides; // of each robot's name, so that it does not jump
   #widths = new Map();
+  #marksOf;
   #spots = null;
 
   constructor(plan, motion, viewport, sizes, clock, theme, choice, use) {
     Object.assign(this, { plan, motion, viewport, sizes, clock, theme, choice, use });
     this.#sides = new Int8Array(plan.robots.length);
+    this.#marksOf = new FleetMemo(plan, () => this.#usedPlaces());
     this.written = []; // what the last frame shows: { name, box } of each label
     this.inks = plan.robots.map((robot) => inkOn(robot.colour));
   }
@@ -171,12 +174,15 @@ class MapNames {
   /** The names of places in sight and where they stand, the important ones first. */
   #findSpots(context, width, height) {
     const { roadmap } = this.plan;
-    const marks = this.#usedPlaces();
+    const marks = this.#marksOf.value;
     this.#keepFree(marks, width, height);
-    const spots = [];
-    for (const vertex of this.#named(marks)) {
+    const isInSight = (vertex) => {
       const [x, y] = this.#pointOf(vertex);
-      if (x < 0 || x > width || y < 0 || y > height) continue;
+      return x >= 0 && x <= width && y >= 0 && y <= height;
+    };
+    const inSight = [...this.#named(marks)].filter(isInSight);
+    const spots = [];
+    for (const vertex of inSight.length > MOST_VERTICES ? inSight.filter((it) => marks.has(it)) : inSight) {
       const isMark = marks.has(vertex);
       const font = this.theme.font(PLACE_TYPE, isMark ? 600 : 400);
       const name = cut(roadmap.name(vertex));
@@ -212,6 +218,7 @@ class MapNames {
     const half = this.sizes.lane / 2;
     for (const [tail, head] of [...bothWays, ...oneWay]) {
       const [[x, y], [toX, toY]] = [this.#pointOf(tail), this.#pointOf(head)];
+      if (Math.max(x, toX) < 0 || Math.min(x, toX) > width || Math.max(y, toY) < 0 || Math.min(y, toY) > height) continue;
       const pieces = Math.min(Math.ceil(Math.hypot(toX - x, toY - y) / (2 * half)), 300);
       for (let i = 0; i <= pieces; i++) {
         this.#lanes.takeDisc(x + ((toX - x) * i) / pieces, y + ((toY - y) * i) / pieces, half);

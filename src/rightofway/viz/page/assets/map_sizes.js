@@ -37,7 +37,7 @@ class MapSizes {
   /** Width of a lane of a roadmap that is driven both ways. */
   get lane() {
     const { scale } = this.viewport;
-    return Math.min(Math.max(scale * 0.42, 7), Math.max(scale * 1.1, 1.5), 18);
+    return Math.min(Math.max(scale * 0.42, 7), Math.max(scale * 0.8, 1.5), 18);
   }
 
   /** Radius of a vertex of a roadmap. */

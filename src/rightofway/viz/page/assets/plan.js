@@ -95,6 +95,8 @@ class Roadmap {
     this.heads = fromDifferences(raw.heads, Int32Array);
     this.lengths = raw.lengths;
     this.lanes = this.#sortLanes();
+    const joined = new Set([...this.tails, ...this.heads]);
+    this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane
   }
 
   /** Pairs of vertices with a lane between them: for one way, and for both. */
@@ -231,6 +233,12 @@ class Plan {
 
   /** The places that robots go to, homes apart, each with its robots. */
   get stops() {
+    return (this.#stops ??= this.#findStops());
+  }
+
+  #stops = null;
+
+  #findStops() {
     const stops = new Map();
     for (const robot of this.planned) {
       for (const vertex of new Set(robot.stages.map((stage) => stage.vertex))) {
