@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import files
-from rightofway.cli.terminal import as_json_option, put_json, say, writable
+from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.terminal import put_json, say
 
 if TYPE_CHECKING:
     from rightofway.bench import Case, Results, Row

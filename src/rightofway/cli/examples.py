@@ -10,7 +10,8 @@ import click
 from click.shell_completion import CompletionItem
 
 import rightofway
-from rightofway.cli.terminal import say, writable
+from rightofway.cli.options import writable
+from rightofway.cli.terminal import say
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
 

@@ -9,16 +9,10 @@ import click
 from click.shell_completion import CompletionItem
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.inputs import count_option, foreign_options, read_either
+from rightofway.cli.options import ListingCommand, writable
 from rightofway.cli.outputs import put_text, write
-from rightofway.cli.terminal import (
-    ListingCommand,
-    count_option,
-    foreign_options,
-    put_json,
-    read_either,
-    say,
-    writable,
-)
+from rightofway.cli.terminal import put_json, say
 from rightofway.errors import InputError, nearest
 
 if TYPE_CHECKING:

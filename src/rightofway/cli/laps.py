@@ -8,21 +8,17 @@ from fractions import Fraction
 import click
 
 from rightofway.cli.completion import SCENARIOS, files
-from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
-from rightofway.cli.terminal import (
+from rightofway.cli.inputs import read_scenario
+from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
-    file_title,
-    progress,
-    put_json,
-    put_report,
     quantities_of,
-    read_scenario,
-    say,
     seed_option,
     ticks_option,
     time_limit_option,
 )
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.terminal import file_title, progress, put_json, put_report, say
 
 EXAMPLES = """\b
 Examples:
