@@ -11,7 +11,7 @@ import click
 
 from rightofway.cli.completion import files
 from rightofway.cli.options import as_json_option, writable
-from rightofway.cli.terminal import put_json, say
+from rightofway.cli.terminal import put_json, put_report, say
 
 if TYPE_CHECKING:
     from rightofway.bench import Case, Results, Row
@@ -121,4 +121,4 @@ def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
         lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
     width = max(len(name) for name, *_ in lines)
     for name, solved, ratio, seconds in lines:
-        click.echo(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())
+        put_report(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())
