@@ -125,7 +125,16 @@ AWAY = [
 
 
 @pytest.mark.parametrize(
-    "text", [STEPS, STEPS.partition("solution=\n")[2], PATHS, SCHEDULE, MOVES, EARLIER_MOVES]
+    "text",
+    [
+        STEPS,
+        STEPS.partition("solution=\n")[2],
+        PATHS,
+        SCHEDULE,
+        MOVES,
+        EARLIER_MOVES,
+        MOVES.replace("actualPaths", "plannerPaths"),
+    ],
 )
 def test_one_plan_is_read_from_every_format(hall: Path, text: str) -> None:
     plan = read(hall, text)
