@@ -73,6 +73,12 @@ def test_examples_are_offered_by_name(offered: Offered) -> None:
     assert offered("examples", "do") == ["door"]
 
 
+def test_rules_routes_and_formats_are_offered_by_name(offered: Offered) -> None:
+    assert offered("laps", "--rule", "t") == ["two-level", "timetable"]
+    assert offered("laps", "--routes", "") == ["clear", "direct", "shortest"]
+    assert offered("convert", "--to", "l") == ["lacam", "lns2"]
+
+
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no Bash here")
 def test_the_script_for_bash_fills_in_what_is_offered(tmp_path: Path) -> None:
     """The shell's own function is called as Bash calls it when Tab is pressed."""

@@ -74,3 +74,33 @@ def test_a_new_scenario_can_be_planned_and_is_never_written_over_another_file(cl
     again = cli("new", "hall.yaml")
     assert (again.code, "hall.yaml: the file exists" in again.err) == (2, True)
     assert Path("hall.yaml").read_text(encoding="utf-8") == text
+
+
+@pytest.mark.parametrize(
+    ("commented", "used"),
+    [
+        ("# units:", "units:"),
+        ("  # cell_size: 1", "  cell_size: 1"),
+        ("  # y: up ", "  y: up "),
+        ("  # - {name: R3", "  - {name: R3"),
+        ("[0, 2]", "{x: 2.5, y: 0.5}"),
+        ("# rules: classic", "rules: classic"),
+    ],
+)
+def test_what_a_template_has_in_comments_can_be_used(cli: Cli, commented: str, used: str) -> None:
+    cli("new", "hall.yaml")
+    text = Path("hall.yaml").read_text(encoding="utf-8")
+    assert text.count(commented) == 1
+    Path("hall.yaml").write_text(text.replace(commented, used), encoding="utf-8")
+    assert cli("bound", "hall.yaml").code == 0
+
+
+def test_the_rules_of_a_template_are_those_of_a_grid(cli: Cli) -> None:
+    cli("new", "hall.yaml")
+    text = Path("hall.yaml").read_text(encoding="utf-8")
+    head, key, rules = text.partition("# rules:      ")
+    used = head + key[2:] + rules.replace("\n#   ", "\n  ")
+    Path("rules.yaml").write_text(used, encoding="utf-8")
+    problems = [load_with_notes(name).scenario.problem for name in ("rules.yaml", "hall.yaml")]
+    assert problems[0].itineraries == problems[1].itineraries
+    assert problems[0].headway == problems[1].headway

@@ -129,6 +129,8 @@ def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> No
         ended = cli(name, "paths.txt", "--map", "hall.map")
         assert (ended.code, ended.err) == (0, "")
     assert cli("check", "paths.txt", "--scen", "hall.scen").code == 0
+    cli("convert", "paths.txt", "--scen", "hall.scen", "-o", "theirs.json")
+    assert cli("show", "plan.json", "theirs.json", "--page", "both.html").code == 0
     improved = cli("improve", "paths.txt", "--map", "hall.map", "-o", "better.json")
     assert (improved.code, cli("check", "better.json").code) == (0, 0)
     assert cli("show", "paths.txt", "--map", "hall.map", "--page", "page.html").code == 0

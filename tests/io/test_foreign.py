@@ -19,7 +19,7 @@ import pytest
 
 from rightofway import check
 from rightofway.errors import InputError
-from rightofway.io import FOREIGN_FORMATS, foreign_text, load_either, load_plan, write_plan
+from rightofway.io import FOREIGN_FORMATS, foreign_text, load, load_either, load_plan, write_plan
 from rightofway.model import Plan
 from rightofway.solve import solve
 from tests.builders.fleets import PAPER, paper_scenario
@@ -125,7 +125,16 @@ AWAY = [
 
 
 @pytest.mark.parametrize(
-    "text", [STEPS, STEPS.partition("solution=\n")[2], PATHS, SCHEDULE, MOVES, EARLIER_MOVES]
+    "text",
+    [
+        STEPS,
+        STEPS.partition("solution=\n")[2],
+        PATHS,
+        SCHEDULE,
+        MOVES,
+        EARLIER_MOVES,
+        MOVES.replace("actualPaths", "plannerPaths"),
+    ],
 )
 def test_one_plan_is_read_from_every_format(hall: Path, text: str) -> None:
     plan = read(hall, text)
@@ -179,6 +188,7 @@ def test_the_map_is_found_beside_the_plan_or_the_scen_file(hall: Path) -> None:
     rows = "version 1\n0\thall.map\t3\t3\t0\t0\t0\t2\t5\n0\thall.map\t3\t3\t2\t0\t1\t1\t2\n"
     (hall / "hall.scen").write_text(rows, encoding="utf-8")
     plan = load_plan(hall / "paths.txt", scen=hall / "hall.scen")
+    assert plan.scenario == load(hall / "hall.scen")
     # The second agent of the rows wants to go to (1, 1), and the plan leads it to (2, 2).
     assert [fault.kind for fault in check(plan).faults] == ["wrong end"]
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import files
-from rightofway.cli.terminal import as_json_option, put_json, say, writable
+from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.terminal import put_json, put_report, say
 
 if TYPE_CHECKING:
     from rightofway.bench import Case, Results, Row
@@ -120,4 +121,4 @@ def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
         lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
     width = max(len(name) for name, *_ in lines)
     for name, solved, ratio, seconds in lines:
-        click.echo(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())
+        put_report(f"{name:{width}}  {solved:>9}  {ratio:>7}  {seconds:>14}".rstrip())

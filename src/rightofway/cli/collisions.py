@@ -8,18 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import SCENARIOS, files, planners
+from rightofway.cli.inputs import count_option, foreign_options, read_either
+from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.tables import clock_data, put_lists
-from rightofway.cli.terminal import (
-    as_json_option,
-    count_option,
-    foreign_options,
-    progress,
-    put_json,
-    quantities_of,
-    read_either,
-    ticks_option,
-    writable,
-)
+from rightofway.cli.terminal import progress, put_json
 
 if TYPE_CHECKING:
     from rightofway.model import Plan

@@ -7,7 +7,7 @@ puts a blank after a folder.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +46,17 @@ def files(*suffixes: str) -> Completer:
 def _literal(text: str) -> str:
     """Return a pattern that only the text itself fits."""
     return "".join(f"[{character}]" if character in "*?[" else character for character in text)
+
+
+def words(known: Callable[[], Iterable[str]]) -> Completer:
+    """Return a function that completes words, which are looked up when Tab is pressed."""
+
+    def complete(
+        _context: click.Context, _parameter: click.Parameter, incomplete: str
+    ) -> list[CompletionItem[str]]:
+        return [CompletionItem(word) for word in known() if word.startswith(incomplete)]
+
+    return complete
 
 
 def planners(*, improving: bool) -> Completer:

@@ -7,10 +7,11 @@ from importlib.resources import files
 from pathlib import Path
 
 import click
-from click.shell_completion import CompletionItem
 
 import rightofway
-from rightofway.cli.terminal import say, writable
+from rightofway.cli.completion import words
+from rightofway.cli.options import writable
+from rightofway.cli.terminal import say
 from rightofway.errors import InputError, nearest
 from rightofway.files import write_whole
 
@@ -63,15 +64,22 @@ def new(file: str) -> None:
     say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
 
 
-def _complete_name(
-    _context: click.Context, _parameter: click.Parameter, incomplete: str
-) -> list[CompletionItem[str]]:
-    names = example_names()
-    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+def examples_folder() -> Path:
+    """Return the folder of the examples: in the installed package, or in a clone at its top."""
+    package = Path(rightofway.__file__).parent
+    installed = package / "examples"
+    return installed if installed.is_dir() else package.parents[1] / "examples"
+
+
+def example_names() -> list[str]:
+    """Return the names of the examples, those of subfolders last."""
+    folder = examples_folder()
+    found = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
+    return [str(path.with_suffix("")) for path in sorted(found, key=lambda p: (len(p.parts), p))]
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
-@click.argument("name", required=False, shell_complete=_complete_name)
+@click.argument("name", required=False, shell_complete=words(example_names))
 @click.option("-o", "--output", metavar="FILE", callback=writable(),
               help="Write the example NAME to this file, and the maps that it needs beside it.",
               )  # fmt: skip
@@ -93,20 +101,6 @@ def examples(name: str | None, output: str | None, parent: str | None) -> None:
             click.echo(found.read_text(encoding="utf-8"), nl=False)
         else:
             _write(found, Path(output or ""))
-
-
-def examples_folder() -> Path:
-    """Return the folder of the examples: in the installed package, or in a clone at its top."""
-    package = Path(rightofway.__file__).parent
-    installed = package / "examples"
-    return installed if installed.is_dir() else package.parents[1] / "examples"
-
-
-def example_names() -> list[str]:
-    """Return the names of the examples, those of subfolders last."""
-    folder = examples_folder()
-    found = [path.relative_to(folder) for path in folder.rglob("*") if path.suffix in SUFFIXES]
-    return [str(path.with_suffix("")) for path in sorted(found, key=lambda p: (len(p.parts), p))]
 
 
 def _example(name: str) -> Path:

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
-from click.shell_completion import CompletionItem
 
-from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.completion import PLANS, SCENARIOS, files, words
+from rightofway.cli.inputs import count_option, foreign_options, read_either
+from rightofway.cli.options import ListingCommand, writable
 from rightofway.cli.outputs import put_text, write
-from rightofway.cli.terminal import (
-    ListingCommand,
-    count_option,
-    foreign_options,
-    put_json,
-    read_either,
-    say,
-    writable,
-)
+from rightofway.cli.terminal import put_json, say
 from rightofway.errors import InputError, nearest
 
 if TYPE_CHECKING:
@@ -43,16 +37,10 @@ def _list_formats(formatter: click.HelpFormatter) -> None:
         formatter.write_dl([(name, each.summary) for name, each in FOREIGN_FORMATS.items()])
 
 
-def _complete_format(
-    _context: click.Context, _parameter: click.Parameter, incomplete: str
-) -> list[CompletionItem[str]]:
+def _foreign_names() -> Iterable[str]:
     from rightofway.io import FOREIGN_FORMATS
 
-    return [
-        CompletionItem(name, help=each.summary)
-        for name, each in FOREIGN_FORMATS.items()
-        if name.startswith(incomplete)
-    ]
+    return FOREIGN_FORMATS
 
 
 @click.command(
@@ -66,7 +54,7 @@ def _complete_format(
 @click.option("-o", "--output", metavar="TARGET", callback=writable(),
               help="File to write, the same as the argument TARGET; - for standard output.",
               )  # fmt: skip
-@click.option("--to", "name", metavar="FORMAT", shell_complete=_complete_format,
+@click.option("--to", "name", metavar="FORMAT", shell_complete=words(_foreign_names),
               help="Write a plan in the format of another program; see below.")  # fmt: skip
 @count_option
 @foreign_options

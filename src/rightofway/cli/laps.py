@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 
 import click
 
-from rightofway.cli.completion import SCENARIOS, files
-from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
-from rightofway.cli.terminal import (
+from rightofway.cli.completion import SCENARIOS, files, words
+from rightofway.cli.inputs import read_scenario
+from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
-    file_title,
-    progress,
-    put_json,
-    put_report,
     quantities_of,
-    read_scenario,
-    say,
     seed_option,
     ticks_option,
     time_limit_option,
 )
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.terminal import file_title, progress, put_json, put_report, say
 
 EXAMPLES = """\b
 Examples:
@@ -31,6 +28,12 @@ Examples:
   rightofway laps examples/door.yaml --rule timetable -o plan.json
   rightofway laps examples/bay.yaml --page laps.html
 """
+
+
+def _rules() -> Iterable[str]:
+    from rightofway.cyclic import RULES, TIMETABLE
+
+    return [*RULES, TIMETABLE]
 
 
 def _list_rules(formatter: click.HelpFormatter) -> None:
@@ -56,8 +59,10 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
 )
 @click.argument("scenario", type=click.Path(), shell_complete=files(*SCENARIOS))
 @click.option("--rule", metavar="RULE", default="first-come", show_default=True,
+              shell_complete=words(_rules),
               help="Rule that gives the right of way; see below.")  # fmt: skip
 @click.option("--routes", metavar="ROUTES",
+              shell_complete=words(lambda: ("clear", "direct", "shortest")),
               help="Routes of the round trips. clear: avoid other robots; direct: avoid them less;"
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.terminal import say, writable
+from rightofway.cli.options import writable
+from rightofway.cli.terminal import say
 from rightofway.files import write_whole
 
 if TYPE_CHECKING:

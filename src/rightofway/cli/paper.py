@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.examples import examples_folder, first_sentence
-from rightofway.cli.terminal import as_json_option, put_json, put_report, quantities_of, wrapped
+from rightofway.cli.options import as_json_option, quantities_of
+from rightofway.cli.terminal import put_json, put_report, wrapped
 
 if TYPE_CHECKING:
     from rightofway.model import Plan

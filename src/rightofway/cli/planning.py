@@ -12,26 +12,25 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files, planner_options, planners
-from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
-from rightofway.cli.terminal import (
+from rightofway.cli.inputs import count_option, foreign_options, read_plan, read_scenario
+from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
+    quantities_of,
+    seed_option,
+    ticks_option,
+    time_limit_option,
+)
+from rightofway.cli.outputs import page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.terminal import (
     complain,
-    count_option,
     file_title,
-    foreign_options,
     measures,
     progress,
     put_json,
     put_report,
-    quantities_of,
-    read_plan,
-    read_scenario,
     say,
-    seed_option,
     short,
-    ticks_option,
-    time_limit_option,
     width,
 )
 from rightofway.errors import NoPlanExists

@@ -9,28 +9,29 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import PLANS, files
+from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.options import (
+    ListingCommand,
+    as_json_option,
+    quantities_of,
+    seed_option,
+    ticks_option,
+    writable,
+)
 from rightofway.cli.outputs import page_option, put_text
 from rightofway.cli.terminal import (
     COLUMNS,
-    ListingCommand,
-    as_json_option,
     counted,
     file_title,
-    foreign_options,
     further,
     json_text,
     measures,
     progress,
     put_json,
     put_report,
-    quantities_of,
-    read_plan,
     row,
     say,
-    seed_option,
     short,
-    ticks_option,
-    writable,
 )
 from rightofway.model import decimal
 

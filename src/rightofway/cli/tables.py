@@ -12,17 +12,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import PLANS, files
-from rightofway.cli.terminal import (
-    as_json_option,
-    foreign_options,
-    put_json,
-    quantities_of,
-    read_plan,
-    say,
-    ticks_option,
-    width,
-    writable,
-)
+from rightofway.cli.inputs import foreign_options, read_plan
+from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
+from rightofway.cli.terminal import put_json, say, width
 from rightofway.errors import InputError
 from rightofway.model.values import written
 

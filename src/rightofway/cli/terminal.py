@@ -1,20 +1,18 @@
-"""Parts that all commands share: options, text of 80 columns, files that are read and written."""
+"""What commands print: reports of 80 columns, messages, progress."""
 
 from __future__ import annotations
 
 import io
 import json
-import math
 import re
 import shutil
-import stat
 import sys
 import textwrap
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,11 +22,8 @@ from rightofway.model.quantities import Value, decimal
 from rightofway.model.values import written
 
 if TYPE_CHECKING:
-    from rightofway.io import Loaded
-    from rightofway.model import Plan, Quantities, Scenario
+    from rightofway.model import Quantities, Scenario
 
-Callback = Callable[[click.Context, click.Parameter, Any], Any]
-"""What click calls to check the value of an option."""
 
 COLUMNS = 80
 """Longest line of a report."""
@@ -45,8 +40,6 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 UNIT = re.compile(r"(?<=\d) (?=[a-z])|(?<=\d h) (?=\d)|(?<=\d min) (?=\d)")
 """The spaces within ``2 min 34.3 s``."""
 
-FILES = "rightofway.files."
-"""Where a command keeps the files that belong to a plan of another program."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -165,164 +158,6 @@ def short(name: str, columns: int = MAX_NAME) -> str:
     return name if len(name) <= columns else f"{name[: columns - 1]}…"
 
 
-def read_scenario(path: str, count: int | None = None) -> Scenario:
-    """Read a scenario, or the first robots of a .scen file, and write its reader's notes.
-
-    ``-`` is standard input.
-    """
-    from rightofway.io import load_with_notes
-
-    return _noted(load_with_notes(path, count=count), path)
-
-
-def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
-    suffix = f".{parameter.name}"
-    if given is not None and Path(given).suffix.lower() != suffix:
-        raise click.BadParameter(f"{given!r} does not end in {suffix} (give a {suffix} file)")
-    context.meta[f"{FILES}{parameter.name}"] = given
-
-
-def foreign_options(command: Any) -> Any:
-    """Add the files that a plan of another program may need; `read_plan` finds them."""
-    for name, what in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
-        command = click.option(
-            f"--{name}", metavar="FILE", expose_value=False, callback=_keep_file,
-            help=f"The {what} of a plan of another program.",
-        )(command)  # fmt: skip
-    return command
-
-
-def _files() -> dict[str, str | None]:
-    """Return the files of `foreign_options`."""
-    meta = click.get_current_context().meta
-    return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
-
-
-def read_plan(path: str) -> Plan:
-    """Read a plan, ours or of another program; ``-`` is standard input."""
-    from rightofway.io import load_plan
-
-    return load_plan(path, **_files())
-
-
-def read_either(path: str, count: int | None = None) -> Plan | Scenario:
-    """Read a plan or a scenario; ``-`` is standard input."""
-    from rightofway.io import Loaded, load_either
-
-    found = load_either(path, count=count, **_files())
-    return _noted(found, path) if isinstance(found, Loaded) else found
-
-
-def _noted(loaded: Loaded, path: str) -> Scenario:
-    for note in loaded.notes:
-        say(f"{path}: {note}")
-    return loaded.scenario
-
-
-def writable(
-    *suffixes: str, instead: dict[str, str] | None = None, stdout: bool = True
-) -> Callable[[click.Context, click.Parameter, Any], Any]:
-    """Return a callback that refuses, before any work, a file that could not be written after it.
-
-    Parameters
-    ----------
-    suffixes
-        Endings of the file, if not all are good. A device or a pipe needs none.
-    instead
-        For further endings, what to do to get a file of that kind.
-    stdout
-        Whether ``-`` is good, for standard output.
-    """
-
-    def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
-        if path is None or (path == "-" and stdout):
-            return path
-        fault = _unwritable(Path(path), suffixes, instead or {})
-        if fault:
-            raise click.BadParameter(f"{path!r} {fault}")
-        return path
-
-    return check
-
-
-def _unwritable(path: Path, suffixes: tuple[str, ...], instead: dict[str, str]) -> str | None:
-    if path.is_dir():
-        return "is a directory (give a file name in it)"
-    suffix = path.suffix.lower()
-    if suffixes and suffix not in suffixes and not _is_device(path):
-        *others, last = suffixes
-        known = f"{', '.join(others)} or {last}" if others else last
-        remedy = instead.get(suffix, "give a name that does")
-        return f"does not end in {known} ({remedy.format(path)})"
-    if not path.parent.is_dir():
-        return f"cannot be written: there is no directory {str(path.parent)!r} (make it first)"
-    return None
-
-
-def _is_device(path: Path) -> bool:
-    try:
-        return not stat.S_ISREG(path.stat().st_mode)
-    except (OSError, ValueError):
-        return False
-
-
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
-    """Return a time limit [s]; None for no limit."""
-    if not given > 0:
-        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
-    return None if given == math.inf else given
-
-
-def _seed(_context: click.Context, _parameter: click.Parameter, given: int) -> int:
-    from rightofway.solve import LARGEST_SEED
-
-    if not 0 <= given <= LARGEST_SEED:
-        raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")
-    return given
-
-
-time_limit_option = click.option(
-    "--time-limit",
-    type=float,
-    default=10,
-    show_default=True,
-    callback=_seconds,
-    metavar="SECONDS",
-    help="Time limit of the whole command; inf for none.",
-)
-
-count_option = click.option(
-    "-k",
-    "--count",
-    type=click.IntRange(1),
-    metavar="K",
-    help="Take the first K robots of a .scen file; all by default.",
-)
-
-seed_option = click.option(
-    "--seed",
-    type=int,
-    default=0,
-    show_default=True,
-    callback=_seed,
-    metavar="N",
-    help="Seed of all random choices; the same seed gives the same result.",
-)
-
-
-ticks_option = click.option(
-    "--ticks",
-    "in_ticks",
-    is_flag=True,
-    help="Report times in ticks, as files have them.",
-)
-
-
-def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
-    """Return how a report writes times: in the scenario's units, or in ticks on request."""
-    return replace(scenario.quantities, in_ticks=in_ticks)
-
-
 def counted(number: int, noun: str) -> str:
     """Return a number and its noun: ``1 more robot``, ``3 more robots``."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
@@ -346,23 +181,3 @@ def measures(scenario: Scenario) -> dict[str, Any]:
     """Return what the numbers of a report for programs are measured in."""
     tick = written(scenario.problem.clock.tick)
     return {"tick": tick, "units": asdict(scenario.units)}
-
-
-def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return the option that prints a result for programs."""
-    return click.option("--json", "as_json", is_flag=True, help=f"Print the {what} as JSON.")
-
-
-class ListingCommand(click.Command):
-    """A command whose help lists the values of an option, then the examples."""
-
-    def __init__(
-        self, *args: Any, listing: Callable[[click.HelpFormatter], None], **kwargs: Any
-    ) -> None:
-        super().__init__(*args, **kwargs)
-        self.listing = listing
-
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the list, then the examples."""
-        self.listing(formatter)
-        super().format_epilog(ctx, formatter)

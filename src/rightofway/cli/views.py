@@ -8,21 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files
+from rightofway.cli.inputs import count_option, foreign_options, read_either, read_plan
+from rightofway.cli.options import as_json_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES
-from rightofway.cli.terminal import (
-    as_json_option,
-    complain,
-    count_option,
-    file_title,
-    foreign_options,
-    progress,
-    put_json,
-    put_report,
-    read_either,
-    read_plan,
-    say,
-    writable,
-)
+from rightofway.cli.terminal import complain, file_title, progress, put_json, put_report, say
 from rightofway.errors import InputError
 
 if TYPE_CHECKING:

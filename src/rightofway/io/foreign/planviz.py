@@ -1,11 +1,14 @@
 """JSON of PlanViz and the League of Robot Runners, rounds 2023, 2024 and 2026.
 
-``actualPaths`` has the actions of each agent, one for each step: ``"F,R,W"``. Since 2026 a move or
-turn takes ``agentMaxCounter`` steps, and runs of actions are counted:
-``[(0,14,55,0,0):(F 20,R 10)][(30,…):(W 5)]``; of the words in front, the first step of the part is
-read. In the action model ``MAPF_T`` agents have headings: F drives forward, R and C turn clockwise
-and back, W waits. In ``MAPF``, L and R change the column and U and D the row: U adds 1 for PlanViz
-today and took 1 away in earlier files. That way is read in which more agents are at their errands.
+``actualPaths``, else ``plannerPaths``, has the actions of each agent, one for each step:
+``"F,R,W"``. Since 2026 a move or turn takes ``agentMaxCounter`` steps, and runs of actions are
+counted: ``[(0,14,55,0,0):(F 20,R 10)][(30,…):(W 5)]``. Of the five numbers before a part, only its
+first step is read.
+
+In the action model ``MAPF_T`` agents have headings: F drives forward, R turns clockwise, C the
+other way, W waits. In ``MAPF``, L and R change the column, U and D the row: U adds 1 in PlanViz
+today, and took 1 away in earlier files. Both are tried, and the one is taken with which more agents
+are at their errands when they finish them.
 
 Our robots turn in no time, so a turn becomes a wait. An agent is at its cell until a move is
 complete. Its stops are the errands that it finishes, in order, and its last cell.
@@ -41,6 +44,8 @@ HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 MOVES = {"U": (1, 0), "D": (-1, 0), "L": (0, -1), "R": (0, 1)}
 """Change of row and column of the action model MAPF, as PlanViz draws them today."""
 
+PATHS = ("actualPaths", "plannerPaths")
+
 EARLIER_MOVES = {**MOVES, "U": MOVES["D"], "D": MOVES["U"]}
 
 TURNS = {"R": -1, "C": 1}
@@ -67,7 +72,8 @@ Errands = dict[int, list[tuple[int, Cell]]]
 def recognizes(text: str) -> bool:
     """Return whether a text is JSON with the actions of agents."""
     is_ours = '"rightofway-' in text[:200]
-    return text.lstrip().startswith("{") and '"actualPaths"' in text and not is_ours
+    has_paths = any(f'"{key}"' in text for key in PATHS)
+    return text.lstrip().startswith("{") and has_paths and not is_ours
 
 
 def read(text: str) -> ForeignPlan:
@@ -83,16 +89,17 @@ def read(text: str) -> ForeignPlan:
     turns = faults.attempt("actionModel", _has_headings, log.get("actionModel", "MAPF_T"))
     counter = faults.attempt("agentMaxCounter", _count, log.get("agentMaxCounter", 1)) or 1
     faults.stop()
-    paths, starts = log.get("actualPaths"), log.get("start")
+    key = next((key for key in PATHS if key in log), PATHS[0])
+    paths, starts = log.get(key), log.get("start")
     if not isinstance(paths, list) or not paths:
-        raise InputError.at("actualPaths", f"{shown(paths)} is no list of paths (one an agent)")
+        raise InputError.at(key, f"{shown(paths)} is no list of paths (give one for each agent)")
     if not isinstance(starts, list) or len(starts) < len(paths):
         raise InputError.at("start", f"does not have a start for each of {len(paths)} agents")
     counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths)
     steps_per_move = counter if counts else 1
     errands = faults.attempt("", _errands, log) or {}
     ways = [HEADINGS] if turns else [MOVES, EARLIER_MOVES]
-    read = [_all_visits(paths, starts, way, steps_per_move, faults) for way in ways]
+    read = [_all_visits(log, key, way, steps_per_move, faults) for way in ways]
     faults.stop()
     visits = max(read, key=lambda visits: _hits(visits, errands))
     agents = []
@@ -101,7 +108,7 @@ def read(text: str) -> ForeignPlan:
         stops = [cell for _, cell in errands.get(index, [])]
         if stops[-1:] != [(row, column)]:
             stops.append((row, column))
-        place = f"actualPaths[{index}]"
+        place = f"{key}[{index}]"
         agents.append(
             Trajectory(name=f"A{index}", cells=cells, steps=steps, place=place, stops=stops)
         )
@@ -109,17 +116,17 @@ def read(text: str) -> ForeignPlan:
 
 
 def _all_visits(
-    paths: list[Any],
-    starts: list[Any],
+    log: dict[str, Any],
+    key: str,
     changes: Mapping[str, Cell],
     steps_per_move: int,
     faults: Faults,
 ) -> list[Visits]:
     """Return the visits of each agent, or fewer after noting faults."""
     found, n_moves = list[Visits](), 0
-    for index, (path, start) in enumerate(zip(paths, starts, strict=False)):
+    for index, (path, start) in enumerate(zip(log[key], log["start"], strict=False)):
         begin = faults.attempt(f"start[{index}]", _start, start, changes)
-        place = f"actualPaths[{index}]"
+        place = f"{key}[{index}]"
         runs = faults.attempt(place, _runs, path, changes)
         if begin is None or runs is None:
             continue

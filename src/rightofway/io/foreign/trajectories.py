@@ -2,8 +2,8 @@
 
 Read as a `Plan`, an agent is a robot of unit speed under the classic rules: a move takes one time
 unit, turns take none, there is no way back. Its home is its first cell. Its stops are the goals and
-tasks that the file names; without any, its last cell. With a ``.scen`` file, home and target are
-those of the agent's row.
+tasks that the file names; without any, its last cell. With a ``.scen`` file, name, home and target
+are those of the agent's row, so that the plan is one of the very scenario that the file is.
 """
 
 from __future__ import annotations
@@ -147,11 +147,11 @@ def _scenario(found: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow])
     for number, agent in enumerate(found.agents):
         home, *_, last = agent.cells[[0, -1]].tolist()
         stops: Sequence[Sequence[int]] = agent.stops or [last]
+        name = agent.name
         if rows:
+            name = f"R{number + 1}"  # as in the scenario of the .scen file
             home, stops = list(rows[number].start), [rows[number].goal]
-        robots.append(
-            {"name": agent.name, "home": home, "stops": [{"at": list(at)} for at in stops]}
-        )
+        robots.append({"name": name, "home": home, "stops": [{"at": list(at)} for at in stops]})
     moves = found.steps_per_move
     if any((agent.steps % moves).any() for agent in found.agents):
         # Agents move at steps between those of whole moves. The clock of a scenario follows from

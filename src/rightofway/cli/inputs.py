@@ -1,0 +1,79 @@
+"""What commands read: scenarios and plans, ours and those of other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rightofway.cli.terminal import say
+
+if TYPE_CHECKING:
+    from rightofway.io import Loaded
+    from rightofway.model import Plan, Scenario
+
+FILES = "rightofway.files."
+"""Where a command keeps the files that belong to a plan of another program."""
+
+count_option = click.option(
+    "-k",
+    "--count",
+    type=click.IntRange(1),
+    metavar="K",
+    help="Take the first K robots of a .scen file; all by default.",
+)
+
+
+def read_scenario(path: str, count: int | None = None) -> Scenario:
+    """Read a scenario, or the first robots of a .scen file, and write its reader's notes.
+
+    ``-`` is standard input.
+    """
+    from rightofway.io import load_with_notes
+
+    return _noted(load_with_notes(path, count=count), path)
+
+
+def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
+    suffix = f".{parameter.name}"
+    if given is not None and Path(given).suffix.lower() != suffix:
+        raise click.BadParameter(f"{given!r} does not end in {suffix} (give a {suffix} file)")
+    context.meta[f"{FILES}{parameter.name}"] = given
+
+
+def foreign_options(command: Any) -> Any:
+    """Add the files that a plan of another program may need; `read_plan` finds them."""
+    for name, what in (("scen", "starts and goals (.scen)"), ("map", "map (.map)")):
+        command = click.option(
+            f"--{name}", metavar="FILE", expose_value=False, callback=_keep_file,
+            help=f"The {what} of a plan of another program.",
+        )(command)  # fmt: skip
+    return command
+
+
+def _files() -> dict[str, str | None]:
+    """Return the files of `foreign_options`."""
+    meta = click.get_current_context().meta
+    return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
+
+
+def read_plan(path: str) -> Plan:
+    """Read a plan, ours or of another program; ``-`` is standard input."""
+    from rightofway.io import load_plan
+
+    return load_plan(path, **_files())
+
+
+def read_either(path: str, count: int | None = None) -> Plan | Scenario:
+    """Read a plan or a scenario; ``-`` is standard input."""
+    from rightofway.io import Loaded, load_either
+
+    found = load_either(path, count=count, **_files())
+    return _noted(found, path) if isinstance(found, Loaded) else found
+
+
+def _noted(loaded: Loaded, path: str) -> Scenario:
+    for note in loaded.notes:
+        say(f"{path}: {note}")
+    return loaded.scenario

@@ -1,0 +1,135 @@
+"""Options that several commands share, and the checks of their values before any work."""
+
+from __future__ import annotations
+
+import math
+import stat
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from rightofway.model import Quantities, Scenario
+
+Callback = Callable[[click.Context, click.Parameter, Any], Any]
+"""What click calls to check the value of an option."""
+
+
+def writable(
+    *suffixes: str, instead: dict[str, str] | None = None, stdout: bool = True
+) -> Callback:
+    """Return a callback that refuses, before any work, a file that could not be written after it.
+
+    Parameters
+    ----------
+    suffixes
+        Endings of the file, if not all are good. A device or a pipe needs none.
+    instead
+        For further endings, what to do to get a file of that kind.
+    stdout
+        Whether ``-`` is good, for standard output.
+    """
+
+    def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
+        if path is None or (path == "-" and stdout):
+            return path
+        fault = _unwritable(Path(path), suffixes, instead or {})
+        if fault:
+            raise click.BadParameter(f"{path!r} {fault}")
+        return path
+
+    return check
+
+
+def _unwritable(path: Path, suffixes: tuple[str, ...], instead: dict[str, str]) -> str | None:
+    if path.is_dir():
+        return "is a directory (give a file name in it)"
+    suffix = path.suffix.lower()
+    if suffixes and suffix not in suffixes and not _is_device(path):
+        *others, last = suffixes
+        known = f"{', '.join(others)} or {last}" if others else last
+        remedy = instead.get(suffix, "give a name that does")
+        return f"does not end in {known} ({remedy.format(path)})"
+    if not path.parent.is_dir():
+        return f"cannot be written: there is no directory {str(path.parent)!r} (make it first)"
+    return None
+
+
+def _is_device(path: Path) -> bool:
+    try:
+        return not stat.S_ISREG(path.stat().st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+    """Return a time limit [s]; None for no limit."""
+    if not given > 0:
+        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
+    return None if given == math.inf else given
+
+
+def _seed(_context: click.Context, _parameter: click.Parameter, given: int) -> int:
+    from rightofway.solve import LARGEST_SEED
+
+    if not 0 <= given <= LARGEST_SEED:
+        raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")
+    return given
+
+
+time_limit_option = click.option(
+    "--time-limit",
+    type=float,
+    default=10,
+    show_default=True,
+    callback=_seconds,
+    metavar="SECONDS",
+    help="Time limit of the whole command; inf for none.",
+)
+
+
+seed_option = click.option(
+    "--seed",
+    type=int,
+    default=0,
+    show_default=True,
+    callback=_seed,
+    metavar="N",
+    help="Seed of all random choices; the same seed gives the same result.",
+)
+
+
+ticks_option = click.option(
+    "--ticks",
+    "in_ticks",
+    is_flag=True,
+    help="Report times in ticks, as files have them.",
+)
+
+
+def quantities_of(scenario: Scenario, *, in_ticks: bool) -> Quantities:
+    """Return how a report writes times: in the scenario's units, or in ticks on request."""
+    return replace(scenario.quantities, in_ticks=in_ticks)
+
+
+def as_json_option(what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return the option that prints a result for programs."""
+    return click.option("--json", "as_json", is_flag=True, help=f"Print the {what} as JSON.")
+
+
+class ListingCommand(click.Command):
+    """A command whose help lists the values of an option, then the examples."""
+
+    def __init__(
+        self, *args: Any, listing: Callable[[click.HelpFormatter], None], **kwargs: Any
+    ) -> None:
+        super().__init__(*args, **kwargs)
+        self.listing = listing
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list, then the examples."""
+        self.listing(formatter)
+        super().format_epilog(ctx, formatter)
