@@ -30,8 +30,8 @@ def door(tmp_path: Path) -> Any:
 
 def test_it_has_a_sheet_for_each_question(door: Any) -> None:
     assert door.sheetnames == [
-        "summary", "time and space", "legend", "diagram", "diagram data", "events", "collisions",
-        "left in the plan", "decisions",
+        "summary", "diagram", "time and space", "legend", "events", "collisions",
+        "left in the plan", "decisions", "diagram data",
     ]  # fmt: skip
 
 
