@@ -128,7 +128,8 @@ def workbook_of(document: dict[str, Any]) -> bytes:
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
     more = document.keys() - {"format", "map", "robots", "rules", "units"}
-    more |= document["map"].get("roadmap", {}).keys() - {"vertices", "edges"}
+    roadmap = document["map"].get("roadmap", {})
+    more |= roadmap.keys() - {"vertices", "edges"}
     if more:
         message = f"a workbook has no place for {' and '.join(sorted(more))} (write .yaml or .json)"
         raise InputError.at("", message)
