@@ -5,7 +5,6 @@ The diagram is a chart of the spreadsheet itself: places over time, a line for e
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -18,7 +17,7 @@ from openpyxl.chart.legend import LegendEntry  # type: ignore[import-untyped]
 from openpyxl.worksheet.properties import PageSetupProperties  # type: ignore[import-untyped]
 
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.files import write_whole
+from rightofway.files import archive_of, write_whole
 from rightofway.metrics import free_running, lost_time, measure
 from rightofway.model import Plan
 from rightofway.viz.motion import Activity, trips_of
@@ -100,9 +99,7 @@ def result_of(plan: Plan) -> bytes:
             left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
     _write_diagram(diagram, _sheet(workbook, "diagram data"), plan)
     _write_summary(summary, plan, left_out)
-    content = io.BytesIO()
-    workbook.save(content)
-    return content.getvalue()
+    return archive_of(workbook.save)
 
 
 def _sheet(workbook: Any, title: str) -> Any:
