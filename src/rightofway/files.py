@@ -1,14 +1,41 @@
-"""Files that are there whole or not at all; for all who write some."""
+"""Files that are there whole or not at all, and archives without dates; for all who write some."""
 
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Callable
 from contextlib import suppress
+from io import BytesIO
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rightofway.errors import InputError
 
-__all__ = ["write_whole"]
+__all__ = ["archive_of", "write_whole"]
+
+NO_DATE = (1980, 1, 1, 0, 0, 0)
+"""The first date that a zip archive can hold."""
+
+SAVED = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
+"""When a workbook was written, by its own account."""
+
+
+def archive_of(save: Callable[[BytesIO], object]) -> bytes:
+    """Return a workbook, which is a zip archive, without the dates at which it was written.
+
+    Parameters
+    ----------
+    save
+        Writes the archive into a buffer. Equal content gives equal bytes.
+    """
+    dated, undated = BytesIO(), BytesIO()
+    save(dated)
+    with ZipFile(dated) as source, ZipFile(undated, "w") as target:
+        for name in source.namelist():
+            content = SAVED.sub(rb"\g<1>1980-01-01T00:00:00Z", source.read(name))
+            target.writestr(ZipInfo(name, NO_DATE), content, ZIP_DEFLATED)
+    return undated.getvalue()
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:

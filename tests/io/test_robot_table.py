@@ -30,6 +30,11 @@ def test_a_row_is_a_robot(tmp_path: Path, delimiter: str) -> None:
     assert rows == [("R1", 0, 4, "1/2"), ("R2", 2, 6, "1")]
 
 
+def test_a_decimal_comma_is_read_between_semicolons(tmp_path: Path) -> None:
+    found = rightofway.load(scenario(tmp_path, "name;home;target;speed\nR1;N0;N6;0,5\n"))
+    assert str(found.robots[0].speed) == "1/2"
+
+
 def test_a_plan_holds_the_robots_of_the_table(tmp_path: Path) -> None:
     loaded = rightofway.load(scenario(tmp_path, "name,home,stop 1,work 1,stop 2\nR1,N0,N6,2,N8\n"))
     rightofway.write_plan(rightofway.solve(loaded), tmp_path / "plan.json")

@@ -16,7 +16,7 @@ from openpyxl.styles import PatternFill  # type: ignore[import-untyped]
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import load_with_notes, write_scenario
+from rightofway.io import load_with_notes, scenario_of, write_scenario
 from rightofway.io.workbook import workbook_of, write_template
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.model import Rules
@@ -71,6 +71,19 @@ def test_the_template_has_hints_and_lists_of_choices(tmp_path: Path) -> None:
     assert '"one,both"' in lists
     prompts = [each.prompt for each in workbook["robots"].data_validations.dataValidation]
     assert all(prompts)
+
+
+def test_limits_of_edges_are_kept(tmp_path: Path) -> None:
+    edges = [{"from": "dock", "to": "bay", "max_speed": "1/2"}, ["bay", "shelf", "5/2"]]
+    vertices = {"dock": [0, 0], "bay": [0.5, 2], "shelf": [3, 2]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": vertices, "edges": edges}, "y": "up"},
+        "robots": [{"name": "R1", "home": "dock", "target": "shelf"}],
+    }
+    scenario = scenario_of(document)
+    write_scenario(scenario, tmp_path / "roadmap.xlsx")
+    assert rightofway.load(tmp_path / "roadmap.xlsx") == scenario
 
 
 @pytest.mark.parametrize("name", ["door", "crossroad", "bay", "floor", "paper/door-5"])

@@ -10,6 +10,8 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 import pytest
 
 import rightofway
+from rightofway.errors import InputError
+from rightofway.metrics import free_running
 from rightofway.model import Plan, Tick, completions_of
 from rightofway.model.quantities import Units
 from rightofway.planners.routing import free_running_tracks
@@ -26,7 +28,7 @@ from rightofway.viz.table import (
     meetings,
 )
 from rightofway.viz.table.workbook import sheets_of
-from tests.builders.fleets import PAPER, paper_scenario
+from tests.builders.fleets import PAPER, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
 
@@ -108,6 +110,22 @@ def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict
     end = max(completions_of(scenario, tracks))
     listed = collision_ticks(meetings(scenario, tracks), scenario.quantities, end)
     assert conflicts_before(plan)[0] == [row[4] for row in listed.rows()].count("collision")
+
+
+def test_the_published_method_does_not_count_the_swaps_that_it_does_not_see() -> None:
+    plan = rightofway.solve(random_fleet(7, robots=10), "paper")
+    found = meetings(plan.scenario, free_running(plan))
+    assert "swap" in [each.kind for each in found]
+    ticks = [each.until - each.start for each in found if each.until is not None]
+    assert conflicts_before(plan)[0] == sum(ticks)
+
+
+def test_a_list_of_too_many_ticks_is_refused() -> None:
+    found = [Meeting("R1", "R2", Tick(0), Tick(10**9), ("N7",), "collision")]
+    with pytest.raises(
+        InputError, match=r"--each-tick: the collisions last 1000000000 ticks, more"
+    ):
+        collision_ticks(found, in_seconds().scenario.quantities, Tick(6))
 
 
 def test_each_decision_goes_on_from_what_the_one_before_has_left() -> None:

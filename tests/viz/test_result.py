@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import re
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +13,7 @@ import pytest
 
 import rightofway
 from rightofway.model import Plan, Rules
-from rightofway.viz.table.result import write_result
+from rightofway.viz.table.result import result_of, write_result
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
@@ -28,10 +31,19 @@ def door(tmp_path: Path) -> Any:
     return result(plan, tmp_path)
 
 
+def test_it_does_not_hold_when_it_was_written() -> None:
+    """So the same plan gives the same bytes."""
+    data = result_of(rightofway.solve(paper_scenario(CASES["door-1"])))
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert {part.date_time[:3] for part in archive.infolist()} == {(1980, 1, 1)}
+        core = archive.read("docProps/core.xml")
+    assert re.findall(rb"W3CDTF.>([^<]*)<", core) == [b"1980-01-01T00:00:00Z"] * 2
+
+
 def test_it_has_a_sheet_for_each_question(door: Any) -> None:
     assert door.sheetnames == [
-        "summary", "time and space", "legend", "diagram", "diagram data", "events", "collisions",
-        "left in the plan", "decisions",
+        "summary", "diagram", "time and space", "legend", "events", "collisions",
+        "left in the plan", "decisions", "diagram data",
     ]  # fmt: skip
 
 

@@ -30,6 +30,9 @@ PLACE_KEYS = {"home", "target", "at"}
 WORD_KEYS = {"name", "type", "return"}
 """Keys whose values are text, also where they look like numbers."""
 
+DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+")
+"""A decimal as spreadsheets write it where columns stand between semicolons."""
+
 WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 
 Row = tuple[int, Mapping[int, Any]]
@@ -214,8 +217,13 @@ def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
             rows = list(csv.reader(lines, delimiter=delimiter, strict=True))
         except csv.Error as error:
             raise InputError.at("", f"{error} (check the quotes)") from None
+
+        def pointed(text: str) -> str:
+            is_decimal = delimiter != "," and DECIMAL_COMMA.fullmatch(text)
+            return text.replace(",", ".") if is_decimal else text
+
         filled = (
-            (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
+            (number, {at: pointed(text.strip()) for at, text in enumerate(row, 1) if text.strip()})
             for number, row in enumerate(rows, 1)
         )
         headings = [heading_key(text) for text in rows[0]] if rows else []

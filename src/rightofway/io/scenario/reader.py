@@ -36,8 +36,8 @@ MAX_TICKS = 2**40
 
 DEFAULT_SPEED = Fraction(1)
 
-WORKBOOKS = (".xlsx", ".xlsm")
-"""How the names of workbooks end."""
+WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
+"""How the names of workbooks end; the last two are refused with what to do."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""

@@ -217,7 +217,11 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
         place = f"map.roadmap.edges[{len(ways)}]"
         cells[place] = edges.cell(row, 1)
         cells |= {f"{place}.{key}": edges.cell(row, column) for key, column in columns.items()}
-        way = {key: str(found[key]) if key in {"from", "to"} else found[key] for key in found}
+        way = dict[str, Any]()
+        for key, value in found.items():
+            at = edges.cell(row, columns[key])
+            is_name = key in {"from", "to"}
+            way[key] = str(value) if is_name else faults.attempt(at, value_of, key, value)
         both = way.get("both_ways")
         if isinstance(both, str):
             way["both_ways"] = YES_NO.get(both.lower(), both)

@@ -11,6 +11,7 @@ import re
 import warnings
 import zipfile
 from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import date, datetime, time, timedelta
 from fractions import Fraction
@@ -119,13 +120,16 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
 
 def _content(path: Path) -> bytes:
     try:
-        data = path.read_bytes() if path.stat().st_size <= MAX_BYTES else b""
+        is_small = path.stat().st_size <= MAX_BYTES
+        data = path.read_bytes() if is_small else b""
     except FileNotFoundError:
         raise InputError.at("", "there is no such file (check the path)") from None
     except IsADirectoryError:
         raise InputError.at("", "this is a directory (give a file in it)") from None
     except (OSError, ValueError) as error:
         raise InputError.at("", f"the file cannot be read: {error} (check the path)") from None
+    if not is_small:
+        raise _too_long()
     if data.startswith(OLD_OFFICE):
         message = "has a password, or is an old .xls file (save it as .xlsx without a password)"
         raise InputError.at("", message)
@@ -138,31 +142,32 @@ def _content(path: Path) -> bytes:
     if "content.xml" in names:
         raise InputError.at("", "this is an OpenDocument file (save it as .xlsx)")
     if size > MAX_BYTES:
-        message = f"its content is longer than {MAX_BYTES} bytes (is it the right file?)"
-        raise InputError.at("", message)
+        raise _too_long()
     return data
 
 
-class _opened:  # noqa: N801 (a context manager, used like a function)
-    """A workbook that streams its sheets; anything that is wrong with the file is an InputError."""
+def _too_long() -> InputError:
+    message = f"its content is longer than {MAX_BYTES} bytes (is it the right file?)"
+    return InputError.at("", message)
 
-    def __init__(self, data: bytes, *, cached: bool) -> None:
-        import openpyxl  # type: ignore[import-untyped]
 
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # on parts that we do not read
-            try:
-                self.workbook = openpyxl.load_workbook(
-                    io.BytesIO(data), read_only=True, data_only=cached, keep_links=False
-                )
-            except Exception as error:  # noqa: BLE001 (a broken file may raise anything there)
-                raise _broken(error) from None
+@contextmanager
+def _opened(data: bytes, *, cached: bool) -> Iterator[Any]:
+    """Yield a workbook that streams its sheets, with formulas or with the values they had."""
+    import openpyxl  # type: ignore[import-untyped]
 
-    def __enter__(self) -> Any:
-        return self.workbook
-
-    def __exit__(self, *_: object) -> None:
-        self.workbook.close()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # on parts that we do not read
+        try:
+            workbook = openpyxl.load_workbook(
+                io.BytesIO(data), read_only=True, data_only=cached, keep_links=False
+            )
+        except Exception as error:  # noqa: BLE001 (a broken file may raise anything there)
+            raise _broken(error) from None
+    try:
+        yield workbook
+    finally:
+        workbook.close()
 
 
 def _broken(error: Exception) -> InputError:

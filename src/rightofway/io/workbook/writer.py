@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.files import write_whole
+from rightofway.files import archive_of, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 
 WALL, HEAD = "404040", "D9E2EF"
@@ -120,15 +119,14 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     sheet.column_dimensions["A"].width = 100
     for line in HELP:
         sheet.append([line])
-    content = io.BytesIO()
-    workbook.save(content)
-    return content.getvalue()
+    return archive_of(workbook.save)
 
 
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
     more = document.keys() - {"format", "map", "robots", "rules", "units"}
-    more |= document["map"].get("roadmap", {}).keys() - {"vertices", "edges"}
+    roadmap = document["map"].get("roadmap", {})
+    more |= roadmap.keys() - {"vertices", "edges"}
     if more:
         message = f"a workbook has no place for {' and '.join(sorted(more))} (write .yaml or .json)"
         raise InputError.at("", message)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from rightofway.errors import InputError
 from rightofway.metrics import (
     Collision,
     Event,
@@ -21,6 +22,9 @@ from rightofway.model import Decision, Plan, Scenario, Tick, Track
 from rightofway.model.quantities import Quantities
 from rightofway.viz.table.listing import Column, Listing
 from rightofway.viz.table.timespace import chosen_robots
+
+MAX_TICKS = 1_000_000
+"""Rows of a list that has one for each tick, at most."""
 
 
 def chosen_events(
@@ -178,16 +182,22 @@ def collision_ticks(found: Sequence[Meeting], quantities: Quantities, end: Tick)
         How times are written.
     end
         The last tick listed of a collision that never ends.
+
+    Raises
+    ------
+    InputError
+        If the list would have more than `MAX_TICKS` rows.
     """
+    last = [end + 1 if row.until is None else row.until for row in found]
+    ticks = sum(until - row.start for row, until in zip(found, last, strict=True))
+    if ticks > MAX_TICKS:
+        message = f"the collisions last {ticks} ticks, more than {MAX_TICKS} (leave it out)"
+        raise InputError.at("--each-tick", message)
     rows = sorted(
         (
             (tick, row.i, row.j, " and ".join(row.places), row.kind)
-            for row in found
-            for tick in (
-                [row.start]
-                if row.kind == "swap"
-                else range(row.start, end + 1 if row.until is None else row.until)
-            )
+            for row, until in zip(found, last, strict=True)
+            for tick in ([row.start] if row.kind == "swap" else range(row.start, until))
         ),
         key=lambda row: row[0],
     )
@@ -222,12 +232,12 @@ def conflicts_before(plan: Plan) -> list[int | None]:
     """
     if plan.run.reroutes or plan.scenario.problem.resources is not None:
         return [None] * len(plan.run.decisions)
-    tracks, total = free_running(plan), 0
+    tracks = free_running(plan)
     found = collisions(plan.scenario, tracks)
     overlap = [each.end - each.start for each in found if each.end is not None]
-    if plan.run.options.get("swaps") != "leave":
-        total = len(swaps(tracks))
-    first = total + sum(overlap) if len(overlap) == len(found) else None
+    leaves_swaps = plan.run.name == "paper" or plan.run.options.get("swaps") == "leave"
+    counted = sum(overlap) + (0 if leaves_swaps else len(swaps(tracks)))
+    first = counted if len(overlap) == len(found) else None
     return [first, *map(conflicts_left, plan.run.decisions)][: len(plan.run.decisions)]
 
 

@@ -5,7 +5,6 @@ The diagram is a chart of the spreadsheet itself: places over time, a line for e
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -13,11 +12,12 @@ from typing import Any
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
 from openpyxl.chart import Reference, ScatterChart, Series  # type: ignore[import-untyped]
 from openpyxl.chart.label import DataLabelList  # type: ignore[import-untyped]
+from openpyxl.chart.layout import Layout, ManualLayout  # type: ignore[import-untyped]
 from openpyxl.chart.legend import LegendEntry  # type: ignore[import-untyped]
 from openpyxl.worksheet.properties import PageSetupProperties  # type: ignore[import-untyped]
 
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.files import write_whole
+from rightofway.files import archive_of, write_whole
 from rightofway.metrics import free_running, lost_time, measure
 from rightofway.model import Plan
 from rightofway.viz.motion import Activity, trips_of
@@ -45,7 +45,10 @@ MOST_POINTS = 32_000
 CHART_SIZE = (32, 17)
 """Width and height of the chart [cm]."""
 
-LABEL_GREY, GRID_GREY = "5D646C", "E3E1DA"
+NAME_SHARE = 0.007
+"""The part of the chart's width that a letter of a place takes."""
+
+GRID_GREY = "E3E1DA"
 
 
 def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
@@ -74,7 +77,7 @@ def result_of(plan: Plan) -> bytes:
     """Return the workbook of `write_result`."""
     workbook = openpyxl.Workbook(write_only=True)
     summary = _sheet(workbook, "summary")
-    left_out: list[tuple[str, str]] = []
+    diagram, left_out = _sheet(workbook, "diagram"), list[tuple[str, str]]()
     try:
         table = table_of(plan)
         table = table.with_fewer(min(MAX_TICKS_OF_SHEET, MAX_CELLS // len(table.rows)))
@@ -82,7 +85,6 @@ def result_of(plan: Plan) -> bytes:
         write_legend(_sheet(workbook, "legend"), table)
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
-    _write_diagram(workbook, plan)
     quantities = plan.scenario.quantities
     free = meetings(plan.scenario, free_running(plan))
     for listing in (
@@ -95,10 +97,9 @@ def result_of(plan: Plan) -> bytes:
             write_list(_sheet(workbook, listing.title), listing)
         except InputError as error:
             left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
+    _write_diagram(diagram, _sheet(workbook, "diagram data"), plan)
     _write_summary(summary, plan, left_out)
-    content = io.BytesIO()
-    workbook.save(content)
-    return content.getvalue()
+    return archive_of(workbook.save)
 
 
 def _sheet(workbook: Any, title: str) -> Any:
@@ -162,9 +163,8 @@ def _robots(plan: Plan) -> Listing:
     )
 
 
-def _write_diagram(workbook: Any, plan: Plan) -> None:
-    """Write the points of each robot's line in a sheet, and a chart of them in another one."""
-    sheet, data = _sheet(workbook, "diagram"), _sheet(workbook, "diagram data")
+def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
+    """Write a chart into a sheet, and the points of each robot's line into another one."""
     trips, scenario = trips_of(plan)[:MOST_LINES], plan.scenario
     routes = [trip.vertices for trip in trips]
     line = list(vertices_in_line(routes, edge_length(scenario.roadmap)))
@@ -184,6 +184,12 @@ def _write_diagram(workbook: Any, plan: Plan) -> None:
     chart.y_axis.title = None if line else "place"
     chart.y_axis.majorGridlines.spPr = _stroke(GRID_GREY)
     if line:
+        names = [scenario.roadmap.name(vertex) for vertex in line]
+        left = min(NAME_SHARE * (2 + max(map(len, names))), 0.3)
+        room = ManualLayout(
+            layoutTarget="inner", xMode="edge", yMode="edge", x=left, y=0.1, w=0.96 - left, h=0.76
+        )
+        chart.layout = Layout(manualLayout=room)
         chart.y_axis.scaling.min, chart.y_axis.scaling.max = -1, len(line)
         chart.y_axis.majorUnit = 1
     elif cells is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,6 +10,7 @@ from typing import Any
 import openpyxl  # type: ignore[import-untyped]  # it ships no types
 
 from rightofway.errors import InputError
+from rightofway.files import archive_of
 from rightofway.viz.table.listing import Listing
 from rightofway.viz.table.timespace import Mark, Place, RowKind, TimeSpaceTable
 
@@ -49,9 +49,7 @@ def workbook_of(table: TimeSpaceTable) -> bytes:
     workbook = openpyxl.Workbook(write_only=True)
     write_table(workbook.create_sheet("time and space"), table)
     write_legend(workbook.create_sheet("legend"), table)
-    content = io.BytesIO()
-    workbook.save(content)
-    return content.getvalue()
+    return archive_of(workbook.save)
 
 
 def sheets_of(lists: Sequence[Listing]) -> bytes:
@@ -70,9 +68,7 @@ def sheets_of(lists: Sequence[Listing]) -> bytes:
     workbook = openpyxl.Workbook(write_only=True)
     for each in lists:
         write_list(workbook.create_sheet(each.title), each)
-    content = io.BytesIO()
-    workbook.save(content)
-    return content.getvalue()
+    return archive_of(workbook.save)
 
 
 def write_list(sheet: Any, listing: Listing) -> None:

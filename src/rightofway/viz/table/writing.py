@@ -19,8 +19,8 @@ MAX_TICKS_OF_SHEET = 16_384 - 2
 MAX_LINES = 120
 """Lines of a text that people read; a longer one ends with how to see the rest."""
 
-LONGEST_STEP = Fraction(1)
-"""A long text has columns up to this [time unit], where a tick is shorter."""
+LONGEST_STEP = Fraction(10)
+"""Where a tick is below one time unit, a long text has columns up to this [time unit]."""
 
 LEGEND_WIDTH = 40
 """Columns that a legend takes, however narrow the terminal is."""
@@ -47,8 +47,8 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     width
         Columns of the terminal. A block shows at least one tick, however narrow it is.
     max_lines
-        About how many lines to write; None for all. A longer table has columns of several ticks, up
-        to one time unit, and is cut if that is not enough; both are said below it.
+        About how many lines to write; None for all. A longer table with ticks below
+        one time unit has longer columns, and is cut if that is not enough; both are said below it.
 
     Returns
     -------
@@ -68,7 +68,8 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     names = max(map(text_width, (table.heading, *labels)))
     room = width - names - len(GAP) + 1
     size = _column(table)
-    if max_lines is not None and not table.quantities.in_ticks and table.step == 1:
+    has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
+    if max_lines is not None and has_short_ticks and table.step == 1:
         blocks_shown = max(max_lines // (len(labels) + 2), 1)
         table = table.with_fewer(blocks_shown * (room // (size + len("* "))), LONGEST_STEP)
         size = _column(table)
