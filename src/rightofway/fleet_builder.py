@@ -31,6 +31,7 @@ from rightofway.model.resources import circle_around
 from rightofway.model.spacing import split_lanes
 from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
+from rightofway.model.zones import NamedZone
 
 __all__ = ["FleetBuilder"]
 
@@ -113,6 +114,7 @@ class FleetBuilder:
         self._spacing = None if spacing is None else exact_length(spacing, "spacing")
         self._positions: dict[str, Point] = {}
         self._edges: list[tuple[str, str, Fraction | None, Fraction | None]] = []
+        self._zones: list[NamedZone] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
         self._rules = _rules(rules)
@@ -199,6 +201,34 @@ class FleetBuilder:
         self._edges.append((tail, head, given, limit))
         if both_ways:
             self._edges.append((head, tail, given, limit))
+        return self
+
+    def add_zone(
+        self,
+        name: str,
+        *,
+        vertices: Iterable[str] = (),
+        edges: Iterable[tuple[str, str]] = (),
+    ) -> Self:
+        """Add a zone: vertices and edges that hold one robot at a time.
+
+        Parameters
+        ----------
+        name
+            A name of its own.
+        vertices
+            Names of vertices.
+        edges
+            Names of tail and head of each edge, one direction each.
+
+        Raises
+        ------
+        InputError
+            Where the map is a grid or robots were added already.
+        """
+        self._refuse_fixed_map(f"zone {shown(name)}")
+        pairs = tuple((tail, head) for tail, head in edges)
+        self._zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=pairs))
         return self
 
     def add_robot(
@@ -313,10 +343,12 @@ class FleetBuilder:
                 for tail, head, given, limit in self._edges
             ]
             positions = self._positions
+            if self._spacing is not None and self._zones:
+                raise InputError.at("spacing", "does not know zones yet (take one of them out)")
             if self._spacing is not None:
                 positions, edges = split_lanes(positions, edges, self._spacing)
             drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-            self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up)
+            self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up, zones=self._zones)
         return self._roadmap
 
     def _square(self, tail: str, head: str) -> Fraction:

@@ -29,10 +29,10 @@ def limited() -> Scenario:
 def test_no_robot_is_faster_than_the_limit_of_an_edge_and_none_is_slower_for_it() -> None:
     """6 long: 3 and 18 time units at 2 and 1/3; 12 and 18 where 1/2 is the limit."""
     roadmap = limited().roadmap
-    assert roadmap.lengths == (3, 6, 6)
+    assert roadmap.lengths == (Fraction(3), Fraction(6), Fraction(6))
     assert roadmap.speed_limits == (None, None, Fraction(1, 2))
-    assert roadmap.durations(Fraction(2)) == [Fraction(3, 2), 3, 12]
-    assert roadmap.durations(Fraction(1, 3)) == [9, 18, 18]
+    assert roadmap.durations(Fraction(2)) == [Fraction(3, 2), Fraction(3), Fraction(12)]
+    assert roadmap.durations(Fraction(1, 3)) == [Fraction(9), Fraction(18), Fraction(18)]
 
 
 @pytest.mark.parametrize("planner", sorted(registered()))

@@ -10,6 +10,7 @@ from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Rep
 from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips
 from rightofway.check.visits import visits_of
+from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
@@ -53,4 +54,5 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     if not plan.scenario.rules.rotations:
         judge_rotations(visits, names, collector)
     judge_space(plan, visits, names, collector)
+    judge_zones(plan, visits, names, collector)
     return collector.report()

@@ -27,6 +27,7 @@ FaultKind = Literal[
     "rotation",
     "space conflict",
     "too close",
+    "zone conflict",
 ]
 """The ways a plan can be wrong.
 
@@ -45,6 +46,7 @@ FaultKind = Literal[
 ``rotation``         three or more robots move round a circle at one instant, where rules forbid it
 ``space conflict``   two robots book places at one time that are too near for their sizes
 ``too close``        two robots come nearer to each other than their sizes and the clearance allow
+``zone conflict``    two robots book one zone at the same time
 ===================  ===============================================================================
 """
 

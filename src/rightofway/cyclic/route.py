@@ -189,7 +189,7 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
-    refuse_sizes(scenario.problem.resources, "laps", "give robots without a radius")
+    refuse_sizes(scenario.problem.resources, "repeated work", "give robots no radius, and no zones")
     faults = [
         fault.within(f"robots[{index}]")
         for index, robot in enumerate(scenario.robots)

@@ -76,7 +76,7 @@ class Problem:
     itineraries
         One for each robot.
     resources
-        Which bookings exclude each other, or None where no robot has a size.
+        Which bookings exclude each other, or None where no robot has a size and there is no zone.
     """
 
     roadmap: Roadmap

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError
 from rightofway.model.geometry import Point, squared_distance
 from rightofway.model.roadmap import Roadmap
+from rightofway.model.zones import Zone
 
 RADIUS_STEP = Fraction(1, 10**6)
 """The radius of a robot that is given by length and width is rounded up to this [length unit]."""
@@ -45,12 +46,12 @@ Exact = NDArray[Any]
 
 
 def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
-    """Refuse a fleet in which a robot has a size.
+    """Refuse a fleet in which a robot has a size, or whose roadmap has zones.
 
     Parameters
     ----------
     resources
-        The resources of the fleet, None where no robot has a size.
+        The resources of the fleet, None where no robot has a size and there is no zone.
     what
         What does not know sizes yet.
     remedy
@@ -59,10 +60,10 @@ def refuse_sizes(resources: Resources | None, what: str, remedy: str) -> None:
     Raises
     ------
     InputError
-        If a robot has a size.
+        If a robot has a size, or there is a zone.
     """
     if resources is not None:
-        message = f"{what} does not know robots with a size yet ({remedy})"
+        message = f"{what} does not know robots with a size or zones yet ({remedy})"
         raise InputError.at("", message)
 
 
@@ -189,7 +190,7 @@ class Resources:
 def resources_of(
     roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction
 ) -> Resources | None:
-    """Return the resources of a fleet, or None where no robot has a size.
+    """Return the resources of a fleet, or None where no robot has a size and there is no zone.
 
     Parameters
     ----------
@@ -200,7 +201,7 @@ def resources_of(
     clearance
         Least distance between two robots of which one has a size [length unit].
     """
-    if not any(radii):
+    if not any(radii) and not roadmap.zones:
         return None
     sizes = tuple(sorted(set(radii)))
     first, excluded = _excluded(roadmap, sizes, clearance)
@@ -222,11 +223,12 @@ def _excluded(
     drawing = _Drawing(roadmap, [*sizes, clearance])
     reach = 2 * sizes[-1] + clearance
     same = np.arange(n_vertices)
-    candidates = drawing.candidates(reach)
+    candidates = drawing.candidates(reach) if sizes[-1] > 0 else None
+    in_zones = list(drawing.in_zones(roadmap.zones))
     rows, columns = list[Ints](), list[Ints]()
     for one, other in combinations_with_replacement(range(len(sizes)), 2):
-        pairs = [(same, same)]
-        if sizes[other] > 0:
+        pairs = [(same, same), *in_zones]
+        if sizes[other] > 0 and candidates is not None:
             pairs += drawing.nearer(sizes[one] + sizes[other] + clearance, candidates)
         for left, right in pairs:
             for a, b in {(one, other), (other, one)}:
@@ -253,6 +255,10 @@ class _Drawing:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
         ends = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
+        both_ends = zip(tails.tolist(), heads.tolist(), strict=True)
+        self._number_of_edge = {
+            edge_ends: number for number, edge_ends in enumerate(both_ends, roadmap.n_vertices)
+        }
         lanes, lane_of = np.unique(ends, axis=0, return_inverse=True)
         lane_of = lane_of.reshape(-1)  # NumPy 2.0 keeps an axis of length 1
         self.a, self.b = lanes[:, 0], lanes[:, 1]
@@ -299,6 +305,17 @@ class _Drawing:
         crossing = self._crosses(one, other)
         lanes, edges = self._with_edges(one[crossing], other[crossing])
         yield self._with_edges(edges, lanes)
+
+    def in_zones(self, zones: Sequence[Zone]) -> Iterator[Pairs]:
+        """Yield pairs of resources of one zone; an edge that ends at a vertex of it is left out."""
+        for zone in zones:
+            vertices = np.array(zone.vertices, np.int64)
+            edges = [
+                self._number_of_edge[ends] for ends in zone.edges if not {*ends} & {*zone.vertices}
+            ]
+            members = np.concatenate((vertices, np.array(edges, np.int64)))
+            left, right = np.triu_indices(len(members), k=1)
+            yield members[left], members[right]
 
     def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
         """Repeat each left one for every edge of its lane."""

@@ -14,6 +14,7 @@ from rightofway.errors import InputError, shown
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
 from rightofway.model.values import Number, coerced, length, number, optional
+from rightofway.model.zones import NamedZone, Zone, zones_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -82,6 +83,8 @@ class Roadmap:
     speed_limits
         Speed limit of each length class [length unit per time unit], None for none; empty where no
         edge has one. Classes of one length may differ in it.
+    zones
+        Vertices and edges that hold one robot at a time.
     """
 
     indptr: NDArray[np.int32]
@@ -93,6 +96,7 @@ class Roadmap:
     grid: Grid | None = None
     frame: Frame = field(default_factory=Frame)
     speed_limits: tuple[Fraction | None, ...] = ()
+    zones: tuple[Zone, ...] = ()
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -107,6 +111,7 @@ class Roadmap:
         return (
             self.lengths == other.lengths
             and self.speed_limits == other.speed_limits
+            and self.zones == other.zones
             and self.labels == other.labels
             and self.frame == other.frame
             and _same_grid(self.grid, other.grid)
@@ -343,7 +348,11 @@ class Edge:
 
 
 def roadmap_of_edges(
-    positions: Mapping[str, tuple[float, float]], edges: Sequence[Edge], *, y_up: bool = False
+    positions: Mapping[str, tuple[float, float]],
+    edges: Sequence[Edge],
+    *,
+    y_up: bool = False,
+    zones: Sequence[NamedZone] = (),
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -356,11 +365,14 @@ def roadmap_of_edges(
         Directed edges; their order decides between equally short paths.
     y_up
         Whether y grows upwards in the site's frame.
+    zones
+        Vertices and edges that hold one robot at a time.
 
     Raises
     ------
     InputError
-        For no vertex, an edge from or to nowhere, to itself, of no length, or given twice.
+        For no vertex, an edge from or to nowhere, to itself, of no length, or given twice; and for
+        zones of vertices and edges that the roadmap does not have.
     """
     ids = {name: vertex for vertex, name in enumerate(positions)}
     _check_edges(ids, edges)
@@ -389,6 +401,7 @@ def roadmap_of_edges(
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
         frame=Frame(y_up=y_up),
+        zones=zones_of(zones, ids, {(edge.tail, edge.head) for edge in edges}) if zones else (),
     )
 
 

@@ -74,7 +74,8 @@ def _resolved(scenario: Scenario) -> Rules:
     if scenario.rules.occupancy is not None:
         return scenario.rules
     has_sizes = any(robot.radius > 0 for robot in scenario.robots)
-    return replace(scenario.rules, occupancy="both" if has_sizes else "one")
+    ahead = has_sizes or bool(scenario.roadmap.zones)
+    return replace(scenario.rules, occupancy="both" if ahead else "one")
 
 
 def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -117,6 +118,9 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     rules = scenario.rules
     if rules.clearance < 0:
         yield InputFault("rules.clearance", f"{rules.clearance} is negative (give 0 or more)")
+    if scenario.roadmap.zones and rules.occupancy == "one":
+        message = "'one' does not know zones yet (give both, so that robots book ahead)"
+        yield InputFault("rules.occupancy", message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
             message = f"{rules.clearance} is for robots with a size (give a robot a radius)"

@@ -121,6 +121,12 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 continue  # a shared end
             one, other = (scenario.robots[robot] for robot in pair)
             at = roadmap.name(here), roadmap.name(there)
+            zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
+            if zone is not None:
+                message = f"{one.name} at {at[0]} and {other.name} at {at[1]} would both {when} in"
+                message += f" zone {zone.name} (let one of them {when} elsewhere)"
+                yield Blockage(message, (one.name, other.name), at)
+                continue
             yield Blockage(
                 f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
                 f" {length(distance(roadmap, here, there))} apart, but need"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any, Literal, Self
 
-from pydantic import ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, model_validator
 from pydantic_core import CoreSchema
 
 from rightofway.errors import shown
@@ -98,6 +98,22 @@ class EdgeDocument(Document):
         return {"anyOf": [array, dict(mapping)]}
 
 
+class ZoneDocument(Document):
+    """Vertices and edges that hold one robot at a time."""
+
+    name: Name = Field(description="a name of its own")
+    vertices: list[Name] = Field(default=[], description="names of vertices")
+    edges: list[tuple[Name, Name]] = Field(
+        default=[], description="a list of [A, B], one direction each"
+    )
+
+    @field_validator("edges", mode="before")
+    @classmethod
+    def _read_pairs(cls, data: Any) -> Any:
+        pairs = isinstance(data, list) and all(isinstance(one, list) for one in data)
+        return [tuple(one) for one in data] if pairs else data
+
+
 class RoadmapDocument(Document):
     """Named vertices and the ways between them."""
 
@@ -106,6 +122,9 @@ class RoadmapDocument(Document):
     )
     edges: list[EdgeDocument] = Field(
         description="a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
+    )
+    zones: list[ZoneDocument] = Field(
+        default=[], description="a list of {name, vertices, edges} that hold one robot each"
     )
 
 

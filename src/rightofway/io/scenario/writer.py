@@ -140,7 +140,15 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         for tail in range(roadmap.n_vertices)
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
     ]
-    return {"vertices": vertices, "edges": edges}
+    zones = [
+        {
+            "name": zone.name,
+            "vertices": [name(vertex) for vertex in zone.vertices],
+            "edges": [[name(tail), name(head)] for tail, head in zone.edges],
+        }
+        for zone in roadmap.zones
+    ]
+    return {"vertices": vertices, "edges": edges, **({"zones": zones} if zones else {})}
 
 
 def _speed_limit(roadmap: Roadmap, edge: int) -> dict[str, Any]:

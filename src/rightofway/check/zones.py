@@ -1,0 +1,75 @@
+"""Zones: each holds one robot at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from heapq import heappop, heappush
+from typing import NamedTuple
+
+import numpy as np
+
+from rightofway.check.faults import Fault, FaultCollector, Names
+from rightofway.check.visits import Visits
+from rightofway.model import Plan, Tick, VertexId
+from rightofway.model.zones import Zone
+
+
+class _Stay(NamedTuple):
+    """A booking of a zone by a robot [ticks], and where the robot is then."""
+
+    start: int
+    end: int
+    robot: int
+    vertex: int
+
+
+def judge_zones(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find zones that two robots book at the same time.
+
+    A booking of a vertex or an edge of the zone books the zone, approach and headway included. A
+    vertex that is entered and left along edges of the zone counts as in it for that visit.
+    """
+    for zone in plan.scenario.roadmap.zones:
+        inside: list[tuple[int, int, _Stay]] = []  # a heap by end, without what is over
+        known: set[tuple[int, int, int]] = set()
+        for stay in sorted(_stays(plan, visits, zone)):
+            while inside and inside[0][0] <= stay.start:
+                heappop(inside)
+            for _, _, other in inside:
+                pair = (min(stay.robot, other.robot), max(stay.robot, other.robot), other.end)
+                if other.robot != stay.robot and pair not in known:
+                    known.add(pair)
+                    collector.add(_fault(zone, stay, other, names))
+            heappush(inside, (stay.end, len(inside), stay))
+
+
+def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
+    headway = plan.scenario.problem.headway
+    ahead = plan.scenario.rules.occupancy == "both"
+    vertices, edges = set(zone.vertices), set(zone.edges)
+    vertex, robot = visits.vertex.tolist(), visits.robot.tolist()
+    enter, leave = visits.enter.tolist(), visits.leave.tolist()
+    drive, last = visits.drive.tolist(), visits.last.tolist()
+    first = np.roll(visits.last, 1).tolist()
+    for k, at in enumerate(vertex):
+        comes = not first[k] and (vertex[k - 1], at) in edges
+        goes = not last[k] and (at, vertex[k + 1]) in edges
+        approach = 0 if first[k] or not ahead else drive[k - 1]
+        if at in vertices or (comes and goes):
+            yield _Stay(enter[k] - approach, leave[k] + headway, robot[k], at)
+        if goes:
+            yield _Stay(leave[k] - drive[k], leave[k] + headway, robot[k], at)
+
+
+def _fault(zone: Zone, stay: _Stay, other: _Stay, names: Names) -> Fault:
+    one, two = sorted((stay, other), key=lambda each: each.robot)
+    moment = names.scenario.quantities.moment(stay.start)
+    return Fault(
+        kind="zone conflict",
+        robots=(one.robot, two.robot),
+        vertices=(VertexId(one.vertex), VertexId(two.vertex)),
+        tick=Tick(stay.start),
+        message=f"at {moment} {names.robot(one.robot)} at {names.vertex(one.vertex)} and"
+        f" {names.robot(two.robot)} at {names.vertex(two.vertex)} both book zone {zone.name}"
+        " (let one come when the other has left)",
+    )

@@ -1,0 +1,161 @@
+"""Zones hold one robot: how they are given, judged and planned."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from rightofway import FleetBuilder, check, solve
+from rightofway.errors import InputError, NoPlanExists
+from rightofway.io import dump_scenario, scenario_of
+from rightofway.model import Plan, PlannerRun, Track
+from rightofway.planners import registered
+
+KNOW_ZONES = sorted(spec.name for spec in registered().values() if spec.knows_sizes)
+
+
+def document(zone: dict[str, Any] | None = None) -> dict[str, Any]:
+    """Return two parallel rows A B C D and E F G H, 100 apart; R1 and R2 drive along one each."""
+    vertices = {name: [k, 0] for k, name in enumerate("ABCD")}
+    vertices |= {name: [k, 100] for k, name in enumerate("EFGH")}
+    edges = [[tail, head] for row in ("ABCD", "EFGH") for tail, head in pairwise(row)]
+    roadmap: dict[str, Any] = {"vertices": vertices, "edges": edges}
+    if zone is not None:
+        roadmap["zones"] = [{"name": "door", **zone}]
+    return {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": roadmap},
+        "robots": [
+            {"name": "R1", "home": "A", "target": "D"},
+            {"name": "R2", "home": "E", "target": "H"},
+        ],
+        "rules": {"return": "none"},
+    }
+
+
+def judged(zone: dict[str, Any], late: int, headway: int = 0) -> dict[str, int]:
+    """Return the faults of two drives through, of which R2 is that many ticks late."""
+    data = document(zone)
+    data["rules"]["headway"] = headway
+    scenario = scenario_of(data)
+    tracks = (
+        Track.of([0, 1, 2, 3], [0, 1, 2, 3]),
+        Track.of([4, 5, 6, 7], [0, 1 + late, 2 + late, 3 + late]),
+    )
+    report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
+    return {str(kind): count for kind, count in report.counts.items()}
+
+
+@pytest.mark.parametrize(
+    ("zone", "late"),
+    [
+        # B is booked from tick 0, when R1 starts to drive there, until it is at C, at tick 2.
+        ({"vertices": ["B", "F"]}, 2),
+        # The edges are driven from tick 1 to 2.
+        ({"edges": [["B", "C"], ["F", "G"]]}, 1),
+        # The first edge is left at tick 1, the second one entered at tick 1.
+        ({"edges": [["A", "B"], ["F", "G"]]}, 0),
+        # From tick 1 to 3 and from tick 1 to 2.
+        ({"vertices": ["C"], "edges": [["F", "G"]]}, 2),
+    ],
+)
+def test_a_zone_is_free_again_when_its_vertices_and_edges_are(
+    zone: dict[str, Any], late: int
+) -> None:
+    assert judged(zone, late) == {}
+    if late:
+        assert judged(zone, late - 1)["zone conflict"] >= 1
+    assert judged(zone, late, headway=1)["zone conflict"] >= 1
+    assert judged(zone, late + 1, headway=1) == {}
+
+
+def test_the_fault_names_the_zone_the_robots_and_the_time() -> None:
+    scenario = scenario_of(document({"vertices": ["B", "F"]}))
+    tracks = Track.of([0, 1, 2, 3], [0, 1, 2, 3]), Track.of([4, 5, 6, 7], [0, 2, 3, 4])
+    report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
+    assert str(report.faults[0]) == (
+        "tick 1: zone conflict: at time 1 R1 at B and R2 at F both book zone door"
+        " (let one come when the other has left)"
+    )
+
+
+@pytest.mark.parametrize("planner", KNOW_ZONES)
+@pytest.mark.parametrize(
+    ("zone", "flowtime"),
+    [({"vertices": ["B", "F"]}, 8), ({"edges": [["B", "C"], ["F", "G"]]}, 7), (None, 6)],
+)
+def test_plans_keep_zones_and_lose_no_more_than_they_must(
+    planner: str, zone: dict[str, Any] | None, flowtime: int
+) -> None:
+    options = {} if planner == "prioritized" else {"iterations": 30}
+    plan = solve(scenario_of(document(zone)), planner, options=options)
+    assert check(plan).ok
+    assert plan.flowtime == flowtime
+
+
+def test_planners_that_do_not_know_zones_refuse_them() -> None:
+    scenario = scenario_of(document({"vertices": ["B", "F"]}))
+    for planner in set(registered()) - set(KNOW_ZONES):
+        with pytest.raises(InputError, match=f"planner {planner} does not know .* zones"):
+            solve(scenario, planner)
+
+
+def test_two_robots_whose_homes_share_a_zone_have_no_plan() -> None:
+    scenario = scenario_of(document({"vertices": ["A", "E"]}))
+    with pytest.raises(NoPlanExists, match="R1 at A and R2 at E would both start in zone door"):
+        solve(scenario)
+
+
+def test_zones_are_written_and_read_and_make_robots_book_ahead() -> None:
+    scenario = scenario_of(document({"vertices": ["B"], "edges": [["F", "G"]]}))
+    assert scenario.rules.occupancy == "both"
+    written = dump_scenario(scenario)
+    assert written["map"]["roadmap"]["zones"] == [
+        {"name": "door", "vertices": ["B"], "edges": [["F", "G"]]}
+    ]
+    assert scenario_of(written) == scenario
+
+
+@pytest.mark.parametrize(
+    ("zone", "message"),
+    [
+        ({"vertices": ["B", "X"]}, r"zones\[0\].vertices\[1\]: no vertex is named 'X'"),
+        ({"edges": [["A", "C"]]}, r"zones\[0\].edges\[0\]: no edge leads from 'A' to 'C'"),
+        (
+            {"edges": [["A", "B"], ["B", "C"]]},
+            "'B' can be entered and left along edges of",
+        ),
+        ({}, r"zones\[0\]: has neither vertices nor edges"),
+    ],
+)
+def test_zones_of_nothing_are_refused(zone: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        scenario_of(document(zone))
+
+
+def test_fleets_in_python_have_zones() -> None:
+    fleet = FleetBuilder(occupancy="both", ends="none")
+    for name, x, y in [("A", 0, 0), ("B", 1, 0), ("C", 0, 9), ("D", 1, 9)]:
+        fleet.add_vertex(name, x, y)
+    fleet.add_edge("A", "B").add_edge("C", "D")
+    fleet.add_zone("door", vertices=["A"], edges=[("C", "D")])
+    fleet.add_robot("R1", home="A", target="B").add_robot("R2", home="C", target="D")
+    assert solve(fleet.scenario(), "prioritized").flowtime == 3
+
+
+def test_robots_with_sizes_and_zones_go_together() -> None:
+    data = document({"edges": [["B", "C"], ["F", "G"]]})
+    for robot in data["robots"]:
+        robot["radius"] = 0.3
+    plan = solve(scenario_of(data), "prioritized")
+    assert check(plan).ok
+    assert plan.flowtime == 7
+
+
+def test_occupancy_one_is_refused_with_zones() -> None:
+    data = document({"vertices": ["B"]})
+    data["rules"]["occupancy"] = "one"
+    with pytest.raises(InputError, match=r"rules.occupancy: 'one' does not know zones yet"):
+        scenario_of(data)
