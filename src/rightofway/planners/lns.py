@@ -23,6 +23,7 @@ from functools import partial
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, flowtime_of
 from rightofway.planners.lacam import plan_fleet
+from rightofway.planners.moves import plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
@@ -54,10 +55,13 @@ def lns(task: Task) -> Draft:
 def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
     """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized.
 
-    LaCAM does not know robots with a size yet.
+    For a few robots with a size it begins with their best order of moves instead.
     """
-    together = None if task.scenario.problem.resources else _together(task)
-    found = (first, together, plan_in_turn(task, search, "shortest"))
+    found: tuple[Draft | None, ...]
+    if task.scenario.problem.resources is None:
+        found = (first, _together(task), plan_in_turn(task, search, "shortest"))
+    else:
+        found = (first, plan_few(task, search) or plan_in_turn(task, search, "shortest"))
     plans = [plan for plan in found if plan is not None]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")

@@ -34,6 +34,12 @@ from rightofway.search import Distances, FleetSearch
 MOST_STATES = 100_000
 """States that are expanded at most."""
 
+MOST_STATES_IN_TIME, FEW_ROBOTS = 10_000, 4
+"""The same for the best order of moves, and the largest fleet to look for it."""
+
+SHARE = 0.3
+"""The part of the time for the best order of moves."""
+
 BETWEEN_CHECKS = 500
 """States from one look at the clock to the next."""
 
@@ -51,6 +57,7 @@ class _State(NamedTuple):
 class _Move(NamedTuple):
     robot: int
     vertex: int
+    edge: int
 
 
 def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
@@ -76,6 +83,79 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     search.retime()
     task.has_plan()
     return Draft(tracks=search.tracks(), status="order of moves first")
+
+
+class _Timed(NamedTuple):
+    """A state with the earliest times of the moves that led there.
+
+    `ready` is when each robot has worked and turned where it is, `ends` when each robot's latest
+    booking that excludes others from a row has ended, by row and robot [ticks].
+    """
+
+    state: _State
+    ready: tuple[int, ...]
+    ends: dict[tuple[int, int], int]
+    moves: tuple[_Move, ...]
+
+    def is_as_early_as(self, other: _Timed) -> bool:
+        """Return whether no robot and no booking is later than in another one of this state."""
+        return all(a <= b for a, b in zip(self.ready, other.ready, strict=True)) and all(
+            end <= other.ends.get(key, 0) for key, end in self.ends.items()
+        )
+
+
+def plan_few(task: Task, search: FleetSearch) -> Draft | None:
+    """Plan a few robots by the order of moves of least flowtime.
+
+    None for more than `FEW_ROBOTS`, after too many states, or when much of the time is over.
+
+    A* over orders of moves: each move takes place as early as all moves before it allow. A robot
+    works at a stop as soon as it is there.
+
+    Parameters
+    ----------
+    task
+        The problem; its robots have sizes.
+    search
+        The search for its fleet.
+    """
+    resources, deadline = task.scenario.problem.resources, task.deadline.sooner(SHARE)
+    assert resources is not None, "this is for robots with a size"
+    if len(task.scenario.robots) > FEW_ROBOTS:
+        return None
+    floor = _Floor(task, resources)
+    home = _State(tuple(one.home for one in floor.itineraries), floor.no_stage)
+    first = floor.served(home)
+    ready = tuple(
+        least_dwell(one.stages[:served], leaves=True)
+        for one, served in zip(floor.itineraries, first.stages, strict=True)
+    )
+    start = _Timed(first, ready, {}, ())
+    order = count()
+    waiting = [(floor.least_flowtime(start), 0, start)]
+    known: dict[_State, list[_Timed]] = {start.state: [start]}
+    for expanded in count():
+        if not waiting or expanded == MOST_STATES_IN_TIME:
+            return None
+        if expanded % BETWEEN_CHECKS == 0 and deadline.seconds_left() == 0:
+            return None
+        _, _, here = heappop(waiting)
+        if not any(here is one for one in known[here.state]):
+            continue  # another one is as early
+        if floor.to_go(here.state) == 0:
+            search.start(_in_sequence(task, list(here.moves)))
+            search.retime()
+            task.has_plan()
+            return Draft(tracks=search.tracks(), status="best order of moves")
+        for move, state in floor.successors(here.state):
+            after = floor.moved(here, move, state)
+            others = known.setdefault(state, [])
+            if any(other.is_as_early_as(after) for other in others):
+                continue
+            others[:] = [other for other in others if not after.is_as_early_as(other)]
+            others.append(after)
+            heappush(waiting, (floor.least_flowtime(after), -next(order), after))
+    raise AssertionError("the loop ends by itself")
 
 
 def _moves(task: Task, resources: Resources) -> list[_Move]:
@@ -123,8 +203,16 @@ class _Floor:
     def __init__(self, task: Task, resources: Resources) -> None:
         self.itineraries = task.scenario.problem.itineraries
         self.no_stage = (0,) * len(self.itineraries)
-        self._roadmap, self._resources = task.scenario.roadmap, resources
+        self._roadmap, self.resources = task.scenario.roadmap, resources
         self._excluded: dict[int, int] = {}
+        self._headway = task.scenario.problem.headway
+        self._dwells = [
+            [
+                sum(stage.work + stage.turn for stage in one.stages[k:-1]) + one.stages[-1].work
+                for k in range(len(one.stages))
+            ]
+            for one in self.itineraries
+        ]
         distances = Distances(self._roadmap)
         self._ways = [
             [distances.to(stage.vertex, one.edge_ticks).tolist() for stage in one.stages]
@@ -155,9 +243,35 @@ class _Floor:
             )
         )
 
+    def least_flowtime(self, timed: _Timed) -> int:
+        """Return a lower bound of the flowtime of plans that begin with some moves [ticks]."""
+        to_come = zip(self._dwells, timed.state.stages, strict=True)
+        dwells = sum(dwells[stage] for dwells, stage in to_come)
+        return sum(timed.ready) + dwells + self.to_go(timed.state)
+
+    def moved(self, timed: _Timed, move: _Move, state: _State) -> _Timed:
+        """Return what comes of a move that takes place as early as it can."""
+        robot, resources = move.robot, self.resources
+        along = resources.edge_row(robot, move.edge)
+        needed = {along, resources.vertex_row(robot, move.vertex)}
+        begin = timed.ready[robot]
+        for (row, other), end in timed.ends.items():
+            if other != robot and row in needed:
+                begin = max(begin, end)
+        itinerary = self.itineraries[robot]
+        enter = begin + itinerary.edge_ticks[self._roadmap.length_class[move.edge]]
+        served = itinerary.stages[timed.state.stages[robot] : state.stages[robot]]
+        ready = enter + least_dwell(served, leaves=True)
+        ends = dict(timed.ends)
+        for left in (along, resources.vertex_row(robot, timed.state.places[robot])):
+            for row in resources.excluded_by(left).tolist():
+                ends[row, robot] = enter + self._headway
+        by_robot = (*timed.ready[:robot], ready, *timed.ready[robot + 1 :])
+        return _Timed(state, by_robot, ends, (*timed.moves, move))
+
     def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
-        rows = map(self._resources.vertex_row, range(len(state.places)), state.places)
+        rows = map(self.resources.vertex_row, range(len(state.places)), state.places)
         excluded = [self._excluded_by(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
@@ -169,17 +283,18 @@ class _Floor:
             first, end = int(self._roadmap.indptr[place]), int(self._roadmap.indptr[place + 1])
             for edge in range(first, end):
                 head = int(self._roadmap.heads[edge])
-                needed = 1 << self._resources.vertex_row(robot, head)
-                needed |= 1 << self._resources.edge_row(robot, edge)
+                needed = 1 << self.resources.vertex_row(robot, head)
+                needed |= 1 << self.resources.edge_row(robot, edge)
                 if needed & by_others or self._ways[robot][state.stages[robot]][head] < 0:
                     continue
                 places = (*state.places[:robot], head, *state.places[robot + 1 :])
-                yield _Move(robot, head), self.served(_State(places, state.stages))
+                after_move = self.served(_State(places, state.stages))
+                yield _Move(robot, head, edge), after_move
 
     def _excluded_by(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            bits = (1 << other for other in self._resources.excluded_by(row).tolist())
+            bits = (1 << other for other in self.resources.excluded_by(row).tolist())
             self._excluded[row] = sum(bits)
         return self._excluded[row]
 
@@ -190,14 +305,12 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
     vertices = [[one.home] for one in itineraries]
     enter = [[Tick(0)] for _ in itineraries]
     stages, now = [0] * len(itineraries), 0
-    for robot, head in moves:
+    for robot, head, edge in moves:
         one, place = itineraries[robot], vertices[robot][-1]
         served = []
         while stages[robot] < len(one.stages) - 1 and one.stages[stages[robot]].vertex == place:
             served.append(one.stages[stages[robot]])
             stages[robot] += 1
-        edge = roadmap.edge(place, head)
-        assert edge is not None, "moves are along edges"
         ready = enter[robot][-1] + least_dwell(served, leaves=True)
         now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
         now += task.scenario.problem.headway
