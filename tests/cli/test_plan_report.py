@@ -131,6 +131,18 @@ def test_a_tie_is_called_a_tie() -> None:
     )
 
 
+def test_a_log_tells_no_decisions_from_no_meetings() -> None:
+    plan = door()
+    searched = replace(plan, run=replace(plan.run, decisions=()))
+    words = " ".join(decision_log(searched, plan.scenario.quantities).split())
+    assert words == (
+        "The search that found this plan records no decisions;"
+        " `rightofway table PLAN --events` lists each wait."
+    )
+    apart = plan_of(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
+    assert decision_log(apart, apart.scenario.quantities).startswith("No decision was needed")
+
+
 def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
     plan = in_seconds(door())
 

@@ -200,8 +200,9 @@ def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path:
     robots[0]["speed"] = "1999/2000"
     path.write_text(json.dumps(floor), encoding="utf-8")
     assert load_with_notes(path).notes[1] == (
-        "durations are rounded up to 1/1000 of the shortest;"
-        " give speeds with smaller denominators to be exact"
+        "each drive, turn and work time is rounded up to a multiple of 0.00050 time units"
+        " (the shortest of them, divided by 1000); simpler numbers stay exact, for example"
+        " speed 1/3 instead of 0.3333"
     )
 
 

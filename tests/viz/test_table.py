@@ -254,14 +254,27 @@ def test_a_table_of_a_thousand_years_is_made_but_not_written_out() -> None:
 
 def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    text = as_text(table_of(plan_of(scenario, ([0, 1], [0, 10**6]))), max_lines=8)
-    # Columns of "1000000" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
+    enter = [10**6 + k for k in range(100)]
+    text = as_text(table_of(plan_of(scenario, ([0, 1] * 50, [0, *enter[1:]]))), max_lines=8)
+    # Columns of "1000099" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
     assert text.splitlines()[-3:] == [
-        "… columns after 13, up to 1000000 are left out",
+        "… columns after 13, up to 1000099 are left out",
         "  (choose with --from, --to, --step and --robots; -o FILE.txt writes all;",
         "  --events lists each visit in one line)",
     ]
     assert len(text.splitlines()) < 15
+
+
+def test_a_long_text_leaves_out_columns_without_a_change() -> None:
+    scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
+    table = table_of(plan_of(scenario, ([0, 1], [0, 10**6])))
+    assert as_text(table).splitlines() == [
+        "time              0        1   999999  1000000",
+        "R1 planned        0        1",
+        "R1 final          0=       0=       0        1",
+        "",
+        "= waits   columns without a change are left out",
+    ]
 
 
 def test_a_table_of_too_many_robots_is_not_written_out() -> None:

@@ -9,7 +9,15 @@ from itertools import chain
 from typing import Any
 
 from rightofway.cli.terminal import COLUMNS, counted, further, measures, row, short, wrapped
-from rightofway.metrics import Metrics, lost_time, measure, waits
+from rightofway.metrics import (
+    Metrics,
+    collisions,
+    free_running,
+    lost_time,
+    measure,
+    swaps,
+    waits,
+)
 from rightofway.model import Decision, Loss, LostTime, Plan, Quantities, decimal, stays_of
 
 MAX_LINES = 20
@@ -285,7 +293,13 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
         lines += wrapped(_reason(words, decision), "    ")
     for reroute in plan.run.reroutes:
         lines += wrapped(f"{words.robot(reroute.robot)} is rerouted: {reroute.because}.")
-    return "\n".join(lines or ["No decision was needed: no two robots meet."])
+    if lines:
+        return "\n".join(lines)
+    tracks = free_running(plan)
+    if not collisions(plan.scenario, tracks) and not swaps(tracks):
+        return "No decision was needed: no two robots meet."
+    records = "The search that found this plan records no decisions"
+    return "\n".join(wrapped(f"{records}; `rightofway table PLAN --events` lists each wait."))
 
 
 def _decision(words: Words, decision: Decision) -> str:

@@ -411,6 +411,8 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
     if not scenario.problem.clock.exact:
         yield (
-            f"durations are rounded up to 1/{MAX_TICKS_OF_SHORTEST} of the shortest;"
-            " give speeds with smaller denominators to be exact"
+            f"each drive, turn and work time is rounded up to a multiple of"
+            f" {scenario.quantities.duration(1)} (the shortest of them, divided by"
+            f" {MAX_TICKS_OF_SHORTEST}); simpler numbers stay exact, for example speed 1/3"
+            " instead of 0.3333"
         )

@@ -101,7 +101,7 @@ class Row:
         A cell has the place at its tick, and the first of all marks within a step. A robot that is
         done between two ticks is in its last place at the second one.
         """
-        if step == 1 or not self.runs:
+        if not self.runs or (step == 1 and ticks[-1] - ticks[0] == len(ticks) - 1):
             return self.cells(ticks[0], ticks[-1])
         found, begins = list[Cell](), [run.start for run in self.runs]
         done = self.runs[-1].end - 1
@@ -134,6 +134,8 @@ class TimeSpaceTable:
         Planned and final row of each robot in turn; or one kind of rows after another.
     step
         How much later the next column is [ticks].
+    changes
+        The ticks of its columns [ticks], where columns without a change are left out; else empty.
     """
 
     first_tick: Tick
@@ -141,10 +143,13 @@ class TimeSpaceTable:
     quantities: Quantities
     rows: tuple[Row, ...]
     step: int = 1
+    changes: tuple[int, ...] = ()
 
     @property
     def ticks(self) -> Sequence[int]:
         """The ticks of its columns; the last one is among them, whatever the step."""
+        if self.changes:
+            return self.changes
         ticks = range(self.first_tick, self.last_tick + 1, self.step)
         return ticks if ticks[-1] == self.last_tick else (*ticks, self.last_tick)
 
@@ -171,6 +176,14 @@ class TimeSpaceTable:
             table = replace(self, step=max(int(length / tick), 1))
         return table
 
+    def with_changes_only(self) -> TimeSpaceTable:
+        """Return the table without the columns in which each robot has the cell of the one before.
+
+        Between two columns of the result no robot moves, and no mark begins or ends.
+        """
+        begins = {run.start for row in self.rows for run in row.runs}
+        return replace(self, changes=tuple(sorted({self.first_tick, self.last_tick} | begins)))
+
     @property
     def heading(self) -> str:
         """What stands before the times of the columns: ``time [s]``."""
@@ -178,7 +191,8 @@ class TimeSpaceTable:
 
     def time(self, tick: int) -> str:
         """Return the time of a column, with as many decimals as tell two columns apart."""
-        length, digits = self.step * self.quantities.tick, DIGITS
+        step = min((after - at for at, after in pairwise(self.changes)), default=self.step)
+        length, digits = step * self.quantities.tick, DIGITS
         if self.quantities.in_ticks:
             return str(tick)
         while (length * 10**digits).denominator > 1 and length * 10**digits < 10:  # noqa: PLR2004

@@ -47,8 +47,9 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     width
         Columns of the terminal. A block shows at least one tick, however narrow it is.
     max_lines
-        About how many lines to write; None for all. A longer table with ticks below
-        one time unit has longer columns, and is cut if that is not enough; both are said below it.
+        About how many lines to write; None for all. A longer table has only the columns in which a
+        robot changes its cell, or columns of several ticks, up to one time unit, whichever are
+        fewer. It is cut if that is not enough. A line below the table says each of these.
 
     Returns
     -------
@@ -68,10 +69,9 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     names = max(map(text_width, (table.heading, *labels)))
     room = width - names - len(GAP) + 1
     size = _column(table)
-    has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
-    if max_lines is not None and has_short_ticks and table.step == 1:
+    if max_lines is not None and table.step == 1:
         blocks_shown = max(max_lines // (len(labels) + 2), 1)
-        table = table.with_fewer(blocks_shown * (room // (size + len("* "))), LONGEST_STEP)
+        table = _shorter(table, blocks_shown * (room // (size + len("* "))))
         size = _column(table)
     columns = max(room // (size + len("* ")), 1)
     blocks: list[str] = []
@@ -86,10 +86,19 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     return "\n\n".join((*blocks, *_legend(table, max(width, LEGEND_WIDTH)), *hints))
 
 
+def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
+    """Return a table of so many columns, or as few as are possible without hiding much."""
+    if len(table.ticks) <= columns:
+        return table
+    has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
+    longer = table.with_fewer(columns, LONGEST_STEP) if has_short_ticks else table
+    return min(longer, table.with_changes_only(), key=lambda each: len(each.ticks))
+
+
 def _column(table: TimeSpaceTable) -> int:
     """Return how wide places and times are."""
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
-    times = table.time(table.last_tick), table.time(max(table.last_tick - table.step, 0))
+    times = {table.time(tick) for tick in table.ticks[-2:]}
     return max(map(text_width, (*places, *times)))
 
 
@@ -115,8 +124,10 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
     quantities = replace(table.quantities, in_ticks=False)
     if table.quantities.in_ticks and quantities.tick != 1:
         notes.append(f"a tick lasts {quantities.duration(1)}")
-    elif table.step * quantities.tick != 1:
+    elif not table.changes and table.step * quantities.tick != 1:
         notes.append(f"a column lasts {quantities.duration(table.step)}")
+    if table.changes:
+        notes.append("columns without a change are left out")
     lines: list[str] = []
     for note in notes:
         if lines and text_width(lines[-1]) + len("   ") + text_width(note) <= width:
