@@ -207,6 +207,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     repeats = f"period {quantities.duration(period)}, from {quantities.moment(since)} on"
     yield from wrapped(f"{size}: {repeats}")
     yield from _robot_lines(scenario, quantities, group)
+    yield from _stuck_lines(scenario, group)
     if _is_long(group):
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
@@ -244,6 +245,24 @@ def _robot_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
         yield f"{name:{width}}  {line}".rstrip()
     if len(group.robots) > MAX_LINES:
         yield f"… and {counted(len(group.robots) - MAX_LINES, 'more robot')} (--json lists all)"
+
+
+def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[str]:
+    """Yield which robots make no lap in a pattern, where they stand and where they want to go."""
+    counts = group.pattern.counts if group.pattern else ()
+    stuck = [robot for robot, laps in enumerate(counts) if not laps]
+    place, listed = scenario.roadmap.name, list[str]()
+    for robot in stuck[:MAX_LINES]:
+        name = scenario.robots[group.robots[robot]].name
+        route, last = group.context.routes[robot], len(group.history[robot]) - 1
+        here, there = place(route.vertex(last)), place(route.vertex(last + 1))
+        listed.append(f"{name} in {here} on its way to {there}")
+    if len(stuck) > MAX_LINES:
+        listed.append(f"{len(stuck) - MAX_LINES} more")
+    if listed:
+        never = "1 robot stands" if len(stuck) == 1 else f"{len(stuck)} robots stand"
+        remedy = "another --rule may help, for example timetable"
+        yield from wrapped(f"{never} still for ever: {', '.join(listed)} ({remedy})")
 
 
 def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[str]:

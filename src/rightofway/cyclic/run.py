@@ -136,7 +136,8 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
 def _explain(deadlock: Deadlock, context: GroupContext) -> str:
     names, roadmap = context.names, context.scenario.roadmap
     i, j = (names[robot] for robot in deadlock.robots)
-    where = f"at {roadmap.name(deadlock.vertex)}, tick {deadlock.tick}"
+    moment = context.scenario.quantities.moment(deadlock.tick)
+    where = f"at {roadmap.name(deadlock.vertex)} ({moment})"
     why = f"waiting cannot keep {i} and {j} apart {where}"
     if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
         return why

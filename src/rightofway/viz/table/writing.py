@@ -90,7 +90,8 @@ def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
     """Return a table of so many columns, or as few as are possible without hiding much."""
     if len(table.ticks) <= columns:
         return table
-    longer = table if table.quantities.in_ticks else table.with_fewer(columns, LONGEST_STEP)
+    has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks
+    longer = table.with_fewer(columns, LONGEST_STEP) if has_short_ticks else table
     return min(longer, table.with_changes_only(), key=lambda each: len(each.ticks))
 
 
