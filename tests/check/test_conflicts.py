@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,6 +19,7 @@ from rightofway.model import (
     Scenario,
     Stop,
     Track,
+    Units,
     VertexId,
     roadmap_of_edges,
 )
@@ -59,7 +61,7 @@ def test_two_robots_in_one_vertex_are_a_conflict() -> None:
     report = judged(([3, 4, 5], [0, 1, 3]), ([1, 4, 7], [0, 2, 3]))
     assert told(report) == [("vertex conflict", (0, 1), (4,), 2)]
     assert report.faults[0].message == (
-        "R1 books N4 from tick 1 to 3 and R2 from tick 2 to 3"
+        "R1 books N4 from time 1 to 3 and R2 from time 2 to 3"
         " (let one come when the other has left)"
     )
 
@@ -75,7 +77,8 @@ def test_headway_keeps_a_vertex_empty() -> None:
     report = judged(first, ([1, 4, 7], [0, 3, 4]), headway=Fraction(2))
     assert told(report) == [("headway", (0, 1), (4,), 3)]
     assert report.faults[0].message == (
-        "R2 comes to N4 at tick 3, 1 tick after R1 left, the headway is 2 (come at tick 4 or later)"
+        "R2 comes to N4 at time 3, 1 time unit after R1 left, the headway is 2 time units"
+        " (come at time 4 or later)"
     )
 
 
@@ -117,7 +120,7 @@ def test_home_is_booked_without_an_approach() -> None:
 def test_the_last_vertex_is_kept_for_ever() -> None:
     report = judged(([3, 4], [0, 1]), ([1, 4, 7], [0, 10**9, 10**9 + 1]))
     assert told(report) == [("vertex conflict", (0, 1), (4,), 10**9)]
-    assert "R1 books N4 from tick 1 for ever" in report.faults[0].message
+    assert "R1 books N4 from time 1 for ever" in report.faults[0].message
 
 
 def test_two_robots_cannot_end_in_one_vertex() -> None:
@@ -276,7 +279,7 @@ def test_faults_come_by_tick_then_by_robots() -> None:
     ]
     assert report.summary == "2 faults: 1 jump, 1 vertex conflict"
     assert str(report.faults[1]) == (
-        "tick 3: jump: R3 goes from N6 to N8, no edge leads there (use edges)"
+        "time 3: jump: R3 goes from N6 to N8, no edge leads there (use edges)"
     )
 
 
@@ -315,3 +318,16 @@ def test_robots_without_a_roadmap_vertex_are_judged_all_the_same() -> None:
     scenario = grid_fleet(OPEN, [("N0", "N1"), ("N2", "N1")], rules=Rules(ends="none"))
     report = check(plan_of(scenario, [([99, 98], [0, 1]), ([98, 99], [0, 1])]))
     assert report.counts == {"unknown vertex": 4, "wrong end": 2, "wrong home": 2}
+
+
+def test_faults_are_in_the_units_of_the_scenario_or_in_ticks_on_request() -> None:
+    """A tick is half a second: R2 comes to N1 as R1 is there."""
+    fleet = grid_fleet(["..."], [("N0", "N2"), ("N2", "N0")], speeds=[Fraction(2)] * 2)
+    scenario = replace(fleet, units=Units(time="s"))
+    tracks = (Track.of([0, 1, 2], [0, 1, 3]), Track.of([2, 1, 0], [0, 2, 4]))
+    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun())
+    fault = check(plan).faults[0]
+    assert str(fault).startswith("1 s: vertex conflict: R1 books N1 from 0.5 s to 1.5 s and R2")
+    ticks = replace(scenario.quantities, in_ticks=True)
+    (fault, *_) = check(plan, quantities=ticks).faults
+    assert str(fault).startswith("tick 2: vertex conflict: R1 books N1 from tick 1 to 3 and R2")

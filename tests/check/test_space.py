@@ -34,13 +34,13 @@ def test_discs_that_meet_where_lanes_cross_are_found_with_place_time_and_distanc
     report = check(plan_of(scenario, ([0, 1], [0, 4]), ([2, 3], [0, 4])))
     assert report.counts == {"space conflict": 1, "too close": 1}
     assert str(report.faults[1]) == (
-        "tick 2: too close: R1 and R2 come within 0 m (0.9 needed) at 2 s, R1 between A and B,"
+        "2 s: too close: R1 and R2 come within 0 m (0.9 needed) at 2 s, R1 between A and B,"
         " R2 between C and D (let one wait until the other is by)"
     )
     report = check(plan_of(scenario, ([0, 1], [0, 4]), ([2, 3], [0, 5])))
     assert [fault.kind for fault in report.faults] == ["space conflict", "too close"]
     assert report.faults[0].message == (
-        "at 1 s R1 books the edge from A to B and R2 books the edge from C to D, which are too near"
+        "R1 books the edge from A to B and R2 books the edge from C to D, which are too near"
         " to be booked at one time (let one come when the other has left)"
     )
     assert "come within 0.71 m (0.9 needed) at 2.5 s" in report.faults[1].message

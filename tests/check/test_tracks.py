@@ -75,7 +75,8 @@ def test_work_cut_short_tells_how_long_to_stay() -> None:
         1,
     )
     assert fault.message == (
-        "R1 has 2 ticks at N1, it needs 3 working and 1 turning (stay 2 ticks longer)"
+        "R1 has 2 time units at N1, it needs 3 time units working and 1 time unit turning"
+        " (stay 2 time units longer)"
     )
 
 
@@ -106,7 +107,7 @@ def test_stops_are_visited_in_their_order() -> None:
         ("stop missed", (1,), 4)
     ]
     assert report.faults[0].message == (
-        "R1 does not come to N1 at tick 4 or later (visit its stops in their order)"
+        "R1 does not come to N1 at time 4 or later (visit its stops in their order)"
     )
 
 
@@ -151,7 +152,7 @@ def test_a_robot_that_never_moves_misses_its_stop() -> None:
 def test_a_wrong_home_is_told() -> None:
     report = judged([(2, 0)], [1, 2, 1, 0], [0, 1, 3, 4])
     assert [(fault.kind, fault.message) for fault in report.faults] == [
-        ("wrong home", "R1 starts at N1 at tick 0 (start at its home, N0, at tick 0)")
+        ("wrong home", "R1 starts at N1 at time 0 (start at its home, N0, at time 0)")
     ]
 
 
@@ -193,7 +194,10 @@ def test_a_drive_that_is_too_fast_is_told() -> None:
             "too fast",
             (0, 1),
             1,
-            "R1 drives from N0 to N1 in 1 tick, it needs 2 (enter at tick 2 or later)",
+            (
+                "R1 drives from N0 to N1 in 1 time unit, it needs 2 time units"
+                " (enter at time 2 or later)"
+            ),
         )
     ]
 

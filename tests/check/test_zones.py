@@ -76,7 +76,7 @@ def test_the_fault_names_the_zone_the_robots_and_the_time() -> None:
     tracks = Track.of([0, 1, 2, 3], [0, 1, 2, 3]), Track.of([4, 5, 6, 7], [0, 2, 3, 4])
     report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
     assert str(report.faults[0]) == (
-        "tick 1: zone conflict: at time 1 R1 at B and R2 at F both book zone door"
+        "time 1: zone conflict: R1 at B and R2 at F both book zone door"
         " (let one come when the other has left)"
     )
 

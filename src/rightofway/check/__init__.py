@@ -11,12 +11,12 @@ from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
-from rightofway.model import Plan
+from rightofway.model import Plan, Quantities
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
 
-def check(plan: Plan, *, limit: int = 1000) -> Report:
+def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None) -> Report:
     """Judge a plan.
 
     Parameters
@@ -25,6 +25,8 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
         Any plan; however wrong it is, it is judged and not refused.
     limit
         How many faults to list, the earliest first; all are counted.
+    quantities
+        How messages write times and lengths; None for the units of the scenario.
 
     Returns
     -------
@@ -45,8 +47,8 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     nearer than that, at any instant of stays and straight, uniform drives; both are judged exactly.
     """
     visits = visits_of(plan)
-    names = Names(plan.scenario)
-    collector = FaultCollector(limit)
+    names = Names(plan.scenario, quantities or plan.scenario.quantities)
+    collector = FaultCollector(limit, names)
     judge_drives(visits, names, collector)
     judge_trips(plan, visits, names, collector)
     judge_bookings(plan, visits, names, collector)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, ticks
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick, VertexId
 from rightofway.model.sorting import order_by
@@ -53,8 +53,8 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
         return names.robot(int(robot[booking]))
 
     def interval(booking: int) -> str:
-        until = "for ever" if last[booking] else f"to {leave[booking]}"
-        return f"from tick {start[booking]} {until}"
+        until = "for ever" if last[booking] else f"to {names.until(leave[booking])}"
+        return f"from {names.moment(start[booking])} {until}"
 
     def conflict(one: int, other: int) -> str:
         return (
@@ -64,9 +64,10 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
 
     def too_soon(one: int, other: int) -> str:
         return (
-            f"{name(other)} comes to {names.vertex(int(vertex[one]))} at tick {start[other]},"
-            f" {ticks(start[other] - leave[one])} after {name(one)} left, the headway is {headway}"
-            f" (come at tick {leave[one] + headway} or later)"
+            f"{name(other)} comes to {names.vertex(int(vertex[one]))} at"
+            f" {names.moment(start[other])}, {names.duration(start[other] - leave[one])} after"
+            f" {name(one)} left, the headway is {names.duration(headway)}"
+            f" (come at {names.moment(leave[one] + headway)} or later)"
         )
 
     def report(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import Scenario, Tick, VertexId
+from rightofway.model import Quantities, Scenario, Tick, VertexId
 
 FaultKind = Literal[
     "unknown vertex",
@@ -69,6 +69,8 @@ class Fault:
         When it begins [ticks].
     message
         The same for people, with what would be right in brackets.
+    moment
+        When it begins, for people.
     """
 
     kind: FaultKind
@@ -76,9 +78,10 @@ class Fault:
     vertices: tuple[VertexId, ...]
     tick: Tick
     message: str
+    moment: str = ""
 
     def __str__(self) -> str:
-        return f"tick {self.tick}: {self.kind}: {self.message}"
+        return f"{self.moment or f'tick {self.tick}'}: {self.kind}: {self.message}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,8 +124,9 @@ class Report:
 class FaultCollector:
     """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions."""
 
-    def __init__(self, limit: int) -> None:
+    def __init__(self, limit: int, names: Names) -> None:
         self._limit = limit
+        self._names = names
         self._counts: Counter[FaultKind] = Counter()
         self._kept: list[Fault] = []
 
@@ -151,16 +155,19 @@ class FaultCollector:
     def report(self) -> Report:
         """Return the judgement on all faults added."""
         self._kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
+        listed = self._kept[: self._limit]
         return Report(
-            faults=tuple(self._kept[: self._limit]), counts=dict(sorted(self._counts.items()))
+            faults=tuple(replace(fault, moment=self._names.moment(fault.tick)) for fault in listed),
+            counts=dict(sorted(self._counts.items())),
         )
 
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """The names of a scenario."""
+    """The names of a scenario, and how times are written."""
 
     scenario: Scenario
+    quantities: Quantities
 
     def robot(self, index: int) -> str:
         """Return a robot's name."""
@@ -172,7 +179,15 @@ class Names:
             return self.scenario.roadmap.name(vertex)
         return f"vertex {vertex}"
 
+    def moment(self, tick: int) -> str:
+        """Return a point in time: ``time 2``, ``6 min 23 s``."""
+        return self.quantities.moment(int(tick))
 
-def ticks(number: int) -> str:
-    """Return a number of ticks in words."""
-    return f"{number} tick" if number == 1 else f"{number} ticks"
+    def until(self, tick: int) -> str:
+        """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""
+        has_unit = self.quantities.time_unit and not self.quantities.in_ticks
+        return self.moment(tick) if has_unit else self.quantities.cell(int(tick))
+
+    def duration(self, ticks: int) -> str:
+        """Return how long something lasts: ``2 time units``."""
+        return self.quantities.duration(int(ticks))

@@ -279,7 +279,6 @@ def _judge_bookings(
         found.append((one[excluded], other[excluded]))
     one, other = (np.concatenate(each) for each in zip(*found, strict=True))
     start = np.maximum(bookings.start[one], bookings.start[other])
-    moment = names.scenario.quantities.moment
     for k in _first_of_each(bookings, one, other, start):
         pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
@@ -294,8 +293,8 @@ def _judge_bookings(
                 robots=robots,
                 vertices=(*places[0][1], *places[1][1]),
                 tick=Tick(int(start[k])),
-                message=f"at {moment(int(start[k]))} {booked}, which are too near to be booked at"
-                " one time (let one come when the other has left)",
+                message=f"{booked}, which are too near to be booked at one time"
+                " (let one come when the other has left)",
             )
         )
 
@@ -327,7 +326,7 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
     ).in_order()
     parts = [_encounters(visits, shapes, motions, *pair) for pair in shapes.together(motions)]
     one, other, square, when = (np.concatenate(each) for each in zip(*parts, strict=True))
-    quantities = names.scenario.quantities
+    quantities = names.quantities
     for k in _first_of_each(motions, one, other, square):
         pair = sorted((int(one[k]), int(other[k])), key=lambda entry: int(motions.robot[entry]))
         robots = tuple(int(motions.robot[entry]) for entry in pair)

@@ -9,7 +9,7 @@ from heapq import heappop, heappush
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, ticks
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
 from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
 
@@ -32,9 +32,9 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
 
     def backwards(visit: int) -> str:
         return (
-            f"{robot(visit)} enters {vertex(visit)} at tick {visits.enter[visit]}, but"
-            f" {vertex(visit + 1)} after it at tick {visits.leave[visit]}"
-            f" (later visits have later ticks)"
+            f"{robot(visit)} enters {vertex(visit)} at {names.moment(visits.enter[visit])}, but"
+            f" {vertex(visit + 1)} after it at {names.moment(visits.leave[visit])}"
+            f" (later visits have later times)"
         )
 
     def jump(visit: int) -> str:
@@ -47,8 +47,8 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
         drive = visits.drive[visit]
         return (
             f"{robot(visit)} drives from {vertex(visit)} to {vertex(visit + 1)}"
-            f" in {ticks(stay[visit])}, it needs {drive} (enter at tick"
-            f" {visits.enter[visit] + drive} or later)"
+            f" in {names.duration(stay[visit])}, it needs {names.duration(drive)}"
+            f" (enter at {names.moment(visits.enter[visit] + drive)} or later)"
         )
 
     def report(kind: FaultKind, broken: NDArray[np.bool_], message: Callable[[int], str]) -> None:
@@ -121,8 +121,9 @@ class _Trip:
         name, vertex = self._name, self.names.vertex
         if self.vertices[0] != home or self.enter[0] != 0:
             message = (
-                f"{name} starts at {vertex(self.vertices[0])} at tick {self.enter[0]}"
-                f" (start at its home, {vertex(home)}, at tick 0)"
+                f"{name} starts at {vertex(self.vertices[0])} at"
+                f" {self.names.moment(self.enter[0])} (start at its home, {vertex(home)}, at"
+                f" {self.names.moment(0)})"
             )
             yield self._fault("wrong home", self.vertices[0], self.enter[0], message)
         if self.vertices[-1] != last:
@@ -165,16 +166,17 @@ class _Trip:
             return self._cut_short(stage, -minus_spare, self.enter[visit])
         message = (
             f"{self._name} does not come to {self.names.vertex(stage.vertex)}"
-            f" at tick {self.enter[visit]} or later (visit its stops in their order)"
+            f" at {self.names.moment(self.enter[visit])} or later (visit its stops in their order)"
         )
         return self._fault("stop missed", stage.vertex, self.enter[visit], message)
 
     def _cut_short(self, stage: Stage, spare: int, enter: int) -> Fault:
         needs = {"working": stage.work, "turning": stage.turn}
-        need = " and ".join(f"{duration} {what}" for what, duration in needs.items() if duration)
+        duration = self.names.duration
+        need = " and ".join(f"{duration(ticks)} {what}" for what, ticks in needs.items() if ticks)
         message = (
-            f"{self._name} has {ticks(spare)} at {self.names.vertex(stage.vertex)}, it needs"
-            f" {need} (stay {ticks(stage.work + stage.turn - spare)} longer)"
+            f"{self._name} has {duration(spare)} at {self.names.vertex(stage.vertex)}, it needs"
+            f" {need} (stay {duration(stage.work + stage.turn - spare)} longer)"
         )
         return self._fault("work cut short", stage.vertex, enter, message)
 

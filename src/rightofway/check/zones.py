@@ -63,13 +63,12 @@ def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
 
 def _fault(zone: Zone, stay: _Stay, other: _Stay, names: Names) -> Fault:
     one, two = sorted((stay, other), key=lambda each: each.robot)
-    moment = names.scenario.quantities.moment(stay.start)
     return Fault(
         kind="zone conflict",
         robots=(one.robot, two.robot),
         vertices=(VertexId(one.vertex), VertexId(two.vertex)),
         tick=Tick(stay.start),
-        message=f"at {moment} {names.robot(one.robot)} at {names.vertex(one.vertex)} and"
+        message=f"{names.robot(one.robot)} at {names.vertex(one.vertex)} and"
         f" {names.robot(two.robot)} at {names.vertex(two.vertex)} both book zone {zone.name}"
         " (let one come when the other has left)",
     )

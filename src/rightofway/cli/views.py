@@ -9,7 +9,7 @@ import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files
 from rightofway.cli.inputs import count_option, foreign_options, read_either, read_plan
-from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import complain, file_title, progress, put_json, put_report, say
 from rightofway.errors import InputError
@@ -43,8 +43,9 @@ Examples:
 @foreign_options
 @click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
               help="Faults to list for each plan; all are counted.")  # fmt: skip
+@ticks_option
 @as_json_option("report")
-def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
+def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) -> int:
     """Check plans; exit code 1 if one breaks a rule.
 
     The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
@@ -63,7 +64,8 @@ def check(plans: tuple[str, ...], limit: int, as_json: bool) -> int:
             complain(str(error))
             code = 2
             continue
-        report = judge(found, limit=limit)
+        quantities = quantities_of(found.scenario, in_ticks=in_ticks)
+        report = judge(found, limit=limit, quantities=quantities)
         code = code or int(not report.ok)
         if as_json:
             reports.append({"plan": path, **_report_data(found, report)})
