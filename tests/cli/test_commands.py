@@ -190,7 +190,11 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", "nowhere.yaml", "-o", "-", "--log"], "--log and -o - both go to standard output"),
         (["plan", "nowhere.yaml", "-o", "-", "--json"], "--json and -o - both go to"),
         (["plan", "nowhere.yaml", "--json", "--table"], "--table is for people, --json for"),
-        (["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"], "--tick and --diagram are for"),
+        (
+            ["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"],
+            "--at, --tick and --diagram are",
+        ),
+        (["show", "nowhere.yaml", "-o", "a.png", "--tick", "3", "--at", "3"], "choose one"),
         (["show", "nowhere.yaml", "-o", "a.gif", "--background", "b.png"], "is for pages (give"),
         (["show", "nowhere.yaml", "--page", "a.html", "--background-scale", "2"], "needs --back"),
         (["plan", EXAMPLES / "door.yaml", "--page", "no/page.html"], "no/page.html"),
@@ -241,7 +245,7 @@ def test_show_lays_a_picture_under_the_map_of_the_page(cli: Cli, door: Path) -> 
 
 def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:
     cli("plan", door, "-o", "plan.json")
-    assert cli("show", "plan.json", "-o", "a.png", "--tick", "3", "--diagram").code == 0
+    assert cli("show", "plan.json", "-o", "a.png", "--at", "3", "--diagram").code == 0
     ended = cli("show", door, "-o", "a.gif")
     assert "auto, planned in " in ended.err
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")

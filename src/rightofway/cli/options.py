@@ -6,6 +6,7 @@ import math
 import stat
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,10 @@ import click
 
 if TYPE_CHECKING:
     from rightofway.model import Quantities, Scenario
+
+    NumberType = click.ParamType[Fraction]
+else:
+    NumberType = click.ParamType  # takes no parameter in older versions of click
 
 Callback = Callable[[click.Context, click.Parameter, Any], Any]
 """What click calls to check the value of an option."""
@@ -63,6 +68,24 @@ def _is_device(path: Path) -> bool:
         return not stat.S_ISREG(path.stat().st_mode)
     except (OSError, ValueError):
         return False
+
+
+class Time(NumberType):
+    """A time that is given as a number of time units, or of ticks."""
+
+    name = "time"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Fraction:
+        """Return the number, exactly."""
+        try:
+            number = Fraction(value)
+        except (ValueError, ZeroDivisionError):
+            self.fail(f"{value!r} is not a number (write it like 3, 0.5 or 1/3)", param, ctx)
+        if number < 0:
+            self.fail(f"{value} is negative (give 0 or more)", param, ctx)
+        return number
 
 
 def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:

@@ -13,7 +13,7 @@ import click
 
 from rightofway.cli.completion import PLANS, files
 from rightofway.cli.inputs import foreign_options, read_plan
-from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
+from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.terminal import put_json, say, width
 from rightofway.errors import InputError
 from rightofway.model.values import written
@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from rightofway.model.quantities import Quantities
     from rightofway.viz.table import Listing, TimeSpaceTable
 
-    NumberType = click.ParamType[Fraction]
-else:
-    NumberType = click.ParamType  # takes no parameter in older versions of click
 
 TABLE_EXAMPLES = """\b
 Examples:
@@ -37,33 +34,15 @@ Examples:
 """
 
 
-class _Time(NumberType):
-    """A time that is given as a number of time units, or of ticks."""
-
-    name = "time"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Fraction:
-        """Return the number, exactly."""
-        try:
-            number = Fraction(value)
-        except (ValueError, ZeroDivisionError):
-            self.fail(f"{value!r} is not a number (write it like 3, 0.5 or 1/3)", param, ctx)
-        if number < 0:
-            self.fail(f"{value} is negative (give 0 or more)", param, ctx)
-        return number
-
-
 def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that choose what is shown."""
     for option in (
         ticks_option,
         click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
-        click.option("--step", type=_Time(), metavar="TIME",
+        click.option("--step", type=Time(), metavar="TIME",
                      help="Time from one column of the table to the next; a tick by default."),
-        click.option("--to", "last", type=_Time(), metavar="TIME", help="Last time shown."),
-        click.option("--from", "first", type=_Time(), default="0", metavar="TIME",
+        click.option("--to", "last", type=Time(), metavar="TIME", help="Last time shown."),
+        click.option("--from", "first", type=Time(), default="0", metavar="TIME",
                      help="First time shown, in the scenario's unit, or in ticks with --ticks."),
     ):  # fmt: skip
         command = option(command)

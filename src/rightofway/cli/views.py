@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +11,7 @@ import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, files
 from rightofway.cli.inputs import count_option, foreign_options, read_either, read_plan
-from rightofway.cli.options import as_json_option, quantities_of, ticks_option, writable
+from rightofway.cli.options import Time, as_json_option, quantities_of, ticks_option, writable
 from rightofway.cli.outputs import PAGE_SUFFIXES
 from rightofway.cli.terminal import complain, file_title, progress, put_json, put_report, say
 from rightofway.errors import InputError
@@ -25,7 +27,7 @@ LIMIT = 10
 SHOW_EXAMPLES = """\b
 Examples:
   rightofway show plan.json --page plan.html
-  rightofway show plan.json -o moment.png --tick 12
+  rightofway show plan.json -o moment.png --at 12
   rightofway show examples/door.yaml -o door.gif
 """
 
@@ -109,8 +111,10 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
               help="Write a page that plays the plan (.html).",
               )  # fmt: skip
-@click.option("--tick", type=click.IntRange(0), metavar="TICK",
-              help="Tick that the picture shows; the start by default.")  # fmt: skip
+@click.option("--at", type=Time(), metavar="TIME",
+              help="Time that the picture shows, in the scenario's unit; the start by default.",
+              )  # fmt: skip
+@click.option("--tick", type=click.IntRange(0), metavar="TICK", help="The same as a tick.")
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 @click.option("--background", type=click.Path(), metavar="PICTURE",
               help="Picture under the map of the page, its lower left corner on the map's.",
@@ -125,6 +129,7 @@ def show(
     count: int | None,
     output: str | None,
     page: str | None,
+    at: Fraction | None,
     tick: int | None,
     diagram: bool,
     background: str | None,
@@ -142,8 +147,7 @@ def show(
     if not (output or page):
         raise click.UsageError("nothing to write (give --page FILE, or -o FILE for a picture)")
     is_picture = Path(output or "").suffix.lower() == ".png"
-    if not is_picture and (diagram or tick is not None):
-        raise click.UsageError("--tick and --diagram are for pictures (end the file in .png)")
+    _check_picture(is_picture, at, tick, diagram=diagram)
     if other and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
         raise click.UsageError("two plans are compared on a page (give --page FILE)")
     under = _background(background, background_scale, [page, output])
@@ -166,10 +170,23 @@ def show(
     elif is_picture:
         from rightofway.viz import write_png
 
+        if at is not None:
+            tick = floor(at / found.scenario.problem.clock.tick)
         write_png(found, output or "", tick, diagram=diagram)
         say(f"wrote {output}")
     elif output:
         _write(found, output, extras)
+
+
+def _check_picture(
+    is_picture: bool, at: Fraction | None, tick: int | None, *, diagram: bool
+) -> None:
+    """Refuse options of pictures where none is written, and two moments."""
+    if not is_picture and (diagram or at is not None or tick is not None):
+        message = "--at, --tick and --diagram are for pictures (end the file in .png)"
+        raise click.UsageError(message)
+    if at is not None and tick is not None:
+        raise click.UsageError("--at and --tick say the same: choose one")
 
 
 def _background(
@@ -192,7 +209,8 @@ def _write(found: Plan, path: str, extras: dict[str, Any]) -> None:
 
     if path.lower().endswith(".gif"):
         film = write_gif(found, path)
-        say(f"{film.frames} frames, {float(film.ticks_per_frame):g} ticks apart")
+        apart = found.scenario.quantities.duration(film.ticks_per_frame)
+        say(f"{film.frames} frames, {apart} apart")
     else:
         write_page(found, path, **extras)
     say(f"wrote {path}")
