@@ -107,6 +107,14 @@ def test_a_scen_by_itself_is_classic_mapf(hall: Path) -> None:
     assert scenario.problem.itineraries[0].stages[0].turn == 0
 
 
+def test_the_first_robots_of_a_scen_are_taken_by_number(hall: Path) -> None:
+    assert load(hall, count=1).robots == load(hall).robots[:1]
+    with pytest.raises(InputError, match="hall.scen: count: 3 is more than the 2 rows"):
+        load(hall, count=3)
+    with pytest.raises(InputError, match="hall.scen: count: 0 does not fit"):
+        load(hall, count=0)
+
+
 def test_its_map_may_be_in_the_folder_of_maps(hall: Path) -> None:
     folder = hall.parent / "scens"
     folder.mkdir()

@@ -226,7 +226,7 @@ def _classic(path: Path, count: int | None) -> Loaded:
         raise InputError(
             InputFault("", fault.message.removeprefix(f"{path}: "))
             if fault.place == "robots.scen"
-            else fault
+            else replace(fault, place=fault.place.removeprefix("robots."))
             for fault in error.faults
         ) from None
 
