@@ -109,9 +109,9 @@ def test_a_scen_by_itself_is_classic_mapf(hall: Path) -> None:
 
 def test_the_first_robots_of_a_scen_are_taken_by_number(hall: Path) -> None:
     assert load(hall, count=1).robots == load(hall).robots[:1]
-    with pytest.raises(InputError, match="hall.scen: count: 3 is more than the 2 rows"):
+    with pytest.raises(InputError, match=r"hall\.scen: count: 3 is more than the 2 rows"):
         load(hall, count=3)
-    with pytest.raises(InputError, match="hall.scen: count: 0 does not fit"):
+    with pytest.raises(InputError, match=r"hall\.scen: count: 0 does not fit"):
         load(hall, count=0)
 
 
