@@ -138,6 +138,12 @@ def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> No
     assert "hall.scen: a .scen file holds a scenario, not a" in cli("check", "hall.scen").err
 
 
+def test_what_another_format_leaves_out_is_reported(cli: Cli, door: Path) -> None:
+    with_plan(cli, door)
+    ended = cli("convert", "plan.json", "--to", "lns2", "-o", "paths.txt")
+    assert "paths.txt: work, turning and ways back are left out" in ended.err
+
+
 @pytest.mark.parametrize(
     ("args", "message"),
     [

@@ -102,6 +102,9 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
 
     if name is not None:
         put_text(foreign_text(plan, name), path)
+        stages = [each.stages for each in plan.scenario.problem.itineraries]
+        if any(len(own) > 1 or own[0].work for own in stages):
+            say(f"{path}: work, turning and ways back are left out, only cells and steps are kept")
         if plan.scenario.problem.clock.tick != 1:
             say(f"{path}: a step lasts {plan.scenario.quantities.duration(1)}")
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
