@@ -51,6 +51,15 @@ def test_all_examples_are_copied_to_a_folder_that_is_not_there_yet(cli: Cli) -> 
     assert (again.code, "examples: exists (give another folder" in again.err) == (2, True)
 
 
+def test_an_example_that_is_not_copied_yet_is_answered_by_how_to_copy_it(cli: Cli) -> None:
+    for name in ("plan", "bound", "collisions"):
+        ended = cli(name, "examples/door.yaml")
+        assert ended.code == 2
+        assert (
+            "examples/door.yaml: there is no such file (rightofway examples --copy ." in ended.err
+        )
+
+
 @pytest.mark.parametrize(
     ("args", "message"),
     [

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.terminal import say
+from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from rightofway.io import Loaded
@@ -32,7 +33,15 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     """
     from rightofway.io import load_with_notes
 
+    _point_to_examples(path)
     return _noted(load_with_notes(path, count=count), path)
+
+
+def _point_to_examples(path: str) -> None:
+    """Refuse an example of help or documentation that is not in the user's folder yet."""
+    if path.startswith("examples/") and not Path(path).exists():
+        message = "there is no such file (rightofway examples --copy . writes the examples)"
+        raise InputError.at("", message, path)
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
@@ -69,6 +78,7 @@ def read_either(path: str, count: int | None = None) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
+    _point_to_examples(path)
     found = load_either(path, count=count, **_files())
     return _noted(found, path) if isinstance(found, Loaded) else found
 

@@ -48,6 +48,12 @@ class _Session:
     debug: bool = False
 
 
+START = """\b
+Start with:
+  rightofway examples --copy .
+  rightofway plan examples/door.yaml --page door.html
+"""
+
 GROUPS: dict[str, tuple[click.Command, ...]] = {
     "Begin": (new, examples),
     "Plan": (plan, improve, bound),
@@ -79,7 +85,7 @@ class _Commands(click.Group):
     name="rightofway",
     cls=_Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Start with:  rightofway plan examples/door.yaml --page door.html",
+    epilog=START,
 )
 @click.version_option(__version__, "-V", "--version", prog_name="rightofway")
 @quiet_option
