@@ -179,10 +179,20 @@ def test_a_move_of_ten_steps_ends_when_its_tenth_step_is_done(hall: Path) -> Non
     assert check(plan).ok
 
 
+def test_whole_moves_of_ten_steps_are_one_tick_each(hall: Path) -> None:
+    plan = read(hall, log(["[(0,0,0,0,0):(F 20,W 10)]"], agentMaxCounter=10))
+    assert plan.scenario.problem.clock.tick == 1
+    assert names(plan) == [[("N0", 0), ("N1", 1), ("N2", 2)]]
+    assert plan.flowtime == 2
+
+
 def test_the_map_is_found_beside_the_plan_or_the_scen_file(hall: Path) -> None:
     (hall / "steps.txt").write_text(STEPS, encoding="utf-8")
     assert names(load_plan(hall / "steps.txt")) == AWAY
     (hall / "paths.txt").write_text(PATHS, encoding="utf-8")
+    (hall / "long.txt").write_text(STEPS.replace("hall.map", "h" * 300), encoding="utf-8")
+    with pytest.raises(InputError, match="is not beside it"):
+        load_plan(hall / "long.txt")
     with pytest.raises(InputError, match=r"paths.txt: the plan does not name its map \(give it"):
         load_plan(hall / "paths.txt")
     rows = "version 1\n0\thall.map\t3\t3\t0\t0\t0\t2\t5\n0\thall.map\t3\t3\t2\t0\t1\t1\t2\n"

@@ -9,7 +9,9 @@ are those of the agent's row, so that the plan is one of the very scenario that 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -124,10 +126,10 @@ def plan_of_trajectories(
     lines = tuple(line.replace("E", ".") for line in lines)
     _refuse_walls(found, lines)
     scenario = _scenario(found, lines, rows)
-    ticks = 1 / (scenario.problem.clock.tick * found.steps_per_move)  # of a step
+    ticks = 1 / (scenario.problem.clock.tick * found.steps_per_move)  # that a step lasts
     grid = scenario.roadmap.grid
     assert grid is not None, "the map has rows"
-    tracks = tuple(_track(agent, grid, int(ticks)) for agent in found.agents)
+    tracks = tuple(_track(agent, grid, ticks) for agent in found.agents)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun())
 
 
@@ -136,8 +138,9 @@ def _map_beside(path: Path, named: str | None) -> Path:
         raise InputError.at("", "the plan does not name its map (give it with --map FILE)")
     name = Path(named.replace("\\", "/")).name
     for beside in (path.parent / name, path.parent / ".." / "maps" / name):
-        if beside.is_file():
-            return beside
+        with suppress(OSError):  # of a name that is too long
+            if beside.is_file():
+                return beside
     raise InputError.at("", f"its map {shown(name)} is not beside it (give it with --map FILE)")
 
 
@@ -205,11 +208,12 @@ def _refuse_walls(found: ForeignPlan, lines: Sequence[str]) -> None:
     faults.stop()
 
 
-def _track(agent: Trajectory, grid: Grid, ticks: int) -> Track:
-    """Return the track of an agent; a step lasts for some ticks."""
+def _track(agent: Trajectory, grid: Grid, ticks: Fraction) -> Track:
+    """Return the track of an agent; a step lasts for some ticks, or all steps are whole moves."""
     rows, columns = agent.cells.T
     vertices = grid.vertex_at[rows * grid.columns + columns]
-    return Track(vertices=vertices.astype(np.int32), enter=agent.steps * ticks)
+    enter = agent.steps * ticks.numerator // ticks.denominator
+    return Track(vertices=vertices.astype(np.int32), enter=enter)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
