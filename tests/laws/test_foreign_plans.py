@@ -1,7 +1,8 @@
-"""A plan that is written for another program and read again has the same visits."""
+"""Plans of other programs: what is written is read back, counted actions lead as single steps do."""
 
 from __future__ import annotations
 
+import json
 import tempfile
 from fractions import Fraction
 from pathlib import Path
@@ -10,8 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
+from rightofway.io.foreign import planviz
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, VertexId
 from rightofway.model.roadmap import roadmap_of_grid
+from tests.oracles.planviz import visits_step_by_step
 
 HALL = roadmap_of_grid([".....", ".@...", "....."])
 
@@ -53,3 +56,35 @@ def test_what_is_written_for_another_program_is_read_back(plan: Plan, name: str)
         write_map(HALL, map_file)
         path.write_text(foreign_text(plan, name), encoding="utf-8")
         assert load_plan(path, map_file) == plan
+
+
+@st.composite
+def runs_of_actions(draw: st.DrawFn) -> tuple[int, list[tuple[str, int]]]:
+    """Return the steps of a move, and runs in which waits may interrupt moves and turns."""
+    steps_per_move = draw(st.integers(1, 4))
+    runs: list[tuple[str, int]] = []
+    for action in draw(st.lists(st.sampled_from("FRCW"), max_size=12)):
+        first = draw(st.integers(0, steps_per_move))
+        wait = draw(st.integers(0, 2))
+        runs += [(action, first), ("W", wait), (action, steps_per_move - first)]
+    return steps_per_move, [(action, steps) for action, steps in runs if steps]
+
+
+@settings(max_examples=100, deadline=None)
+@given(drawn=runs_of_actions(), heading=st.sampled_from("ENWS"))
+def test_counted_actions_lead_where_single_steps_lead(
+    drawn: tuple[int, list[tuple[str, int]]], heading: str
+) -> None:
+    steps_per_move, runs = drawn
+    part = ",".join(f"{action} {steps}" for action, steps in runs)
+    log = {
+        "actionModel": "MAPF_T",
+        "agentMaxCounter": steps_per_move,
+        "start": [[50, 50, heading]],
+        "actualPaths": [f"[(0,50,50,0,0):({part})]"],
+    }
+    (agent,) = planviz.read(json.dumps(log)).agents
+    found = zip(map(tuple, agent.cells.tolist()), agent.steps.tolist(), strict=True)
+    single = [action for action, steps in runs for _ in range(steps)]
+    expected = visits_step_by_step(single, (50, 50), "ENWS".index(heading), steps_per_move)
+    assert list(found) == expected
