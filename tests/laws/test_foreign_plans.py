@@ -1,4 +1,4 @@
-"""Plans of other programs: what is written is read back, counted actions lead as single steps do."""
+"""Plans of other programs: what is written is read back; counted actions are single steps."""
 
 from __future__ import annotations
 
