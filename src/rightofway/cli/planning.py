@@ -117,7 +117,7 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 @count_option
 @_planning_options(DEFAULT)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
-    """Plan a SCENARIO (YAML, JSON or .scen) and check the plan.
+    """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
 
     Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
     standard input.
