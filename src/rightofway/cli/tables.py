@@ -293,7 +293,7 @@ def put_lists(lists: Sequence[Listing], output: str) -> None:
 
 def _groups(
     found: Plan, number: int, given: dict[str, Any]
-) -> tuple[TimeSpaceTable, list[str], list[tuple[int, int] | None]]:
+) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
     """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
     from rightofway.planners.two_level import movement_groups
     from rightofway.viz.table import chosen_robots, table_of_groups
@@ -316,7 +316,7 @@ def _groups(
         quantities=shown.quantities,
         step=shown.step,
     )
-    completions: list[tuple[int, int] | None] = [group and group.completions for group in groups]
+    completions = [None if group is None else group.completions for group in groups]
     words = _group_words(found, decision, completions, shown.quantities)
     return made, [f"Decision {number}: {words[0]}", "\n".join(words[1:])], completions
 
