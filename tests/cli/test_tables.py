@@ -96,6 +96,11 @@ def test_both_movement_groups_of_a_decision_are_timetables(cli: Cli, plan: str) 
         "List 2: W(R1) + W(R2) = 9 + 22 = 31 time units",
         "R2 waits (robot level).",
     ]
+    data = json.loads(cli("table", plan, "--decision", "1", "--json").out)
+    assert data["completions"] == [[11, 21], [9, 22]]
+    assert [row["kind"] for row in data["rows"]] == ["planned"] * 2 + ["list 1"] * 2 + [
+        "list 2"
+    ] * 2
 
 
 def test_collisions_of_a_scenario_are_those_of_free_running_robots(cli: Cli) -> None:

@@ -30,9 +30,15 @@ def test_a_row_is_a_robot(tmp_path: Path, delimiter: str) -> None:
     assert rows == [("R1", 0, 4, "1/2"), ("R2", 2, 6, "1")]
 
 
-def test_a_decimal_comma_is_read_between_semicolons(tmp_path: Path) -> None:
-    found = rightofway.load(scenario(tmp_path, "name;home;target;speed\nR1;N0;N6;0,5\n"))
-    assert str(found.robots[0].speed) == "1/2"
+@pytest.mark.parametrize(("text", "speed"), [("0,5", "1/2"), ("1,25", "5/4"), ("0,125", "1/8")])
+def test_a_decimal_comma_is_read(tmp_path: Path, text: str, speed: str) -> None:
+    found = rightofway.load(scenario(tmp_path, f"name;home;target;speed\nR1;N0;N6;{text}\n"))
+    assert str(found.robots[0].speed) == speed
+
+
+def test_a_comma_that_may_stand_for_thousands_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="'1,000' is not a number"):
+        rightofway.load(scenario(tmp_path, "name;home;target;speed\nR1;N0;N6;1,000\n"))
 
 
 def test_a_plan_holds_the_robots_of_the_table(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -138,12 +138,11 @@ def table(
     if events:
         _events(found, _shown(found, **given), output, as_json=as_json)
         return
-    words: list[str] = []
     if decision is None:
-        made = _time_space_table(found, _shown(found, **given))
-    else:
-        made, words = _groups(found, decision, given)
-    _put_table(made, output, as_json=as_json, words=words)
+        _put_table(_time_space_table(found, _shown(found, **given)), output, as_json=as_json)
+        return
+    made, words, completions = _groups(found, decision, given)
+    _put_table(made, output, as_json=as_json, words=words, more={"completions": completions})
 
 
 def _write_all(found: Plan, path: str, given: dict[str, Any]) -> None:
@@ -170,8 +169,14 @@ def _time_space_table(found: Plan, shown: _Shown) -> TimeSpaceTable:
 
 
 def _put_table(
-    made: TimeSpaceTable, output: str | None, *, as_json: bool, words: list[str]
+    made: TimeSpaceTable,
+    output: str | None,
+    *,
+    as_json: bool,
+    words: Sequence[str] = (),
+    more: Mapping[str, Any] | None = None,
 ) -> None:
+    """Write a table to a file by its ending, or print it between words; ``more`` is for JSON."""
     from rightofway.viz.table import as_csv, as_text, write_xlsx
 
     suffix = Path(output or "").suffix.lower()
@@ -184,7 +189,7 @@ def _put_table(
     if output and output != "-":
         say(f"wrote {output}")
     if as_json:
-        put_json(_table_data(made))
+        put_json({**_table_data(made), **(more or {})})
     elif not output:
         click.echo("\n\n".join([*words[:1], as_text(made, width()), *words[1:]]))
 
@@ -265,8 +270,10 @@ def put_lists(lists: Sequence[Listing], output: str) -> None:
     say(f"wrote {output}")
 
 
-def _groups(found: Plan, number: int, given: dict[str, Any]) -> tuple[TimeSpaceTable, list[str]]:
-    """Return the table of both movement groups of a decision, a heading, and which was chosen."""
+def _groups(
+    found: Plan, number: int, given: dict[str, Any]
+) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
+    """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
     from rightofway.planners.two_level import movement_groups
     from rightofway.viz.table import chosen_robots, table_of_groups
 
@@ -290,7 +297,7 @@ def _groups(found: Plan, number: int, given: dict[str, Any]) -> tuple[TimeSpaceT
     )
     completions = [None if group is None else group.completions for group in groups]
     words = _group_words(found, decision, completions, shown.quantities)
-    return made, [f"Decision {number}: {words[0]}", "\n".join(words[1:])]
+    return made, [f"Decision {number}: {words[0]}", "\n".join(words[1:])], completions
 
 
 def _group_words(

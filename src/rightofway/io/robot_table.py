@@ -30,8 +30,8 @@ PLACE_KEYS = {"home", "target", "at"}
 WORD_KEYS = {"name", "type", "return"}
 """Keys whose values are text, also where they look like numbers."""
 
-DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+")
-"""A decimal as spreadsheets write it where columns stand between semicolons."""
+DECIMAL_COMMA = re.compile(r"[+-]?(0,[0-9]+|[0-9]+,([0-9]{1,2}|[0-9]{4,}))")
+"""A decimal as half of the world writes it; 1,000 may be a thousand and is refused."""
 
 WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 
@@ -190,9 +190,11 @@ def value_of(key: str, value: Any) -> Any:
         return str(value) if key in WORD_KEYS and not isinstance(value, bool) else value
     if key not in WORD_KEYS and value[0] in "[{":
         return parse_yaml(value)
-    if key not in WORD_KEYS | PLACE_KEYS and WHOLE.fullmatch(value):
+    if key in WORD_KEYS | PLACE_KEYS:
+        return value
+    if WHOLE.fullmatch(value):
         return int(value)
-    return value
+    return value.replace(",", ".") if DECIMAL_COMMA.fullmatch(value) else value
 
 
 def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
@@ -218,12 +220,8 @@ def robots_of_csv(path: Path, known: Iterable[str]) -> Located:
         except csv.Error as error:
             raise InputError.at("", f"{error} (check the quotes)") from None
 
-        def pointed(text: str) -> str:
-            is_decimal = delimiter != "," and DECIMAL_COMMA.fullmatch(text)
-            return text.replace(",", ".") if is_decimal else text
-
         filled = (
-            (number, {at: pointed(text.strip()) for at, text in enumerate(row, 1) if text.strip()})
+            (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
             for number, row in enumerate(rows, 1)
         )
         headings = [heading_key(text) for text in rows[0]] if rows else []

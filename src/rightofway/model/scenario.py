@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.problem import Problem, problem_of
@@ -62,6 +63,11 @@ class Scenario:
         count = len(self.robots)
         fleet = "1 robot" if count == 1 else f"{count} robots"
         return f"Scenario({fleet} on {self.roadmap!r}, tick {self.problem.clock.tick})"
+
+    def _repr_html_(self) -> str:
+        """Return the map and the robots, for notebooks; made by a room above, when asked for."""
+        made: str = import_module("rightofway.viz.scenario_html").scenario_html(self)
+        return made
 
     @property
     def quantities(self) -> Quantities:

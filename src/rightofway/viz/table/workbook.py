@@ -31,6 +31,8 @@ FONTS: dict[RowKind, Any] = {"planned": GREY, "final": None, "list 1": None, "li
 LEGEND: tuple[tuple[str, str, Any, Mark | None], ...] = (
     ("planned", "the place of the robot if no robot waited for another", GREY, None),
     ("final", "where it is in the plan", None, None),
+    ("list 1", "where it is if the first of the two robots waits on a tie", None, None),
+    ("list 2", "where it is if the second of the two robots waits on a tie", None, None),
     ("", "another robot has the same place", None, "collision"),
     ("", "two robots exchange their places", None, "swap"),
     ("", "another robot is too near for their sizes", None, "near"),
@@ -115,7 +117,8 @@ def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     """Write what fonts and colours of a table mean."""
     widen(sheet, 1, 1, {name for name, *_ in LEGEND})
     widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
-    for name, meaning, font, mark in LEGEND:
+    kinds = {"", *(row.kind for row in table.rows)}
+    for name, meaning, font, mark in (each for each in LEGEND if each[0] in kinds):
         sheet.append([cell_of(sheet, name, font=font, mark=mark), meaning])
     lasts = replace(table.quantities, in_ticks=False).duration(table.step)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
