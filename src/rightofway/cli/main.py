@@ -40,6 +40,12 @@ from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 MANY = 1000
 """Characters of the longest sentence of help, which is not cut."""
 
+BEGIN = """\b
+Start with:
+  rightofway examples --copy .
+  rightofway plan examples/door.yaml --page door.html
+"""
+
 DONE, NO_PLAN, BAD_INPUT, GAVE_UP, DEFECT, INTERRUPTED, UNREAD = 0, 1, 2, 3, 70, 130, 141
 
 
@@ -79,7 +85,7 @@ class _Commands(click.Group):
     name="rightofway",
     cls=_Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Start with:  rightofway plan examples/door.yaml --page door.html",
+    epilog=BEGIN,
 )
 @click.version_option(__version__, "-V", "--version", prog_name="rightofway")
 @quiet_option

@@ -104,7 +104,7 @@ def read_text(path: Path) -> str:
             with path.open("rb") as file:
                 data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
-        raise InputError.at("", _why_unreadable(error), source) from None
+        raise InputError.at("", _why_unreadable(error, path), source) from None
     if not data.strip():
         raise InputError.at("", "the file is empty (give it some content)", source)
     if len(data) > MAX_BYTES:
@@ -113,8 +113,10 @@ def read_text(path: Path) -> str:
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _why_unreadable(error: Exception) -> str:
+def _why_unreadable(error: Exception, path: Path) -> str:
     if isinstance(error, FileNotFoundError):
+        if path.parts[:1] == ("examples",):
+            return "there is no such file (write the examples with: rightofway examples --copy .)"
         return "there is no such file (check the path)"
     if isinstance(error, IsADirectoryError):
         return "this is a directory (give a file in it)"
