@@ -12,7 +12,6 @@ import json
 import math
 import re
 import sys
-import tomllib
 from collections import Counter
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -219,6 +218,8 @@ def _too_deep() -> InputError:
 
 def parse_toml(text: str) -> dict[str, Any]:
     """Return the data of a TOML text."""
+    import tomllib  # here: few commands read TOML
+
     try:
         return tomllib.loads(text, parse_float=decimal)
     except RecursionError:
