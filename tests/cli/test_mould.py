@@ -118,6 +118,13 @@ def test_a_plan_that_cannot_be_read_does_not_keep_others_from_being_checked(
     assert "plan.json: no fault" in ended.out
 
 
+def test_examples_that_were_not_copied_yet_say_how(cli: Cli) -> None:
+    assert cli("plan", "examples/door.yaml").err == (
+        "examples/door.yaml: there is no such file"
+        " (write the examples with: rightofway examples --copy .)\n"
+    )
+
+
 def test_plans_of_other_programs_are_taken_and_given(cli: Cli, door: Path) -> None:
     """Two robots share a door and stay where they go."""
     cli("convert", door, "-o", "hall.scen")

@@ -265,6 +265,13 @@ def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
     assert len(text.splitlines()) < 15
 
 
+def test_a_table_of_many_robots_says_that_rows_are_left_out() -> None:
+    scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
+    table = table_of(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=1)
+    assert "… rows are left out\n" in as_text(table, max_lines=20)
+    assert "left out" not in as_text(table, max_lines=121)
+
+
 def test_a_long_text_leaves_out_columns_without_a_change() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     table = table_of(plan_of(scenario, ([0, 1], [0, 10**6])))

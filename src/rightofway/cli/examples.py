@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.resources import files
 from pathlib import Path
 
 import click
@@ -33,7 +32,7 @@ SUFFIXES = (".yaml", ".toml")
 
 
 def _write_commented(path: str) -> None:
-    template = files("rightofway.cli").joinpath("template.yaml").read_text(encoding="utf-8")
+    template = Path(__file__).with_name("template.yaml").read_text(encoding="utf-8")
     write_whole(path, template.replace("{file}", path))
 
 

@@ -12,7 +12,6 @@ import json
 import math
 import re
 import sys
-import tomllib
 from collections import Counter
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -104,7 +103,7 @@ def read_text(path: Path) -> str:
             with path.open("rb") as file:
                 data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
-        raise InputError.at("", _why_unreadable(error), source) from None
+        raise InputError.at("", _why_unreadable(error, path), source) from None
     if not data.strip():
         raise InputError.at("", "the file is empty (give it some content)", source)
     if len(data) > MAX_BYTES:
@@ -113,8 +112,10 @@ def read_text(path: Path) -> str:
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _why_unreadable(error: Exception) -> str:
+def _why_unreadable(error: Exception, path: Path) -> str:
     if isinstance(error, FileNotFoundError):
+        if path.parts[:1] == ("examples",):
+            return "there is no such file (write the examples with: rightofway examples --copy .)"
         return "there is no such file (check the path)"
     if isinstance(error, IsADirectoryError):
         return "this is a directory (give a file in it)"
@@ -217,6 +218,8 @@ def _too_deep() -> InputError:
 
 def parse_toml(text: str) -> dict[str, Any]:
     """Return the data of a TOML text."""
+    import tomllib  # here: few commands read TOML
+
     try:
         return tomllib.loads(text, parse_float=decimal)
     except RecursionError:

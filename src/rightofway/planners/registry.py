@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.metadata import entry_points
 from typing import Any, cast
 
 from rightofway.errors import InputError
@@ -153,6 +152,8 @@ IMPROVER = "lns"
 
 def registered() -> dict[str, PlannerSpec]:
     """Return every planner by name: ours, then those of other packages."""
+    from importlib.metadata import entry_points  # here, because it imports much
+
     specs = {spec.name: spec for spec in PLANNERS}
     for point in entry_points(group="rightofway.planners"):
         specs.setdefault(point.name, cast("PlannerSpec", point.load()))
@@ -172,6 +173,9 @@ def find(name: str) -> PlannerSpec:
     InputError
         If no planner has that name; with the nearest name.
     """
+    ours = next((spec for spec in PLANNERS if spec.name == name), None)
+    if ours is not None:
+        return ours
     specs = registered()
     if name not in specs:
         message = options.unknown(str(name), "rightofway", list(specs))

@@ -23,6 +23,7 @@ from rightofway.model import (
     Loss,
     LostTime,
     Plan,
+    PlannerRun,
     Roadmap,
     Scenario,
     Stays,
@@ -86,7 +87,7 @@ def payload_of(
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, check(plan, limit=LISTED_FAULTS)),
-        "planner": {"name": run.name, "status": run.status},
+        "planner": {"name": run.name, "status": run.status, **_improvement(run)},
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
         "metrics": {
@@ -144,6 +145,11 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
             for blockage in no_plan.blockages[:LISTED_FAULTS]
         ],
     }
+
+
+def _improvement(run: PlannerRun) -> dict[str, Any]:
+    made = run.improvement
+    return {} if made is None else {"saved": made.saved, "tries": made.tries}
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:

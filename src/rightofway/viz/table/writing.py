@@ -75,14 +75,16 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
         size = _column(table)
     columns = max(room // (size + len("* ")), 1)
     blocks: list[str] = []
-    lines = 0
+    lines, longest = 0, 0
     for begin in range(0, len(table.ticks), columns):
         if max_lines is not None and blocks and lines + len(labels) + 2 > max_lines:
             break
         block = list(_block(table, labels, table.ticks[begin : begin + columns], names, size))
         blocks.append("\n".join(block[:max_lines]))
-        lines += len(block) + 1
-    hints = _hints(table, min(len(blocks) * columns, len(table.ticks)), lines, max_lines)
+        lines, longest = lines + len(block) + 1, max(longest, len(block))
+    rows_are_cut = max_lines is not None and longest > max_lines
+    columns_shown = min(len(blocks) * columns, len(table.ticks))
+    hints = _hints(table, columns_shown, rows_are_cut=rows_are_cut)
     return "\n\n".join((*blocks, *_legend(table, max(width, LEGEND_WIDTH)), *hints))
 
 
@@ -138,11 +140,9 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
         yield "\n".join(lines)
 
 
-def _hints(table: TimeSpaceTable, ticks: int, lines: int, max_lines: int | None) -> Iterator[str]:
+def _hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator[str]:
     """Yield what a cut text leaves out, and how to see it."""
-    missing = []
-    if max_lines is not None and lines > max(max_lines, len(table.rows) + 2):
-        missing.append("rows")
+    missing = ["rows"] if rows_are_cut else []
     if ticks < len(table.ticks):
         shown, last = table.time(table.ticks[ticks - 1]), table.time(table.last_tick)
         missing.append(f"columns after {shown}, up to {last}")

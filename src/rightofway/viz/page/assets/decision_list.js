@@ -12,7 +12,7 @@ class DecisionList {
     this.list = new VirtualList(document.getElementById("decision-list"), {
       rowHeight: 52,
       className: "two",
-      none: this.items.length ? "No decision fits that." : "The planner reports no decisions.",
+      none: this.items.length ? "No decision fits that." : "No decisions are recorded. Choose a robot: its card lists its waits.",
       fill: fillTwoLines,
       choose: (item) => item.choose(),
     });

@@ -137,11 +137,19 @@ class Summary {
     return link(robot.name, () => this.choice.chooseRobot(robot.index));
   }
 
+  /** What a search gained over its first plan; of other planners, what they report. */
+  #method() {
+    const { status, saved, tries } = this.plan.planner;
+    if (saved === undefined) return status;
+    const gain = saved > 0 ? `saved ${this.words.duration(saved)}` : "found no better plan";
+    return `${tries === null ? "attempts" : counted(tries, "attempt")} to improve the first plan ${gain}`;
+  }
+
   #made() {
     const { planner, metrics: { flowtime, makespan, lowerBound }, tick } = this.plan;
     const gap = lowerBound ? this.words.percent(flowtime / lowerBound - 1) : "";
     const isUnit = tick.numerator === tick.denominator;
-    const origin = [["Planner", planner.name], ["Reports", planner.status]];
+    const origin = [["Planner", planner.name], ["Method", this.#method()]];
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
       ...origin,
@@ -156,10 +164,9 @@ class Summary {
   #explanation() {
     if (this.plan.faultCount) return [];
     return [
-      "The flowtime is the sum of the times at which the robots are there. No plan can have less than the lower bound, " +
-        "the sum if each robot drove alone; the gap says how far the plan is above it. The least possible flowtime " +
-        "lies between the two.",
-      "The makespan is the time at which the last robot is there.",
+      "The flowtime is the sum of the times at which the robots are done. The lower bound is the same sum if each robot " +
+        "drove alone: no plan has a smaller flowtime. The gap is how far the flowtime of this plan is above the lower bound.",
+      "The makespan is the time at which the last robot is done.",
     ].map((text) => element("p", {}, text));
   }
 }
