@@ -25,6 +25,7 @@ Examples:
   rightofway convert hall.yaml -o hall.scen
   rightofway convert paths.txt --map hall.map -o plan.json
   rightofway convert plan.json --to lns2 -o paths.txt
+  rightofway convert hall.lif.json -o hall.yaml
 """
 
 SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
@@ -61,11 +62,13 @@ def _foreign_names() -> Iterable[str]:
 def convert(
     *, source: str, target: str | None, output: str | None, name: str | None, count: int | None
 ) -> None:
-    """Write the scenario or plan SOURCE in another format.
+    """Write the scenario, plan or layout SOURCE in another format.
 
     A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or .xlsx
     file contains the map. A .scen file has no speeds, work times, turning times and ways home; the
-    command reports which of these it left out. A plan is written as .json, or with --to.
+    command reports which of these it left out. A plan is written as .json, or with --to. A layout
+    of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a scenario,
+    .yaml or .json, that has the layout as its map and a few robots to begin with.
     """
     from rightofway.model import Plan
 
@@ -73,6 +76,9 @@ def convert(
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
     _check_target(path, name)
+    if name is None and _is_layout(source):
+        _write_example(source, path)
+        return
     found = read_either(source, count)
     if isinstance(found, Plan):
         _write_plan(found, path, name)
@@ -95,6 +101,27 @@ def _check_target(path: str, name: str | None) -> None:
         meant, known = nearest(name, FOREIGN_FORMATS), ", ".join(FOREIGN_FORMATS)
         hint = f"did you mean {meant}?" if meant else f"give one of {known}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
+
+
+def _is_layout(source: str) -> bool:
+    """Return whether a file is a layout, or would be one but for its faults."""
+    from rightofway.io import is_layout
+
+    return source != "-" and is_layout(source)
+
+
+def _write_example(source: str, path: str) -> None:
+    from rightofway.files import write_whole
+    from rightofway.io import example_of_layout
+
+    if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
+        raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
+    text = example_of_layout(source, path)
+    if path == "-":
+        click.echo(text, nl=False)
+        return
+    write_whole(path, text)
+    say(f"wrote {path}")
 
 
 def _write_plan(plan: Plan, path: str, name: str | None) -> None:

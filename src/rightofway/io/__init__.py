@@ -7,9 +7,11 @@ else in the package.
 
 from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text
 from rightofway.io.formats import schema
+from rightofway.io.layouts import is_layout, read_layout
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
+from rightofway.io.scenario.example import example_of_layout
 from rightofway.io.scenario.reader import Loaded, load, load_with_notes, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, scenario_text, write_scenario
 from rightofway.io.text import DELAY_FILES, load_delays
@@ -20,7 +22,9 @@ __all__ = [
     "Loaded",
     "dump_plan",
     "dump_scenario",
+    "example_of_layout",
     "foreign_text",
+    "is_layout",
     "load",
     "load_delays",
     "load_either",
@@ -30,6 +34,7 @@ __all__ = [
     "load_with_notes",
     "plan_of",
     "plan_text",
+    "read_layout",
     "scenario_of",
     "scenario_text",
     "schema",

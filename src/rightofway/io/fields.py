@@ -118,6 +118,7 @@ _POSITIVE = _number_schema(exclusiveMinimum=0)
 
 Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
+Angle = Annotated[Fraction, Kind(exact, _ANY)]
 TickLength = Annotated[Fraction, Kind(partial(exact, digits=COORDINATE_DIGITS), _ANY)]
 Count = Annotated[int, Field(ge=1)]
 Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]

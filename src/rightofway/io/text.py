@@ -231,12 +231,15 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise InputError.at(place.removeprefix("at "), message) from None
 
 
-def parse_yaml(text: str) -> Any:
-    """Return the data of a YAML text, decimals exactly as they are written."""
+def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
+    """Return the data of a YAML text, decimals exactly as they are written.
+
+    With ``number_keys``, keys may be whole numbers, which become text.
+    """
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    builder = _Builder()
+    builder = _Builder(number_keys)
     try:
         for event in yaml.parse(text, Loader=loader):
             builder.take(event)
@@ -269,6 +272,7 @@ class _Open:
 class _Builder:
     """Takes events one by one; `data` is what they make."""
 
+    number_keys: bool
     data: Any = None
     documents: int = 0
     aliased: int = 0
@@ -331,6 +335,8 @@ class _Builder:
         elif parent.key is not None:
             parent.value[parent.key] = value
             parent.key = None
+        elif self.number_keys and type(value) is int and str(value) not in parent.value:
+            parent.key = str(value)
         elif not isinstance(value, str):
             message = f"the key {shown(value)} is not text"
             raise _fault(line, f"{message} (put it in quotes, or add what is missing)")

@@ -27,21 +27,38 @@ class Frame:
         The plane's point (0, 0) in the site's frame [length unit].
     y_up
         Whether y grows upwards on the site; in the plane it grows downwards.
+    yaw
+        Angle by which the plane is turned about its point (0, 0), from the site's x to its y [rad].
     """
 
     x: Fraction = Fraction(0)
     y: Fraction = Fraction(0)
     y_up: bool = False
+    yaw: Fraction = Fraction(0)
 
     def to_site(self, point: Point) -> Point:
         """Return the point of the site at a point of the plane."""
         x, y = point
-        return self.x + x, self.y + (-y if self.y_up else y)
+        if self.y_up:
+            y = -y
+        if self.yaw:
+            cos, sin = self._turn()
+            x, y = cos * x - sin * y, sin * x + cos * y
+        return self.x + x, self.y + y
 
     def to_plane(self, point: Point) -> Point:
         """Return the point of the plane at a point of the site."""
-        x, y = point
-        return x - self.x, (self.y - y if self.y_up else y - self.y)
+        x, y = point[0] - self.x, point[1] - self.y
+        if self.yaw:
+            cos, sin = self._turn()
+            square = cos**2 + sin**2  # nearly 1: both are rounded
+            x, y = (cos * x + sin * y) / square, (cos * y - sin * x) / square
+        return x, -y if self.y_up else y
+
+    def _turn(self) -> Point:
+        """Return cosine and sine of the yaw, to 1e-12."""
+        cos, sin = (round(f(self.yaw) * 10**12) for f in (math.cos, math.sin))
+        return Fraction(cos, 10**12), Fraction(sin, 10**12)
 
 
 def squared_distance(tail: Point, head: Point) -> Fraction:

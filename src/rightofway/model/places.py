@@ -213,12 +213,13 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
     """Return which places a grid has."""
     if not isinstance(place, Spot):
         return f"rows are 0 to {grid.rows - 1}, columns 0 to {grid.columns - 1}"
-    size = grid.cell_size
-    first = roadmap.frame.to_site((-size / 2, -size / 2))
-    last = roadmap.frame.to_site(
-        ((grid.columns - Fraction(1, 2)) * size, (grid.rows - Fraction(1, 2)) * size)
-    )
-    (left, right), (low, high) = (sorted(pair) for pair in zip(first, last, strict=True))
+    size, half = grid.cell_size, Fraction(1, 2)
+    corners = [
+        roadmap.frame.to_site(((column - half) * size, (row - half) * size))
+        for row in (0, grid.rows)
+        for column in (0, grid.columns)
+    ]
+    (left, *_, right), (low, *_, high) = (sorted(axis) for axis in zip(*corners, strict=True))
     return f"x is {_written(left)} to {_written(right)}, y {_written(low)} to {_written(high)}"
 
 

@@ -231,6 +231,7 @@ def roadmap_of_grid(
     cell_size: Number = 1,
     y_up: bool = False,
     origin: Point | None = None,
+    yaw: Fraction = Fraction(0),
 ) -> Roadmap:
     """Make the roadmap of a grid: a vertex for each free cell, edges to the four next to it.
 
@@ -245,6 +246,8 @@ def roadmap_of_grid(
     origin
         The lower left corner of the grid in the site's frame [length unit]. By default (0, 0) is
         the corner of the grid that has the least x and y.
+    yaw
+        Angle by which the grid is turned about the origin, from the site's x to its y [rad].
 
     Raises
     ------
@@ -271,15 +274,18 @@ def roadmap_of_grid(
         lengths=(size,),
         positions=np.column_stack((x, y)).astype(np.float64) * float(size),
         grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
-        frame=_frame_of_grid(rows * size, size, y_up=y_up, origin=origin),
+        frame=_frame_of_grid(rows * size, size, y_up=y_up, origin=origin, yaw=yaw),
     )
 
 
-def _frame_of_grid(height: Fraction, size: Fraction, *, y_up: bool, origin: Point | None) -> Frame:
+def _frame_of_grid(
+    height: Fraction, size: Fraction, *, y_up: bool, origin: Point | None, yaw: Fraction
+) -> Frame:
     """Return the frame of a grid: the point (0, 0) of its plane is the centre of its first cell."""
     left, bottom = origin or (Fraction(0), Fraction(0) if y_up else height)
-    top = bottom + height - size / 2 if y_up else bottom - height + size / 2
-    return Frame(x=left + size / 2, y=top, y_up=y_up)
+    corner = Frame(x=left, y=bottom, y_up=y_up, yaw=yaw)
+    x, y = corner.to_site((size / 2, size / 2 - height))
+    return Frame(x=x, y=y, y_up=y_up, yaw=yaw)
 
 
 def _check_lines(lines: Sequence[str]) -> None:

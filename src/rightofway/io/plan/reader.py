@@ -12,6 +12,7 @@ from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.foreign import read_foreign
 from rightofway.io.formats import PLAN_FORMAT, checked_format
+from rightofway.io.layouts import refuse_layout
 from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import LoadedMap
 from rightofway.io.scenario.reader import (
@@ -121,12 +122,15 @@ def _foreign(
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""
     with blaming(str(path)):
+        refuse_layout(path)
         text = read_text(path)
         files = [None if given is None else Path(given) for given in (map_file, scen)]
         found = read_foreign(text, path, *files)
         if found is None and any(files):
             message = "the file has its own map and robots in it (leave out --map and --scen)"
             raise InputError.at("", message)
+        if found is None:
+            refuse_layout(path, text)
     return text, found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -53,6 +53,8 @@ class LoadedMap:
     file: Path | None = None  # that the grid was read from
     rounding: str | None = None  # how many lengths are rounded up, and to which step
     units: Units = field(default_factory=Units)
+    stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
+    notes: tuple[str, ...] = ()  # of a layout's reader
 
     def find(self, place: Place) -> VertexId:
         """Return the vertex at a place, or raise an InputError that says what is there."""
@@ -65,6 +67,8 @@ class LoadedMap:
                 row = grid.rows - 1 - row
             return _obstacle(row, column, floor, grid)
 
+        if isinstance(place, str) and place not in (self.roadmap.labels or ()):
+            place = self.stations.get(place, place)
         return vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
 
 
@@ -83,20 +87,33 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
 
 
 def map_of(
-    document: MapDocument, speeds: Sequence[Fraction] | None, base: Path | None
+    document: MapDocument,
+    speeds: Sequence[Fraction] | None,
+    base: Path | None,
+    units: Units,
+    radius: Callable[[], Fraction],
 ) -> LoadedMap | None:
     """Make the roadmap of a map document; None where a floor's cells depend on unknown speeds.
 
-    The speeds of the whole fleet [length units per time unit] are for node clustering. Files are
-    relative to the directory ``base``; without one, none may be read.
+    The speeds of the whole fleet [length units per time unit] are for node clustering, the largest
+    radius [length unit] is for maps that are pictures. Files are relative to the directory
+    ``base``; without one, none may be read. Units are those that the scenario names.
     """
+    if document.layout is not None:
+        from rightofway.io.scenario.layouts import laid_out
+
+        return laid_out(document, file_beside(base, document.layout), units, radius)
     if document.roadmap is not None:
         with under("roadmap"):
             return _drawn(document.roadmap, document.spacing, y_up=document.y_up)
     if document.floor is not None:
         return _clustered(document, speeds)
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
-    frame = {"y_up": document.y_up, "origin": document.origin}
+    frame = {
+        "y_up": document.y_up,
+        "origin": document.origin,
+        "yaw": document.yaw or Fraction(0),
+    }
     if document.file is not None:
         with under("file"):
             file = file_beside(base, document.file)
@@ -135,7 +152,13 @@ def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> Load
     elif origin:
         origin = (origin[0], origin[1] - floor.height + len(lines) * cell_size)
     with under("floor"):
-        roadmap = roadmap_of_grid(lines, cell_size=cell_size, y_up=document.y_up, origin=origin)
+        roadmap = roadmap_of_grid(
+            lines,
+            cell_size=cell_size,
+            y_up=document.y_up,
+            origin=origin,
+            yaw=document.yaw or Fraction(0),
+        )
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 

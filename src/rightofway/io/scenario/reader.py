@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
+from rightofway.io.layouts import refuse_layout
 from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
@@ -100,8 +101,10 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         return load_workbook_scenario(path)
     with blaming(str(path)):
         refuse_count(count)
+        refuse_layout(path)
         text = read_text(path)
         _refuse_foreign(text)
+        refuse_layout(path, text)
     with document_of(path, text) as document:
         return read_scenario(document, path.parent)
 
@@ -166,8 +169,10 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
-        found = map_of(checked(MapDocument, data), speeds, base)
-        return found and replace(found, units=units)
+        found = map_of(
+            checked(MapDocument, data), speeds, base, units, lambda: _largest_radius(robots)
+        )
+        return found if found is None or found.units.length else replace(found, units=units)
 
     document = checked_format(document, SCENARIO_FORMAT)
     given = document.get("robots")
@@ -188,7 +193,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         placed = _dealt(robots, loaded, faults) if loaded else []
     scenario = None
     if loaded and placed:
-        scenario = _assembled(loaded.roadmap, placed, rules, units, faults)
+        scenario = _assembled(loaded.roadmap, placed, rules, loaded.units, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
@@ -279,6 +284,22 @@ def _speeds(robots: Sequence[Any] | _Rows) -> list[Fraction] | None:
         return [positive(robot.get("speed", DEFAULT_SPEED)) for robot in robots]
     except (AttributeError, ValueError):
         return None
+
+
+def _largest_radius(robots: Sequence[Any] | _Rows) -> Fraction:
+    """Return the largest radius of the fleet; a radius that cannot be read is a fault elsewhere."""
+    from rightofway.io.scenario.shape import RobotDocument
+
+    if isinstance(robots, _Rows):
+        return robots.document.radius or Fraction(0)
+    found = Fraction(0)
+    for robot in robots:
+        try:
+            space = checked(RobotDocument, robot).space()
+        except InputError:
+            continue
+        found = max(found, space.get("radius", Fraction(0)))
+    return found
 
 
 def _place_of_laps(document: TripDocument, place: str) -> str:
@@ -406,6 +427,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if spaces:
         count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
         yield f"{count} as blocked in the grid (write . for a free cell)"
+    yield from loaded.notes
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding

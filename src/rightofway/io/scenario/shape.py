@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema
 
 from rightofway.errors import shown
 from rightofway.io.fields import (
+    Angle,
     CellSize,
     Count,
     Document,
@@ -128,18 +129,29 @@ class RoadmapDocument(Document):
     )
 
 
-MAPS = ("grid", "file", "floor", "roadmap")
+OF_LAYOUTS = ("level", "vehicle_type", "unknown")
+"""Keys for layouts only."""
+
+BY_LAYOUTS = ("y", "origin", "yaw")
+"""Keys that a layout has in its own file."""
+
+MAPS = ("grid", "file", "floor", "roadmap", "layout")
 
 
 class MapDocument(Document):
-    """Where the fleet drives: exactly one of grid, file, floor, roadmap."""
+    """Where the fleet drives: exactly one of grid, file, floor, roadmap, layout."""
 
     model_config = ConfigDict(
         json_schema_extra=described(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentSchemas={
-                **{key: {"not": {"required": ["roadmap"]}} for key in ("cell_size", "origin")},
-                "spacing": {"required": ["roadmap"]},
+                **{
+                    key: {"not": {"required": ["roadmap"]}}
+                    for key in ("cell_size", "origin", "yaw")
+                },
+                "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
+                **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
+                "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
             },
         )
     )
@@ -148,11 +160,18 @@ class MapDocument(Document):
     file: Name = optional("a .map file, relative to the scenario's own")
     floor: FloorDocument = optional("{size, obstacles}")
     roadmap: RoadmapDocument = optional("{vertices, edges}")
+    layout: Name = optional("a layout of another program, relative to the scenario's own file")
+    level: Name = optional("which level of a layout; needed where it has several")
+    vehicle_type: Name = optional("whose lanes of a layout; needed where they differ")
+    unknown: Literal["blocked", "free"] = Field(
+        default="blocked", description="blocked, or free: pixels of a picture that are not known"
+    )
     cell_size: CellSize = optional(
         "side of a cell [length unit]: 1 by default; on a floor clustered by default"
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
+    yaw: Angle = optional("angle by which the map is turned about its origin, from x to y [rad]")
     spacing: Positive = optional("split longer edges of a roadmap into pieces [length unit]")
 
     @model_validator(mode="after")
@@ -165,7 +184,13 @@ class MapDocument(Document):
                 "origin is given with a roadmap, whose vertices have coordinates of the site"
                 " (take it out)"
             )
-        if kind != "roadmap" and self.spacing is not None:
+        if kind == "roadmap" and self.yaw is not None:
+            raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
+        for key in BY_LAYOUTS if kind == "layout" else OF_LAYOUTS:
+            if key in self.model_fields_set:
+                what = "which has its own" if kind == "layout" else "and is for a layout"
+                raise ValueError(f"{key} is given with a {kind}, {what} (take it out)")
+        if kind not in {"roadmap", "layout"} and self.spacing is not None:
             raise ValueError(
                 f"spacing is given with a {kind}, which has no long edges (take it out)"
             )

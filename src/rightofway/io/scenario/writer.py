@@ -57,7 +57,7 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
     if path.suffix.lower() == ".json":
         write_whole(path, json_text(document))
     elif path.suffix.lower() in {".yaml", ".yml"}:
-        write_whole(path, _yaml_of(document))
+        write_whole(path, yaml_of(document))
     elif path.suffix.lower() == ".xlsx":
         from rightofway.io.workbook.writer import workbook_of
 
@@ -76,10 +76,17 @@ def scenario_text(scenario: Scenario) -> str:
     scenario
         The scenario.
     """
-    return _yaml_of(dump_scenario(scenario))
+    return yaml_of(dump_scenario(scenario))
 
 
-def _yaml_of(document: dict[str, Any]) -> str:
+def yaml_of(document: dict[str, Any]) -> str:
+    """Return a scenario's document as YAML.
+
+    Parameters
+    ----------
+    document
+        Plain data.
+    """
     import yaml
 
     class Dumper(yaml.SafeDumper):
@@ -120,7 +127,8 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
-    return {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin}
+    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
+    return {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:

@@ -176,7 +176,8 @@ def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
     left, top = map(Fraction, plane.corner)
     x, y = roadmap.frame.to_site((left, top))
-    return {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
+    found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
+    return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
 
 
 def _line(roadmap: Roadmap, trips: Sequence[Trip]) -> list[list[float]]:

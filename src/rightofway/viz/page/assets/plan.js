@@ -35,7 +35,9 @@ class Roadmap {
   /** Where a point of the drawing is in the site's frame [length unit]. */
   toSite(x, y) {
     const { frame, unit } = this;
-    return [frame.x + x * unit, frame.y + (frame.yUp ? -y : y) * unit];
+    const [u, v, yaw] = [x * unit, (frame.yUp ? -y : y) * unit, frame.yaw ?? 0];
+    const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
+    return [frame.x + cos * u - sin * v, frame.y + sin * u + cos * v];
   }
 
   /** The vertex within half a unit of a point, or -1. */

@@ -1,0 +1,188 @@
+"""A layout while a file is read: vertices and lanes come in, faults and repairs are collected."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from rightofway.errors import InputError, is_printable, nearest, shown
+from rightofway.io.faults import Faults
+from rightofway.model.geometry import (
+    Point,
+    rounding_step,
+    squared_distance,
+    straight_length,
+)
+from rightofway.model.layout import (
+    Layout,
+    LayoutEdge,
+    LayoutVertex,
+    LayoutZone,
+    Level,
+    Station,
+)
+
+MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
+"""The most vertices and lanes of a layout."""
+
+SHORTEST = Fraction(1, 1000)
+"""Length of a lane between two vertices at one position [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lane:
+    """A lane as a file gives it.
+
+    Attributes
+    ----------
+    place
+        Where it stands in the file.
+    tail, head, max_speed, types, shape
+        As those of `LayoutEdge`.
+    length
+        Its length [m]; None for the straight distance.
+    """
+
+    place: str
+    tail: str
+    head: str
+    length: Fraction | None = None
+    max_speed: Fraction | None = None
+    types: frozenset[str] | None = None
+    shape: tuple[Point, ...] = ()
+
+
+@dataclass(slots=True)
+class LevelDraft:
+    """What was read of one level so far."""
+
+    name: str
+    vertices: dict[str, LayoutVertex] = field(default_factory=dict)
+    lanes: list[Lane] = field(default_factory=list)
+    stations: list[Station] = field(default_factory=list)
+    zones: list[LayoutZone] = field(default_factory=list)
+
+    def add(self, vertex: LayoutVertex, place: str) -> None:
+        """Take a vertex; InputError if its name is taken, or there are too many."""
+        if vertex.name in self.vertices:
+            message = f"a vertex is named {shown(vertex.name)} already (rename one)"
+            raise InputError.at(place, message)
+        if len(self.vertices) == MAX_VERTICES:
+            raise InputError.at(place, f"more than {MAX_VERTICES} vertices (give a part of it)")
+        self.vertices[vertex.name] = vertex
+
+    def connect(self, lane: Lane) -> None:
+        """Take a lane; InputError if there are too many."""
+        if len(self.lanes) == MAX_EDGES:
+            raise InputError.at(lane.place, f"more than {MAX_EDGES} lanes (give a part of it)")
+        self.lanes.append(lane)
+
+
+class Draft:
+    """A layout while a file is read.
+
+    Parameters
+    ----------
+    kind
+        Name of the format.
+    """
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+        self.faults = Faults()
+        self.levels: list[LevelDraft] = []
+        self.repairs: Counter[str] = Counter()
+
+    def level(self, name: str = "") -> LevelDraft:
+        """Begin a level."""
+        self.levels.append(LevelDraft(name))
+        return self.levels[-1]
+
+    def repair(self, what: str) -> None:
+        """Note that something was mended or left out; equal notes are counted."""
+        self.repairs[what] += 1
+
+    def layout(self) -> Layout:
+        """Return the layout.
+
+        Raises
+        ------
+        InputError
+            With all faults noted so far, and lanes that begin or end nowhere.
+        """
+        elsewhere = {name for level in self.levels for name in level.vertices}
+        levels = [self._finished(level, elsewhere) for level in self.levels if level.vertices]
+        self.faults.stop()
+        if not levels:
+            raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
+        notes = (what if count == 1 else f"{count} times: {what}"
+                 for what, count in self.repairs.items())  # fmt: skip
+        return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
+
+    def _finished(self, level: LevelDraft, elsewhere: set[str]) -> Level:
+        vertices, edges, links = level.vertices, list[LayoutEdge](), 0
+        squares = [
+            squared_distance(vertices[lane.tail].at, vertices[lane.head].at)
+            for lane in level.lanes
+            if lane.tail in vertices and lane.head in vertices
+        ]
+        step = rounding_step(squares)
+        for lane in level.lanes:
+            missing = [end for end in (lane.tail, lane.head) if end not in vertices]
+            if any(end not in elsewhere for end in missing):
+                near = nearest(missing[0], vertices)
+                hint = f"did you mean {near!r}?" if near else "name one that the file has"
+                message = f"no vertex is named {shown(missing[0])} ({hint})"
+                self.faults.note(lane.place, message)
+            elif missing:
+                links += 1
+            elif lane.tail == lane.head:
+                self.repair("a lane from a vertex to itself is left out")
+            elif lane.max_speed is not None and lane.max_speed <= 0:
+                self.faults.note(lane.place, f"speed limit {lane.max_speed} is not positive")
+            else:
+                edges.append(self._edge(lane, vertices, step))
+        for station in level.stations:
+            if not is_printable(station.name):
+                self.faults.note("", f"{shown(station.name)} is no name of a station")
+        return Level(
+            name=level.name,
+            vertices=tuple(vertices.values()),
+            edges=tuple(edges),
+            stations=tuple(self._served(level)),
+            zones=tuple(level.zones),
+            links=links,
+        )
+
+    def _edge(self, lane: Lane, vertices: dict[str, LayoutVertex], step: Fraction) -> LayoutEdge:
+        square = squared_distance(vertices[lane.tail].at, vertices[lane.head].at)
+        straight = straight_length(square, step) if square else SHORTEST
+        if not square:
+            self.repair("a lane between two vertices at one position counts as 1 mm long")
+        length = lane.length
+        if length is not None and length < straight:
+            if square and (length + SHORTEST) ** 2 < square:
+                self.repair("a lane shorter than the straight line gets the straight length")
+            length = None
+        return LayoutEdge(
+            tail=lane.tail,
+            head=lane.head,
+            length=straight if length is None else length,
+            max_speed=lane.max_speed,
+            types=lane.types,
+            shape=lane.shape,
+        )
+
+    def _served(self, level: LevelDraft) -> list[Station]:
+        """Return the stations with a vertex of the level; a name that is taken is left out."""
+        found: dict[str, Station] = {}
+        for station in level.stations:
+            there = tuple(name for name in station.vertices if name in level.vertices)
+            if not there:
+                self.repair("a station without a vertex on its level is left out")
+            elif station.name in found:
+                self.repair("a second station of one name is left out")
+            else:
+                found[station.name] = replace(station, vertices=there)
+        return list(found.values())

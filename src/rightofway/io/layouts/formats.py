@@ -1,0 +1,271 @@
+"""Which formats of layouts there are, and how a file is recognized: by content, not by its name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any, Literal
+
+from rightofway.errors import InputError, InputFault, listed
+from rightofway.io.faults import blaming
+from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
+from rightofway.io.layouts.xml_tree import Element, parse_xml
+from rightofway.io.marks import marked
+from rightofway.io.movingai import load_map
+from rightofway.io.text import parse_json, parse_yaml, read_text
+from rightofway.model.layout import Layout
+from rightofway.model.occupancy import CellMap, Occupancy
+
+MAX_CHARACTERS = 30_000_000
+"""A longer layout is refused: reading it would take gigabytes."""
+
+GROUP = "rightofway.layouts"
+"""Entry points of this group are further formats."""
+
+NO_LAYOUTS = (".map", ".scen", ".toml", ".xlsx", ".xlsm")
+"""Endings of files that are told apart by their names."""
+
+OURS = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
+"""The key that all documents of ours have."""
+
+PLURALS = {"vertex": "vertices"}
+
+PICTURES = (b"P5", b"P2", b"P6", b"\x89PNG", b"BM", b"\xff\xd8", b"GIF8")
+"""How pictures begin."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutFormat:
+    """A format of layouts.
+
+    Attributes
+    ----------
+    summary
+        What it is, in a few words.
+    content
+        What `recognizes` and `read` are given: plain data of JSON or YAML, the root of an XML
+        file, or text.
+    recognizes
+        Returns whether a content is of this format.
+    read
+        Returns the layout of a content; the path is for files beside it.
+    """
+
+    summary: str
+    content: Literal["data", "xml", "text"]
+    recognizes: Callable[[Any], bool]
+    read: Callable[[Any, Path], Layout | Occupancy | CellMap]
+
+
+def _is_movingai(text: str) -> bool:
+    header = text.lstrip().split("\n", 4)[:4]
+    return any(line.strip() == "map" for line in header) or header[0].startswith("type ")
+
+
+def _own() -> dict[str, LayoutFormat]:
+    return {
+        "lif": LayoutFormat(
+            summary="Layout Interchange Format of the VDMA, 1.0.0", content="data",
+            recognizes=lif.recognizes, read=lambda content, _: lif.read(content),
+        ),
+        "nav2": LayoutFormat(
+            summary="route graph of Nav2, GeoJSON", content="data",
+            recognizes=nav2.recognizes, read=lambda content, _: nav2.read(content),
+        ),
+        "open-rmf": LayoutFormat(
+            summary="navigation graph or building of Open-RMF", content="data",
+            recognizes=open_rmf.recognizes, read=lambda content, _: open_rmf.read(content),
+        ),
+        "ros-map": LayoutFormat(
+            summary="map of the ROS map server, with its picture", content="data",
+            recognizes=ros_map.recognizes, read=ros_map.read,
+        ),
+        "opentcs": LayoutFormat(
+            summary="plant model of openTCS, 0.0.4 to 7.0.0", content="xml",
+            recognizes=opentcs.recognizes, read=lambda content, _: opentcs.read(content),
+        ),
+        "graphml": LayoutFormat(
+            summary="GraphML with coordinates", content="xml",
+            recognizes=graphml.recognizes, read=lambda content, _: graphml.read(content),
+        ),
+        "movingai": LayoutFormat(
+            summary="map of the MovingAI benchmarks", content="text",
+            recognizes=_is_movingai, read=lambda _, path: CellMap(lines=load_map(path)),
+        ),
+        "csv": LayoutFormat(
+            summary="two CSV files, nodes and edges", content="text",
+            recognizes=csv_pair.recognizes, read=csv_pair.read,
+        ),
+    }  # fmt: skip
+
+
+@cache
+def layout_formats() -> dict[str, LayoutFormat]:
+    """Return the formats of layouts by name: ours, and those of other packages."""
+    found = _own()
+    for point in entry_points(group=GROUP):
+        found.setdefault(point.name, point.load())
+    return found
+
+
+def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
+    """Return the layout of a file, in whatever format it is.
+
+    Parameters
+    ----------
+    path
+        A file in one of the `layout_formats`.
+
+    Raises
+    ------
+    InputError
+        If the format is not known, and with every fault, its place and remedy.
+    """
+    path = Path(path)
+    with blaming(str(path)):
+        _refuse_picture(path)
+        text = read_text(path)
+        found = _opened(text)
+        if found is None:
+            message = f"this is no layout (known: {', '.join(layout_formats())})"
+            raise InputError.at("", message)
+        format_of, content = found
+        try:
+            return format_of.read(content, path)
+        except InputError as error:
+            if error.source:
+                raise
+            faults = marked(error.faults, text) if format_of.content == "data" else error.faults
+            raise InputError(map(_lined, faults)) from None
+        except RecursionError:
+            raise InputError.at("", "it is nested too deeply (is it the right file?)") from None
+
+
+def is_layout(path: Path | str) -> bool:
+    """Return whether a file is a layout, perhaps one with faults.
+
+    Parameters
+    ----------
+    path
+        The file.
+    """
+    path = Path(path)
+    if path.suffix.lower() in NO_LAYOUTS and path.suffix.lower() != ".map":
+        return False
+    try:
+        text = read_text(path)
+        return OURS.search(text) is None and _opened(text) is not None
+    except InputError:
+        return False
+
+
+def refuse_layout(path: Path, text: str | None = None) -> None:
+    """Refuse a layout where a scenario or a plan is wanted, with words on what to do.
+
+    Parameters
+    ----------
+    path
+        The file.
+    text
+        Its content; None to look only whether it is a picture.
+
+    Raises
+    ------
+    InputError
+        If it is a layout.
+    """
+    if text is None:
+        _refuse_picture(path)
+        return
+    if path.suffix.lower() in NO_LAYOUTS or OURS.search(text):
+        return
+    try:
+        if _opened(text) is None:
+            return
+    except InputError:
+        if not text.lstrip().startswith("<"):
+            return
+        raise
+    try:
+        what = described(read_layout(path))
+    except InputError as error:
+        first = str(error).splitlines()[0].removeprefix(f"{path}:").strip()
+        what = f"a layout with a fault: {first}; mend it first"
+    name = path.name
+    remedy = f"write a scenario with map: {{layout: {name}}}"
+    example = f"`rightofway convert {path} -o scenario.yaml` writes one"
+    raise InputError.at("", f"this is {what} ({remedy}; {example})")
+
+
+def described(layout: Layout | Occupancy | CellMap) -> str:
+    """Return what a layout is and how large: ``a LIF layout with 5 vertices, 6 lanes``.
+
+    Parameters
+    ----------
+    layout
+        The layout.
+    """
+    if isinstance(layout, Occupancy):
+        rows, columns = layout.pixels.shape
+        return f"a ROS map of {columns} x {rows} pixels"
+    if isinstance(layout, CellMap):
+        return f"a MovingAI map of {len(layout.lines[0])} x {len(layout.lines)} cells"
+    counts = {
+        "level": len(layout.levels) if len(layout.levels) > 1 else 0,
+        "vertex": sum(len(level.vertices) for level in layout.levels),
+        "lane": sum(len(level.edges) for level in layout.levels),
+        "station": sum(len(level.stations) for level in layout.levels),
+    }
+    parts = [
+        f"{count} {noun if count == 1 else PLURALS.get(noun, noun + 's')}"
+        for noun, count in counts.items()
+        if count
+    ]
+    article = "an" if layout.kind[0].lower() in "aeio" else "a"
+    return f"{article} {layout.kind} with {listed(parts)}"
+
+
+def _opened(text: str) -> tuple[LayoutFormat, Any] | None:
+    """Return the format of a text and its content, or None for a text in no format."""
+    if len(text) > MAX_CHARACTERS:
+        message = f"the file is longer than {MAX_CHARACTERS} characters (give a part of it)"
+        raise InputError.at("", message)
+    formats = layout_formats().values()
+    start = text.lstrip()[:1]
+    texts = (each for each in formats if each.content == "text" and each.recognizes(text))
+    if start == "<":
+        kind, content = "xml", parse_xml(text)
+    elif found := next(texts, None):
+        return found, text
+    else:
+        kind = "data"
+        content = parse_json(text) if start in {"{", "["} else parse_yaml(text, number_keys=True)
+    known = (each for each in formats if each.content == kind and each.recognizes(content))
+    found = next(known, None)
+    if found is None and isinstance(content, Element):
+        message = f"an XML file of <{content.name}> is no layout (known: GraphML, openTCS 0.0.4 on)"
+        raise InputError([InputFault("", message, content.line)])
+    return None if found is None else (found, content)
+
+
+def _refuse_picture(path: Path) -> None:
+    try:
+        with path.open("rb") as file:
+            begin = file.read(8)
+    except (OSError, ValueError):
+        return  # reading the text says why
+    if begin.startswith(PICTURES):
+        message = "this is a picture (give the YAML file beside it, which has its resolution)"
+        raise InputError.at("", message)
+
+
+def _lined(fault: InputFault) -> InputFault:
+    """Return a fault at ``line 3`` as a fault of that line."""
+    word, _, number = fault.place.partition(" ")
+    if word == "line" and number.isdecimal():
+        return replace(fault, place="", line=int(number))
+    return fault

@@ -1,0 +1,95 @@
+"""Route graphs of the Nav2 route server: GeoJSON with points, and lines that name two points.
+
+Edges are directed; their geometry is not used by Nav2, and serves for drawing here.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rightofway.errors import InputError, shown
+from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.parts import Part
+from rightofway.model.geometry import Point
+from rightofway.model.layout import Layout, LayoutVertex
+
+FASTEST = 10
+"""A larger speed limit cannot be meant in m/s: by default Nav2 reads limits as percentages."""
+
+LINES = ("LineString", "MultiLineString")
+
+
+def recognizes(document: Any) -> bool:
+    """Return whether a document is a collection of features."""
+    return isinstance(document, dict) and document.get("type") == "FeatureCollection"
+
+
+def read(document: Any) -> Layout:
+    """Return the layout of a document.
+
+    Raises
+    ------
+    InputError
+        With every feature that is no node and no edge.
+    """
+    draft = Draft("Nav2 route graph")
+    level = draft.level()
+    for feature in Part(document).need("features").items():
+        draft.faults.attempt("", _add, level, feature, draft)
+    return draft.layout()
+
+
+def _add(level: LevelDraft, feature: Part, draft: Draft) -> None:
+    geometry, own = feature.need("geometry"), feature.need("properties")
+    kind = geometry.need("type")
+    if kind.value == "Point":
+        x, y = _point(geometry.need("coordinates"))
+        level.add(LayoutVertex(name=own.need("id").text(), at=(x, y)), feature.place)
+    elif kind.value in LINES:
+        _add_edge(level, feature, draft)
+    else:
+        known = ", ".join(("Point", *LINES))
+        raise kind.fault(f"{shown(kind.value)} is no node and no edge (give one of {known})")
+
+
+def _add_edge(level: LevelDraft, feature: Part, draft: Draft) -> None:
+    own = feature.need("properties")
+    metadata = own.get("metadata")
+    limit = None if metadata is None else metadata.get("speed_limit")
+    max_speed = None if limit is None else limit.number()
+    if max_speed is not None and max_speed > FASTEST:
+        draft.repair("a speed_limit is a percentage of a robot's speed, which cannot be kept")
+        max_speed = None
+    elif max_speed is not None:
+        draft.repair("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
+    level.connect(
+        Lane(
+            place=feature.place,
+            tail=own.need("startid").text(),
+            head=own.need("endid").text(),
+            max_speed=max_speed,
+            shape=_shape(feature.need("geometry"), draft),
+        )
+    )
+
+
+def _shape(geometry: Part, draft: Draft) -> tuple[Point, ...]:
+    """Return the points between the ends of a line; a drawing that cannot be read is left out."""
+    coordinates = geometry.get("coordinates")
+    if coordinates is None:
+        return ()
+    try:
+        points = coordinates.items()
+        if any(isinstance(number.value, list) for point in points for number in point.items()):
+            points = [point for line in points for point in line.items()]
+        return tuple(_point(point) for point in points)[1:-1]
+    except InputError:
+        draft.repair("the drawing of an edge cannot be read: it is drawn straight")
+        return ()
+
+
+def _point(part: Part) -> Point:
+    numbers = part.items()
+    if len(numbers) not in {2, 3}:
+        raise part.fault(f"{shown(part.value)} is no point (give [x, y])")
+    return numbers[0].number(), numbers[1].number()

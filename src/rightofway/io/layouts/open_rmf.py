@@ -1,0 +1,247 @@
+"""Open-RMF: navigation graphs, and the buildings of the traffic editor.
+
+A navigation graph is in metres, y up, and has a lane for each direction. A building is in pixels of
+a drawing, y down; its measurements say how long a pixel is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from math import hypot
+from typing import Any
+
+from rightofway.errors import InputError, shown
+from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.parts import Part
+from rightofway.model.geometry import Point
+from rightofway.model.layout import Layout, LayoutVertex, LayoutZone
+
+Transform = Callable[[Point], Point]
+
+Groups = dict[str, tuple[list[str], list[tuple[str, str]]]]
+"""For each mutex its vertices, and the ends of its lanes."""
+
+IN_METRES = ("cartesian_meters",)
+IN_PIXELS = (None, "reference_image")
+
+
+def recognizes(document: Any) -> bool:
+    """Return whether a document has levels, one of them with vertices and lanes."""
+    levels = document.get("levels") if isinstance(document, dict) else None
+    return isinstance(levels, dict) and any(
+        isinstance(level, dict) and "vertices" in level for level in levels.values()
+    )
+
+
+def read(document: Any) -> Layout:
+    """Return the layout of a navigation graph or a building.
+
+    Raises
+    ------
+    InputError
+        With every vertex and lane that cannot be used; for a building in degrees, or without scale.
+    """
+    root = Part(document)
+    is_building = any(
+        len(vertex.value) > 2 and not isinstance(vertex.value[2], dict)  # noqa: PLR2004 - x, y
+        for _, level in root.need("levels").entries()
+        for vertex in _listed(level, "vertices")[:1]
+        if isinstance(vertex.value, list)
+    )
+    draft = Draft("Open-RMF building" if is_building else "Open-RMF navigation graph")
+    transforms = _transforms(root, draft) if is_building else {}
+    for name, part in root.need("levels").entries():
+        level = draft.level(name)
+        _read_level(level, part, transforms.get(name), draft)
+    return draft.layout()
+
+
+def _listed(part: Part, key: str) -> list[Part]:
+    found = part.get(key)
+    return [] if found is None else found.items()
+
+
+def _read_level(level: LevelDraft, part: Part, transform: Transform | None, draft: Draft) -> None:
+    """Read vertices and lanes; with a transform, of a building."""
+    groups: Groups = {}
+    names = [
+        draft.faults.attempt("", _add_vertex, level, vertex, index, transform, groups)
+        for index, vertex in enumerate(_listed(part, "vertices"))
+    ]
+    lanes = _listed(part, "lanes")
+    owns = [draft.faults.attempt("", _own, lane, 2) or {} for lane in lanes]
+    has_graphs = len({str(own.get("graph_idx", 0)) for own in owns}) > 1
+    for lane in lanes:
+        draft.faults.attempt("", _add_lane, level, lane, names, groups, has_graphs)
+    if transform is not None:  # corners of walls and floors are no vertices of the graph
+        ends = {name for lane in level.lanes for name in (lane.tail, lane.head)}
+        level.vertices = {name: each for name, each in level.vertices.items() if name in ends}
+    for name, (vertices, edges) in groups.items():
+        level.zones.append(LayoutZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
+
+
+def _own(item: Part, at: int) -> dict[str, Any]:
+    """Return the parameters of a vertex or lane; those of a building are [type, value]."""
+    found = item.items()[at:]
+    if not found or found[0].value is None:
+        return {}
+    return {
+        key: value[1] if isinstance(value, list) and len(value) == 2 else value  # noqa: PLR2004
+        for key, value in found[0].mapping().items()
+        if not isinstance(value, dict)
+    }
+
+
+def _add_vertex(
+    level: LevelDraft, vertex: Part, index: int, transform: Transform | None, groups: Groups
+) -> str:
+    items = vertex.items()
+    if len(items) < 2:  # noqa: PLR2004 - x and y
+        raise vertex.fault("is no vertex (give [x, y, {name: …}])")
+    at = items[0].number(), items[1].number()
+    if transform is None:
+        own = _own(vertex, 2)
+        given = own.get("name")
+    else:
+        at, own = transform(at), _own(vertex, 4)
+        given = items[3].value if len(items) > 3 else None  # noqa: PLR2004 - x, y, z, name
+    name = Part(given, vertex.steps).text() if given else f"v{index}"
+    if name in level.vertices:
+        name = f"{name} (v{index})"
+    level.add(
+        LayoutVertex(
+            name=name,
+            at=at,
+            is_parking=own.get("is_parking_spot") is True,
+            is_charging=own.get("is_charger") is True,
+        ),
+        vertex.place,
+    )
+    if own.get("mutex"):
+        groups.setdefault(str(own["mutex"]), ([], []))[0].append(name)
+    return name
+
+
+def _add_lane(
+    level: LevelDraft, lane: Part, names: list[str | None], groups: Groups, has_graphs: bool
+) -> None:
+    items = lane.items()
+    if len(items) < 2:  # noqa: PLR2004 - from and to
+        raise lane.fault("is no lane (give [from, to, {…}])")
+    tail, head = (_vertex(item, names) for item in items[:2])
+    if tail is None or head is None:
+        return  # the vertex has a fault of its own
+    own = _own(lane, 2)
+    speed = Part(own.get("speed_limit", 0), (*lane.steps, "speed_limit")).number()
+    both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
+    types = frozenset([f"graph {own.get('graph_idx', 0)}"]) if has_graphs else None
+    max_speed = speed if speed > 0 else None
+    for one, other in ((tail, head), (head, tail)) if both else ((tail, head),):
+        level.connect(
+            Lane(place=lane.place, tail=one, head=other, max_speed=max_speed, types=types)
+        )
+        if own.get("mutex"):
+            groups.setdefault(str(own["mutex"]), ([], []))[1].append((one, other))
+
+
+def _vertex(item: Part, names: list[str | None]) -> str | None:
+    index = item.value
+    if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(names):
+        last = len(names) - 1
+        raise item.fault(f"{shown(index)} is no vertex (give a number from 0 to {last})")
+    return names[index]
+
+
+def _transforms(root: Part, draft: Draft) -> dict[str, Transform]:
+    """Return for each level of a building how its points become metres of the site."""
+    system = root.value.get("coordinate_system")
+    levels = dict(root.need("levels").entries())
+    if system in IN_METRES:
+        return {name: lambda point: point for name in levels}
+    if system not in IN_PIXELS:
+        message = f"coordinates are {shown(system)} (give the building's navigation graph instead)"
+        raise InputError.at("coordinate_system", message)
+    named = root.value.get("reference_level_name")
+    reference = str(named) if named in levels else next(iter(levels), "")
+    scales = {name: draft.faults.attempt("", _scale, level) for name, level in levels.items()}
+    draft.faults.stop()
+    base, found = scales.get(reference), dict[str, Transform]()
+    for name, level in levels.items():
+        laid = None if name == reference else _laid_over(levels[reference], level)
+        if laid is not None and base is not None:
+            found[name] = _moved(laid, base)
+            continue
+        scale = scales[name] or base
+        if scale is None:
+            message = "has no measurement, so the length of a pixel is not known (add one)"
+            draft.faults.note(level.place, message)
+            continue
+        if name != reference:
+            draft.repair("a level without two fiducials of the reference level keeps its frame")
+        found[name] = _moved((1 + 0j, 0j), scale)
+    draft.faults.stop()
+    return found
+
+
+def _moved(laid: tuple[complex, complex], scale: Fraction) -> Transform:
+    """Return how a pixel of a level becomes a point in metres; y is negated."""
+    turn, shift = laid
+
+    def move(point: Point) -> Point:
+        x, y = point
+        if (turn, shift) != (1, 0):
+            at = turn * complex(float(x), float(y)) + shift
+            x, y = Fraction(repr(at.real)), Fraction(repr(at.imag))
+        return Fraction(round(x * scale * 10**9), 10**9), Fraction(round(-y * scale * 10**9), 10**9)
+
+    return move
+
+
+def _scale(level: Part) -> Fraction | None:
+    """Return the length of a pixel [m], the mean of all measurements; None without one."""
+    vertices, found = _listed(level, "vertices"), list[float]()
+    for measurement in _listed(level, "measurements"):
+        items = measurement.items()
+        ends = []
+        for item in items[:2]:
+            index = item.value
+            if not isinstance(index, int) or not 0 <= index < len(vertices):
+                raise item.fault(f"{shown(index)} is no vertex (mend the measurement)")
+            x, y, *_ = [*vertices[index].items(), Part(0), Part(0)]
+            ends.append((float(x.number()), float(y.number())))
+        metres = Part(_own(measurement, 2).get("distance"), measurement.steps).number()
+        pixels = hypot(*(a - b for a, b in zip(*ends, strict=True))) if len(ends) == 2 else 0.0  # noqa: PLR2004
+        if pixels <= 0 or metres <= 0:
+            raise measurement.fault("has no length (take it out)")
+        found.append(float(metres) / pixels)
+    return Fraction(repr(sum(found) / len(found))) if found else None
+
+
+def _fiducials(level: Part) -> dict[str, complex]:
+    found = {}
+    for fiducial in _listed(level, "fiducials"):
+        items = fiducial.items()
+        if len(items) < 3:  # noqa: PLR2004 - x, y, name
+            raise fiducial.fault("is no fiducial (give [x, y, name])")
+        found[items[2].text()] = complex(float(items[0].number()), float(items[1].number()))
+    return found
+
+
+def _laid_over(reference: Part, level: Part) -> tuple[complex, complex] | None:
+    """Return turn-and-scale and shift that lay a level's fiducials over those of another.
+
+    They are the least-squares solution; None with fewer than two common fiducials.
+    """
+    theirs, own = _fiducials(reference), _fiducials(level)
+    common = [name for name in own if name in theirs]
+    if len(common) < 2:  # noqa: PLR2004 - two points fix turn, scale and shift
+        return None
+    from_mean = sum(own[name] for name in common) / len(common)
+    to_mean = sum(theirs[name] for name in common) / len(common)
+    spread = sum(abs(own[name] - from_mean) ** 2 for name in common)
+    if spread == 0:
+        return None
+    products = ((theirs[name] - to_mean) * (own[name] - from_mean).conjugate() for name in common)
+    turn = sum(products) / spread
+    return turn, to_mean - turn * from_mean

@@ -1,0 +1,132 @@
+"""Plant models of openTCS as XML, versions 0.0.4, 0.0.5, 6.0.0 and 7.0.0.
+
+Lengths are millimetres there, speeds millimetres per second; a speed of 0 means that a path is not
+driven in that direction. Control points are in coordinates of the drawing, so they are not read.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from rightofway.errors import InputError, shown
+from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+from rightofway.io.layouts.xml_tree import Element
+from rightofway.model.layout import Layout, LayoutVertex, LayoutZone, Station
+
+VERSIONS = ("0.0.4", "0.0.5", "6.0.0", "7.0.0")
+MILLIMETRE = Fraction(1, 1000)
+
+
+def recognizes(root: Element) -> bool:
+    """Return whether an XML file is a plant model."""
+    return root.name == "model" and any(child.name == "point" for child in root.children)
+
+
+def read(root: Element) -> Layout:
+    """Return the layout of a file; locations are stations, blocks are zones.
+
+    Raises
+    ------
+    InputError
+        For a version before 0.0.4, and with every point, path and location that cannot be used.
+    """
+    _check_version(root)
+    draft = Draft("openTCS plant model")
+    level = draft.level()
+    paths: dict[str, list[tuple[str, str]]] = {}
+    for point in root.all("point"):
+        draft.faults.attempt("", _add_point, level, point)
+    for path in root.all("path"):
+        draft.faults.attempt("", _add_path, level, path, paths, draft)
+    chargers = {
+        kind.get("name")
+        for kind in root.all("locationType")
+        for operation in kind.all("allowedOperation")
+        if "charge" in operation.need("name").lower()
+    }
+    charging: set[str] = set()
+    for location in root.all("location"):
+        points = draft.faults.attempt("", _add_location, level, location, draft) or []
+        if location.get("type") in chargers:
+            charging.update(points)
+    level.vertices = {
+        name: _charging(vertex) if name in charging else vertex
+        for name, vertex in level.vertices.items()
+    }
+    for block in root.all("block"):
+        draft.faults.attempt("", _add_block, level, block, paths, draft)
+    return draft.layout()
+
+
+def _charging(vertex: LayoutVertex) -> LayoutVertex:
+    return LayoutVertex(
+        name=vertex.name, at=vertex.at, is_parking=vertex.is_parking, is_charging=True
+    )
+
+
+def _check_version(root: Element) -> None:
+    version = root.get("version")
+    if version is None or (version not in VERSIONS and not version.startswith(("6.", "7."))):
+        message = f"a plant model of version {shown(version)} (open and save it with openTCS 6)"
+        raise InputError.at(root.place, message)
+
+
+def _add_point(level: LevelDraft, point: Element) -> None:
+    x, y = point.number("positionX", "xPosition"), point.number("positionY", "yPosition")
+    level.add(
+        LayoutVertex(
+            name=point.label("name"),
+            at=(x * MILLIMETRE, y * MILLIMETRE),
+            is_parking=point.get("type") == "PARK_POSITION",
+        ),
+        point.place,
+    )
+
+
+def _add_path(
+    level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
+) -> None:
+    tail, head = path.label("sourcePoint"), path.label("destinationPoint")
+    lanes = paths.setdefault(path.label("name"), [])
+    if path.get("locked") == "true":
+        draft.repair("a locked path is left out")
+        return
+    length = path.number("length") * MILLIMETRE if path.get("length") else None
+    speeds = path.number("maxVelocity"), path.number("maxReverseVelocity")
+    for ends, speed in zip(((tail, head), (head, tail)), speeds, strict=True):
+        if speed > 0:
+            lanes.append(ends)
+            level.connect(
+                Lane(
+                    place=path.place,
+                    tail=ends[0],
+                    head=ends[1],
+                    length=length,
+                    max_speed=speed * MILLIMETRE,
+                )
+            )
+
+
+def _add_location(level: LevelDraft, location: Element, draft: Draft) -> list[str]:
+    """Add a location as a station, and return its points."""
+    points = [link.label("point") for link in location.all("link")]
+    if location.get("locked") == "true":
+        draft.repair("a locked location is left out")
+        return []
+    level.stations.append(Station(name=location.label("name"), vertices=tuple(points)))
+    return points
+
+
+def _add_block(
+    level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: Draft
+) -> None:
+    members = [member.label("name") for member in block.all("member")]
+    if block.get("type") == "SAME_DIRECTION_ONLY":
+        draft.repair("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
+    level.zones.append(
+        LayoutZone(
+            name=block.label("name"),
+            vertices=tuple(name for name in members if name in level.vertices),
+            edges=tuple(ends for name in members for ends in paths.get(name, ())),
+        )
+    )

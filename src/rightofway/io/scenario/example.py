@@ -1,0 +1,166 @@
+"""A first scenario for a layout: the layout as its map, and a few robots on it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rightofway.io.faults import checked
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.layouts import read_layout
+from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.writer import yaml_of
+from rightofway.io.text import json_text
+from rightofway.model import Roadmap, Units
+from rightofway.model.layout import Layout, Level
+from rightofway.model.occupancy import Occupancy
+
+ROBOTS = 6
+"""Robots of the example, at most."""
+
+CELL_SIZE = "1/2"
+"""Side of the cells that a map in pixels is cut into [m]."""
+
+WORK = 10
+"""Work time of the example's robots [time unit]."""
+
+
+def example_of_layout(path: Path | str, target: Path | str) -> str:
+    """Return the text of a scenario that has a layout as its map.
+
+    Parameters
+    ----------
+    path
+        The layout's file.
+    target
+        The file that the text is for, JSON if its name ends so; the layout's path in it is relative
+        to that file. ``-`` is standard output.
+
+    Raises
+    ------
+    InputError
+        As `read_layout` does.
+
+    Notes
+    -----
+    Where the layout has several levels or vehicle types, those with the most lanes are taken.
+    Robots start from parking and charging places and drive to stations, and where there are too few
+    of these, between vertices that can be reached from each other. Where there are none, the
+    list of robots holds a single one that the user has to place.
+    """
+    path, target = Path(path), Path(target)
+    found = read_layout(path)
+    beside = Path() if str(target) == "-" else target.parent
+    shape: dict[str, Any] = {"layout": Path(os.path.relpath(path, beside)).as_posix()}
+    level = None
+    if isinstance(found, Layout):
+        level = max(found.levels, key=lambda each: len(each.edges))
+        shape |= {"level": level.name} if len(found.levels) > 1 else {}
+        types = level.vehicle_types
+        if len(types) > 1:
+            shape["vehicle_type"] = max(types, key=lambda name: len(level.lanes_of(name)))
+    elif isinstance(found, Occupancy):
+        shape["cell_size"] = CELL_SIZE
+    from rightofway.io.scenario.shape import MapDocument
+
+    loaded = map_of(checked(MapDocument, shape), None, beside, Units(), lambda: Fraction(0))
+    assert loaded, "only a floor needs speeds"
+    document = {
+        "format": SCENARIO_FORMAT,
+        "map": shape,
+        **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
+        "robots": _dealt(loaded.roadmap, level),
+    }
+    return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
+
+
+def _dealt(roadmap: Roadmap, level: Level | None) -> list[dict[str, Any]]:
+    """Return robots with homes and targets in the largest part whose vertices reach each other."""
+    part = largest_part(roadmap)
+    inside, stations, parking = set(part), dict[int, str](), list[int]()
+    if level is not None:
+        ids = {roadmap.name(vertex): vertex for vertex in part}
+        parking = [
+            ids[each.name]
+            for each in level.vertices
+            if (each.is_parking or each.is_charging) and each.name in ids
+        ]
+        for station in level.stations:
+            vertex = ids.get(station.vertices[0])
+            if vertex is not None and vertex not in parking:
+                stations.setdefault(vertex, station.name)
+    count = min(ROBOTS, len(part) // 2)
+    homes = _chosen(parking, part, count, stations)
+    targets = _chosen(list(stations), part[::-1], count, homes)
+    assert inside.issuperset((*homes, *targets))
+    if not count:
+        first = roadmap.name(0)
+        return [{"name": "R1", "home": first, "target": first, "work": WORK}]
+    return [
+        {
+            "name": f"R{number}",
+            "home": roadmap.name(home),
+            "target": stations.get(target, roadmap.name(target)),
+            "work": WORK,
+        }
+        for number, (home, target) in enumerate(zip(homes, targets, strict=True), start=1)
+    ]
+
+
+def _chosen(wanted: list[int], part: list[int], count: int, taken: Iterable[int]) -> list[int]:
+    """Return vertices, the wanted ones first, then others spread over a part."""
+    rest = [vertex for vertex in part if vertex not in {*wanted, *taken}] or part
+    missing = max(count - len(wanted), 0)
+    return [*wanted[:count], *(rest[k * len(rest) // missing] for k in range(missing))]
+
+
+def largest_part(roadmap: Roadmap) -> list[int]:
+    """Return the largest set of vertices that all reach each other, in order.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+
+    References
+    ----------
+    Sharir, *A strong-connectivity algorithm and its applications in data flow analysis*, 1981: a
+    search along the edges gives the order of a second search against them.
+    """
+    count = roadmap.n_vertices
+    tails = np.repeat(np.arange(count), np.diff(roadmap.indptr)).tolist()
+    along: list[list[int]] = [[] for _ in range(count)]
+    against: list[list[int]] = [[] for _ in range(count)]
+    for tail, head in zip(tails, roadmap.heads.tolist(), strict=True):
+        along[tail].append(head)
+        against[head].append(tail)
+    order, seen = list[int](), [False] * count
+    for root in range(count):
+        stack = [] if seen[root] else [(root, iter(along[root]))]
+        seen[root] = True
+        while stack:
+            vertex, heads = stack[-1]
+            following = next((head for head in heads if not seen[head]), None)
+            if following is None:
+                order.append(vertex)
+                stack.pop()
+            else:
+                seen[following] = True
+                stack.append((following, iter(along[following])))
+    largest, found = list[int](), [False] * count
+    for root in reversed(order):
+        if found[root]:
+            continue
+        found[root], part = True, [root]
+        for vertex in part:  # grows as it goes
+            for tail in against[vertex]:
+                if not found[tail]:
+                    found[tail] = True
+                    part.append(tail)
+        largest = max(largest, part, key=len)
+    return sorted(largest)

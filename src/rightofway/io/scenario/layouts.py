@@ -1,0 +1,85 @@
+"""Layouts of other programs as the map of a scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rightofway.errors import InputError
+from rightofway.io.faults import under
+from rightofway.io.layouts import read_layout
+from rightofway.io.scenario.maps import LoadedMap
+from rightofway.model import Units, roadmap_of_grid
+from rightofway.model.layout import Layout, roadmap_of_level
+from rightofway.model.occupancy import CellMap, Occupancy
+
+if TYPE_CHECKING:
+    from rightofway.io.scenario.shape import MapDocument
+
+
+def laid_out(
+    document: MapDocument, file: Path, units: Units, radius: Callable[[], Fraction]
+) -> LoadedMap:
+    """Return the map of a layout's file.
+
+    Layouts are in metres and seconds; a scenario that names no units has these.
+    """
+    with under("layout"):
+        found = read_layout(file)
+    if isinstance(found, CellMap):
+        return _drawn_in_cells(document, found, file)
+    units = Units(length=units.length or "m", time=units.time or "s")
+    metres, seconds = units.metres, units.seconds
+    assert metres, "a unit of length has a length"
+    assert seconds, "a unit of time has a length"
+    if isinstance(found, Layout):
+        _refuse(document, "a layout of lanes", "cell_size", "unknown")
+        level = found.level(document.level)
+        roadmap, lacks = roadmap_of_level(
+            level,
+            vehicle_type=document.vehicle_type,
+            metre=1 / metres,
+            second=1 / seconds,
+            spacing=document.spacing,
+        )
+        stations = {station.name: station.vertices[0] for station in level.stations}
+        notes = (*found.notes, *lacks)
+        return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
+    _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
+    return _cut(document, found, units, metres, radius())
+
+
+def _cut(
+    document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
+) -> LoadedMap:
+    """Cut a map in pixels into cells."""
+    size = document.cell_size if isinstance(document.cell_size, Fraction) else 1 / metres
+    lines = found.cells(
+        size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
+    )
+    with under("layout"):
+        roadmap = roadmap_of_grid(
+            lines,
+            cell_size=size,
+            y_up=True,
+            origin=(found.origin[0] / metres, found.origin[1] / metres),
+            yaw=found.yaw,
+        )
+    cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
+    return LoadedMap(roadmap=roadmap, lines=lines, units=units, notes=(*found.notes, cells))
+
+
+def _drawn_in_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
+    _refuse(document, "a map in cells", "level", "vehicle_type", "spacing", "unknown")
+    size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
+    with under("layout"):
+        roadmap = roadmap_of_grid(found.lines, cell_size=size)
+    return LoadedMap(roadmap=roadmap, lines=found.lines, file=file)
+
+
+def _refuse(document: MapDocument, what: str, *keys: str) -> None:
+    for key in keys:
+        if key in document.model_fields_set:
+            raise InputError.at(key, f"is given with {what}, which needs none (take it out)")

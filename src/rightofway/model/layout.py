@@ -1,0 +1,261 @@
+"""A site's own drawing of vertices, lanes, stations and zones, and the roadmap made of one level.
+
+Lengths are metres, speeds metres per second, and y grows upwards, whatever the file has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from rightofway.errors import InputError, listed, nearest, shown
+from rightofway.model.geometry import Point
+from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
+from rightofway.model.spacing import split_lanes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutVertex:
+    """A named point that robots stop at or pass.
+
+    Attributes
+    ----------
+    name
+        A name of its own on its level.
+    at
+        Where it lies in the site's frame [m].
+    is_parking, is_charging
+        Whether a robot may park, or can be charged, there.
+    """
+
+    name: str
+    at: Point
+    is_parking: bool = False
+    is_charging: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutEdge:
+    """A directed lane.
+
+    Attributes
+    ----------
+    tail, head
+        Names of the vertices it leaves and enters.
+    length
+        Its length [m], not below the straight distance.
+    max_speed
+        Speed limit [m/s]; None for none.
+    types
+        Vehicle types that may use it; None for all.
+    shape
+        Points between its ends, for drawing [m]; empty for a straight lane.
+    """
+
+    tail: str
+    head: str
+    length: Fraction
+    max_speed: Fraction | None = None
+    types: frozenset[str] | None = None
+    shape: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Station:
+    """A named place to work at.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    vertices
+        Names of the vertices from which it is served; the first one stands for it.
+    """
+
+    name: str
+    vertices: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutZone:
+    """Vertices and lanes that hold one robot at a time.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    vertices
+        Names of its vertices.
+    edges
+        Tail and head of each of its lanes.
+    """
+
+    name: str
+    vertices: tuple[str, ...] = ()
+    edges: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Level:
+    """One floor of a building, or one of several layouts in a file.
+
+    Attributes
+    ----------
+    name
+        Its name; empty where the file names none.
+    vertices, edges, stations, zones
+        What lies on it.
+    links
+        Lanes that lead to other levels.
+    """
+
+    name: str
+    vertices: tuple[LayoutVertex, ...]
+    edges: tuple[LayoutEdge, ...]
+    stations: tuple[Station, ...] = ()
+    zones: tuple[LayoutZone, ...] = ()
+    links: int = 0
+
+    @property
+    def vehicle_types(self) -> tuple[str, ...]:
+        """Names of the vehicle types that lanes are reserved for, sorted."""
+        return tuple(sorted({name for edge in self.edges for name in edge.types or ()}))
+
+    def lanes_of(self, vehicle_type: str | None) -> tuple[LayoutEdge, ...]:
+        """Return the lanes that a vehicle type may use.
+
+        Parameters
+        ----------
+        vehicle_type
+            A name; None where every lane is open to the same types.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown, or None and lanes are open to different types.
+        """
+        known = self.vehicle_types
+        if vehicle_type is None:
+            if len({edge.types for edge in self.edges} - {None, frozenset(known)}) > 0:
+                message = f"lanes differ between vehicle types (give one of {listed(known)})"
+                raise InputError.at("vehicle_type", message)
+            return self.edges
+        if known and vehicle_type not in known:
+            near = nearest(vehicle_type, known)
+            hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
+            message = f"no vehicle type is named {shown(vehicle_type)} ({hint})"
+            raise InputError.at("vehicle_type", message)
+        return tuple(
+            edge for edge in self.edges if edge.types is None or vehicle_type in edge.types
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """A site's drawing of vertices and lanes.
+
+    Attributes
+    ----------
+    kind
+        The format it was read from: ``LIF``.
+    levels
+        Its levels, at least one.
+    notes
+        What the reader mended or left out, a sentence each.
+    """
+
+    kind: str
+    levels: tuple[Level, ...]
+    notes: tuple[str, ...] = ()
+
+    def level(self, name: str | None = None) -> Level:
+        """Return a level by name; None for the only one.
+
+        Raises
+        ------
+        InputError
+            If there is no such level, or there are several and none is named.
+        """
+        known = [level.name for level in self.levels]
+        if name is None and len(known) == 1:
+            return self.levels[0]
+        if name is None:
+            message = f"the layout has {len(known)} levels (give one of {listed(known)})"
+            raise InputError.at("level", message)
+        if name not in known:
+            near = nearest(name, known)
+            hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
+            raise InputError.at("level", f"no level is named {shown(name)} ({hint})")
+        return self.levels[known.index(name)]
+
+
+def roadmap_of_level(
+    level: Level,
+    *,
+    vehicle_type: str | None = None,
+    metre: Fraction = Fraction(1),
+    second: Fraction = Fraction(1),
+    spacing: Fraction | None = None,
+) -> tuple[Roadmap, tuple[str, ...]]:
+    """Make the roadmap of a level.
+
+    Parameters
+    ----------
+    level
+        The level.
+    vehicle_type
+        As for `Level.lanes_of`.
+    metre, second
+        A metre in length units, and a second in time units, of the roadmap.
+    spacing
+        The longest piece of a lane [length unit]; None to split none.
+
+    Returns
+    -------
+    tuple
+        The roadmap, and notes of what it lacks, a sentence each.
+
+    Raises
+    ------
+    InputError
+        If the vehicle type is not known, or the level has no vertex.
+    """
+    lanes = level.lanes_of(vehicle_type)
+    slowest: dict[tuple[str, str], Edge] = {}
+    for lane in lanes:
+        limit = None if lane.max_speed is None else lane.max_speed * metre / second
+        edge = Edge(tail=lane.tail, head=lane.head, length=lane.length * metre, max_speed=limit)
+        known = slowest.get((lane.tail, lane.head))
+        slowest[lane.tail, lane.head] = _slower(known, edge) if known else edge
+    positions: dict[str, Point] = {
+        vertex.name: (vertex.at[0] * metre, vertex.at[1] * metre) for vertex in level.vertices
+    }
+    edges = list(slowest.values())
+    if spacing is not None:
+        positions, edges = split_lanes(positions, edges, spacing)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
+    return roadmap_of_edges(drawn, edges, y_up=True), tuple(_lacks(level, lanes, slowest))
+
+
+def _slower(one: Edge, other: Edge) -> Edge:
+    """Return an edge that asks a robot for no more than either of two parallel lanes does."""
+    limits = [edge.max_speed for edge in (one, other) if edge.max_speed is not None]
+    length = max(one.length, other.length)
+    return replace(one, length=length, max_speed=min(limits, default=None))
+
+
+def _lacks(
+    level: Level, lanes: Sequence[LayoutEdge], kept: Iterable[tuple[str, str]]
+) -> Iterable[str]:
+    parallel = len(lanes) - len(set(kept))
+    if parallel:
+        yield f"{_counted(parallel, 'parallel lane')} left out: the slowest of each counts"
+    if level.links:
+        yield f"{_counted(level.links, 'lane')} to other levels left out: plans stay on one level"
+    if level.zones:
+        yield f"{_counted(len(level.zones), 'zone')} not kept: several robots may be in one"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -1,0 +1,162 @@
+"""A picture of where robots may be, cut into square cells.
+
+A cell is free if a robot that drives along the middle of cells keeps its radius from everything
+that is not free. Such a robot has half a cell of room inside free cells, so obstacles grow only by
+what its radius is above that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, isqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.geometry import Point
+
+FREE, UNKNOWN, OCCUPIED = 0, 1, 2
+"""What a pixel shows."""
+
+FAR = 60_000
+"""Pixels from which on distances need not be told apart."""
+
+STRIP = 256
+"""Rows that are worked on at once."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Occupancy:
+    """A picture of where robots may be.
+
+    Attributes
+    ----------
+    pixels
+        `FREE`, `UNKNOWN` or `OCCUPIED`; the first row is the upper one; uint8, shape (rows,
+        columns).
+    resolution
+        Side of a pixel [m].
+    origin
+        The lower left corner of the picture in the site's frame [m].
+    yaw
+        Angle by which the picture is turned about its origin, counterclockwise [rad].
+    notes
+        What the reader mended or left out, a sentence each.
+    """
+
+    pixels: NDArray[np.uint8]
+    resolution: Fraction
+    origin: Point = (Fraction(0), Fraction(0))
+    yaw: Fraction = Fraction(0)
+    notes: tuple[str, ...] = ()
+
+    def cells(
+        self, size: Fraction, *, radius: Fraction = Fraction(0), unknown_is_free: bool = False
+    ) -> tuple[str, ...]:
+        """Cut the picture into cells, from its lower left corner on.
+
+        Parameters
+        ----------
+        size
+            Side of a cell [m].
+        radius
+            Radius of the largest robot [m].
+        unknown_is_free
+            Whether robots may be where nothing is known.
+
+        Returns
+        -------
+        tuple of str
+            The rows, the upper one first: ``.`` for free, ``@`` for blocked. What is left at the
+            upper and right border is not used.
+
+        Raises
+        ------
+        InputError
+            If there is no whole cell, there are too many cells, or one is below a pixel.
+        """
+        height, width = self.pixels.shape
+        rows, columns = (int(side * self.resolution // size) for side in (height, width))
+        if size < self.resolution:
+            message = f"a cell of {float(size)} m is below a pixel of {float(self.resolution)} m"
+            raise InputError.at("cell_size", f"{message} (give a larger one)")
+        if not rows or not columns:
+            message = f"a cell of {float(size)} m is larger than the map (give a smaller one)"
+            raise InputError.at("cell_size", message)
+        if rows * columns > MAX_CELLS:
+            message = f"{rows * columns} cells, more than {MAX_CELLS} (give a larger one)"
+            raise InputError.at("cell_size", message)
+        blocked = self.pixels == OCCUPIED if unknown_is_free else self.pixels != FREE
+        growth = (radius - size / 2) / self.resolution
+        if growth > 0:
+            blocked = grown(blocked, growth, outside=not unknown_is_free)
+        blocked = blocked[::-1]  # from the origin on
+        step = size / self.resolution
+        across = [(int(k * step), ceil((k + 1) * step)) for k in range(max(rows, columns))]
+        strips = np.array([blocked[begin:end].any(axis=0) for begin, end in across[:rows]])
+        cut = np.array([strips[:, begin:end].any(axis=1) for begin, end in across[:columns]])
+        text = np.where(cut.T[::-1], "@", ".")
+        return tuple("".join(row) for row in text)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CellMap:
+    """A map that is drawn in cells already.
+
+    Attributes
+    ----------
+    lines
+        The rows, the upper one first: ``.``, ``G`` and ``S`` are free, all else is blocked.
+    """
+
+    lines: tuple[str, ...]
+
+
+def grown(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) -> NDArray[np.bool_]:
+    """Return the pixels that have a point nearer than a distance to a blocked pixel.
+
+    Parameters
+    ----------
+    blocked
+        The pixels; bool, shape (rows, columns).
+    by
+        The distance [pixels]; a pixel at just that distance stays free.
+    outside
+        Whether all that lies outside is blocked.
+
+    Returns
+    -------
+    ndarray
+        Blocked pixels; bool, shape (rows, columns).
+    """
+    framed = np.pad(blocked, 1, constant_values=outside)
+    rows, columns = framed.shape
+    reach = min(ceil(by), max(rows, columns))  # pixels with that many between them are far enough
+    gap = np.empty(framed.shape, np.uint16)
+    for begin in range(0, rows, STRIP):  # a strip at a time needs little memory
+        gap[begin : begin + STRIP] = np.minimum(_gap_in_row(framed[begin : begin + STRIP]), FAR)
+    result = framed.copy()
+    for down in range(reach + 1):
+        between = max(down - 1, 0)
+        rest = by**2 - between**2
+        if rest <= 0:
+            break
+        # The largest whole number of pixels in between whose square is below the rest.
+        widest = isqrt(ceil(rest) - 1)
+        near = gap <= min(widest + 1, FAR - 1)
+        result[down:] |= near[: rows - down]
+        result[: rows - down] |= near[down:]
+    return result[1:-1, 1:-1]
+
+
+def _gap_in_row(blocked: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Return how many pixels each pixel is from the nearest blocked one in its row; int32."""
+    columns = np.arange(blocked.shape[1], dtype=np.int32)
+    far = np.int32(2 * FAR)
+    before = np.maximum.accumulate(np.where(blocked, columns, -far), axis=1)
+    gap = columns - before
+    after = np.minimum.accumulate(np.where(blocked, columns, far)[:, ::-1], axis=1)[:, ::-1]
+    return np.minimum(gap, after - columns, out=gap)

@@ -1,0 +1,249 @@
+"""Known points land where the source says; all numbers are worked out by hand."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.io import dump_plan, plan_of, read_layout, scenario_of
+from rightofway.model import Point, Roadmap, Scenario
+from rightofway.model.layout import Layout, Level
+from rightofway.solve import solve
+
+HERE = Path(__file__).parents[2] / "data" / "layouts"
+
+
+def at(x: float, y: float) -> Point:
+    return Fraction(x), Fraction(y)
+
+
+def level_of(name: str, level: str | None = None) -> Level:
+    found = read_layout(HERE / name)
+    assert isinstance(found, Layout)
+    return found.level(level)
+
+
+def points(level: Level) -> dict[str, Point]:
+    return {vertex.name: vertex.at for vertex in level.vertices}
+
+
+def lanes(level: Level) -> dict[str, tuple[float, float | None]]:
+    """Return length and speed limit of each lane."""
+    return {
+        f"{lane.tail} > {lane.head}": (
+            float(lane.length),
+            None if lane.max_speed is None else float(lane.max_speed),
+        )
+        for lane in level.edges
+    }
+
+
+def scenario_on(home: Any, target: Any, base: Path = HERE, **shape: Any) -> Scenario:
+    robots = [{"name": "R1", "home": home, "target": target}]
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    return scenario_of(document, base)
+
+
+def name_of_home(**shape: Any) -> str:
+    scenario = scenario_on(**shape)
+    return scenario.roadmap.name(scenario.robots[0].home)
+
+
+def test_lif_keeps_positions_types_limits_and_stations() -> None:
+    level = level_of("hall.lif.json")
+    assert points(level) == {
+        "P1": at(-2.5, 1.25), "A": at(0.5, 1.25),
+        "B": at(3.5, 5.25), "C": at(3.5, -2.75),
+    }  # fmt: skip
+    assert {lane.length for lane in level.edges} == {Fraction(3), Fraction(5)}  # 3-4-5 triangles
+    assert [vertex.name for vertex in level.vertices if vertex.is_charging] == ["P1"]
+    assert level.stations[0].name == "Press"
+    assert level.vehicle_types == ("forklift", "tugger")
+
+
+def test_the_slower_of_two_parallel_lanes_counts_for_a_vehicle_type() -> None:
+    """A forklift with a load may drive 0.5 m/s, without one 1.5 m/s."""
+    roadmap = scenario_on("P1", "Press", layout="hall.lif.json", vehicle_type="forklift").roadmap
+    edge = roadmap.edge(roadmap.vertex("A"), roadmap.vertex("B"))
+    assert edge is not None
+    assert roadmap.speed_limits[roadmap.length_class[edge]] == Fraction(1, 2)
+    assert roadmap.edge(roadmap.vertex("A"), roadmap.vertex("C")) is None  # for tuggers only
+
+
+def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
+    found = read_layout(HERE / "route.geojson")
+    assert isinstance(found, Layout)
+    level = found.level()
+    assert points(level) == {
+        "0": at(0, -1.5),
+        "1": at(3, 2.5),
+        "2": at(6, -1.5),
+    }
+    assert lanes(level) == {
+        "0 > 1": (5, 0.5), "1 > 0": (5, None),
+        "1 > 2": (5, None), "2 > 0": (6, None),
+    }  # fmt: skip
+    assert level.edges[0].shape == (at(1, 1),)
+    assert any("percentage of a robot's speed" in note for note in found.notes)
+
+
+def test_graphml_lengths_below_the_straight_line_are_mended() -> None:
+    found = read_layout(HERE / "hall.graphml")
+    assert isinstance(found, Layout)
+    assert points(found.level()) == {
+        "a": at(-4, 2.5), "b": at(-1, 6.5), "c": at(-1, -1.5),
+    }  # fmt: skip
+    assert lanes(found.level()) == {
+        "a > b": (5, None), "b > a": (5, None),
+        "b > c": (12.5, None), "c > b": (12.5, None), "c > a": (5, None),
+    }  # fmt: skip
+    assert found.notes == (
+        "2 times: a lane shorter than the straight line gets the straight length",
+    )
+
+
+def test_opentcs_millimetres_become_metres_and_a_speed_of_zero_is_no_lane() -> None:
+    level = level_of("plant.xml")
+    assert points(level) == {
+        "Dock": at(-1.5, 2.25), "Cross": at(2.5, 2.25), "End": at(2.5, -0.75),
+    }  # fmt: skip
+    assert lanes(level) == {
+        "Dock > Cross": (4, 1), "Cross > Dock": (4, 0.3),
+        "Cross > End": (4.5, 1), "End > Dock": (5, 0.8),
+    }  # fmt: skip
+    dock = level.vertices[0]
+    assert (dock.is_parking, dock.is_charging) == (True, True)
+    assert [station.name for station in level.stations] == ["Socket", "Saw 1"]
+    assert level.zones[0].edges == (("Dock", "Cross"), ("Cross", "Dock"))
+
+
+def test_old_plant_models_have_other_names_for_positions() -> None:
+    assert points(level_of("plant-5.xml")) == {
+        "A": at(-1.5, 2.25),
+        "B": at(0.5, 2.25),
+    }
+
+
+def test_rmf_navigation_graphs_are_in_metres() -> None:
+    level = level_of("hall.nav.yaml", "L1")
+    assert points(level) == {
+        "dock": at(10.5, -3.25), "v1": at(14.5, -3.25), "shelf": at(14.5, -6.25),
+    }  # fmt: skip
+    assert lanes(level)["dock > v1"] == (4, 0.5)
+    assert lanes(level)["v1 > dock"] == (4, None)  # a limit of 0 is none
+    assert level.zones[0].vertices == ("shelf",)
+    assert len(level_of("hall.nav.yaml", "L2").edges) == 2
+
+
+def test_rmf_buildings_are_scaled_by_their_measurements_and_turned_upside_down() -> None:
+    """100 pixels are 5 m; the second level is turned by 90 degrees and half as large.
+
+    Its west (50, 10) and east (50, 60) lie on (0, 0) and (100, 0) of the first, so that one pixel
+    down is two to the right, and one to the left two down: (40, 10) lies on (0, 20), 1 m down.
+    """
+    assert points(level_of("hall.building.yaml", "L1")) == {
+        "dock": at(5, -2), "v1": at(10, -2), "shelf": at(10, -5),
+    }  # fmt: skip
+    assert points(level_of("hall.building.yaml", "L2")) == {
+        "stairs": at(0, 0), "top": at(0, -1),
+    }  # fmt: skip
+    assert lanes(level_of("hall.building.yaml", "L1")) == {
+        "dock > v1": (5, None), "v1 > dock": (5, None), "v1 > shelf": (3, 0.5),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("file", ["nodes.csv", "edges.csv"])
+def test_either_file_of_a_csv_pair_names_both(file: str) -> None:
+    level = level_of(file)
+    assert points(level) == {
+        "dock": at(-2.5, 0), "cross": at(0, 0), "shelf": at(0, -3.25),
+    }  # fmt: skip
+    assert lanes(level) == {
+        "dock > cross": (2.5, 0.5), "cross > dock": (2.5, 0.5),
+        "cross > shelf": (4, None), "shelf > cross": (4, None),
+    }  # fmt: skip
+    assert [vertex.name for vertex in level.vertices if vertex.is_parking] == ["dock"]
+
+
+def test_a_ros_map_is_cut_from_its_origin_on() -> None:
+    """The lower left pixel of 0.5 m has its corner at (-1, 2), so its centre at (-0.75, 2.25)."""
+    on: dict[str, Any] = {"layout": "room.yaml", "cell_size": 0.5}
+    roadmap = scenario_on({"x": -0.75, "y": 2.25}, {"x": -0.75, "y": 2.75}, **on).roadmap
+    assert roadmap.grid is not None
+    assert roadmap.grid.lines() == ("@@@@@@", "......", "..@...", ".....@")
+    assert roadmap.point(roadmap.vertex("N18")) == at(-0.75, 2.25)
+    assert roadmap.point(roadmap.vertex("N11")) == at(1.75, 3.25)
+
+
+def test_unknown_pixels_are_free_where_the_scenario_says_so() -> None:
+    on: dict[str, Any] = {"layout": "room.yaml", "cell_size": 0.5, "unknown": "free"}
+    roadmap = scenario_on({"x": -0.75, "y": 2.25}, {"x": 1.75, "y": 2.25}, **on).roadmap
+    assert roadmap.grid is not None
+    assert roadmap.grid.lines()[3] == "......"
+
+
+def test_a_map_with_yaw_is_turned_about_its_origin(tmp_path: Path) -> None:
+    """A quarter turn leads the centre (0.25, 0.25) of the lower left cell to (-0.25, 0.25)."""
+    yaml = (HERE / "room.yaml").read_text("utf-8").replace("0.0]", "1.5707963267948966]")
+    (tmp_path / "turned.yaml").write_text(yaml, "utf-8")
+    (tmp_path / "room.pgm").write_bytes((HERE / "room.pgm").read_bytes())
+    corner, next_to_it = {"x": -1.25, "y": 2.25}, {"x": -1.25, "y": 2.75}
+    scenario = scenario_on(corner, next_to_it, tmp_path, layout="turned.yaml", cell_size=0.5)
+    roadmap = scenario.roadmap
+    assert roadmap.name(scenario.robots[0].home) == "N18"
+    assert roadmap.name(scenario.robots[0].stops[0].at) == "N19"  # x of the map is y of the site
+    x, y = roadmap.point(roadmap.vertex("N18"))
+    assert abs(x + Fraction(5, 4)) < Fraction(1, 10**9)
+    assert abs(y - Fraction(9, 4)) < Fraction(1, 10**9)
+    assert plan_of(dump_plan(solve(scenario))).scenario.roadmap == roadmap
+
+
+def test_obstacles_keep_their_distance_from_large_robots() -> None:
+    """A radius of 0.5 m is 0.25 m more than half a cell: no cell beside an obstacle is free."""
+    robots = [{"name": "R1", "home": [2, 0], "target": [2, 0], "radius": 0.5}]
+    shape = {"layout": "room.yaml", "cell_size": 0.5}
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    with pytest.raises(InputError, match="no free cell"):
+        scenario_of(document, HERE)
+
+
+def test_places_are_vertices_or_stations() -> None:
+    on: dict[str, Any] = {"layout": "plant.xml"}
+    assert name_of_home(home="Saw 1", target="Dock", **on) == "End"
+    assert name_of_home(home={"x": 2.5, "y": -0.75}, target="Dock", **on) == "End"
+
+
+def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units() -> None:
+    scenario = scenario_on("Dock", "End", layout="plant.xml")
+    assert (scenario.units.length, scenario.units.time) == ("m", "s")
+    robots = [{"name": "R1", "home": "Dock", "target": "End", "speed": 60_000}]
+    document = {
+        "format": "rightofway-scenario/1", "map": {"layout": "plant.xml"},
+        "units": {"length": "mm", "time": "min"}, "robots": robots,
+    }  # fmt: skip
+    roadmap: Roadmap = scenario_of(document, HERE).roadmap
+    edge = roadmap.edge(roadmap.vertex("Cross"), roadmap.vertex("Dock"))
+    assert edge is not None
+    assert roadmap.lengths[roadmap.length_class[edge]] == 4000  # [mm]
+    assert roadmap.speed_limits[roadmap.length_class[edge]] == 18_000  # [mm/min]
+
+
+@pytest.mark.parametrize(
+    ("home", "shape"),
+    [
+        ("P1", {"layout": "hall.lif.json", "vehicle_type": "tugger"}),
+        ("dock", {"layout": "hall.nav.yaml", "level": "L1"}),
+        ("Dock", {"layout": "plant.xml", "spacing": 1}),
+        ("a", {"layout": "hall.graphml"}),
+        ("0", {"layout": "route.geojson"}),
+        ("dock", {"layout": "nodes.csv"}),
+        ("N0", {"layout": "two-rooms.map"}),
+        ("N11", {"layout": "room.yaml", "cell_size": "1/2"}),
+    ],
+)
+def test_a_plan_file_needs_no_layout(home: str, shape: dict[str, Any]) -> None:
+    scenario = scenario_on(home, home, **shape)
+    plan = solve(scenario)
+    assert plan_of(dump_plan(plan)).scenario.roadmap == scenario.roadmap

@@ -1,0 +1,168 @@
+"""What a user is told about layouts: what a file is, what is missing, what to write."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.io import load, load_either, read_layout, scenario_of
+
+HERE = Path(__file__).parents[2] / "data" / "layouts"
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("hall.lif.json", "this is a LIF layout with 4 vertices, 8 lanes and 1 station"),
+        ("route.geojson", "this is a Nav2 route graph with 3 vertices and 4 lanes"),
+        ("hall.nav.yaml", "an Open-RMF navigation graph with 2 levels, 5 vertices and 6 lanes"),
+        ("hall.building.yaml", "an Open-RMF building with 2 levels, 5 vertices and 5 lanes"),
+        ("plant.xml", "an openTCS plant model with 3 vertices, 4 lanes and 2 stations"),
+        ("hall.graphml", "this is a GraphML graph with 3 vertices and 5 lanes"),
+        ("nodes.csv", "this is a CSV pair with 3 vertices and 4 lanes"),
+        ("room.yaml", "this is a ROS map of 6 x 4 pixels"),
+        ("room.pgm", "this is a picture (give the YAML file beside it"),
+    ],
+)
+@pytest.mark.parametrize("read", [load, load_either])
+def test_a_layout_given_as_a_scenario_is_named(read: Any, name: str, what: str) -> None:
+    with pytest.raises(InputError, match=re.escape(what)) as caught:
+        read(HERE / name)
+    if name != "room.pgm":
+        assert f"map: {{layout: {name}}}" in str(caught.value)
+        assert "rightofway convert" in str(caught.value)
+
+
+def told(**shape: Any) -> str:
+    robots = [{"name": "R1", "home": "A", "target": "A"}]
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    with pytest.raises(InputError) as caught:
+        scenario_of(document, HERE)
+    return str(caught.value).replace(str(HERE), "")
+
+
+@pytest.mark.parametrize(
+    ("shape", "message"),
+    [
+        ({"layout": "no.json"}, "map.layout: /no.json: there is no such file (check the path)"),
+        (
+            {"layout": "hall.lif.json"},
+            (
+                "map.vehicle_type: lanes differ between vehicle types"
+                " (give one of forklift and tugger)"
+            ),
+        ),
+        (
+            {"layout": "hall.lif.json", "vehicle_type": "forklifts"},
+            "map.vehicle_type: no vehicle type is named 'forklifts' (did you mean 'forklift'?)",
+        ),
+        (
+            {"layout": "hall.nav.yaml"},
+            "map.level: the layout has 2 levels (give one of L1 and L2)",
+        ),
+        (
+            {"layout": "hall.nav.yaml", "level": "L3"},
+            "map.level: no level is named 'L3' (give one of L1 and L2)",
+        ),
+        (
+            {"layout": "plant.xml", "cell_size": 1},
+            "map.cell_size: is given with a layout of lanes, which needs none (take it out)",
+        ),
+        (
+            {"layout": "room.yaml", "cell_size": 9},
+            "map.cell_size: a cell of 9.0 m is larger than the map (give a smaller one)",
+        ),
+        (
+            {"layout": "plant.xml", "y": "up"},
+            "map: y is given with a layout, which has its own (take it out)",
+        ),
+        (
+            {"grid": ["."], "level": "L1"},
+            "map: level is given with a grid, and is for a layout (take it out)",
+        ),
+    ],
+)
+def test_what_does_not_fit_is_told_with_place_and_remedy(
+    shape: dict[str, Any], message: str
+) -> None:
+    assert message in told(**shape).splitlines()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        (
+            "a.json",
+            '{"layouts": [{"nodes": [\n{"nodeId": "A", "nodePosition": {"x": "east", "y": 0}}]}]}',
+            "a.json:2: layouts[0].nodes[0].nodePosition.x: 'east' is not a number",
+        ),
+        (
+            "a.json",
+            '{"layouts": [{"nodes": [{"nodeId": "A", "nodePosition": {"x": NaN, "y": 0}}]}]}',
+            "'NaN' is not a number",
+        ),
+        (
+            "a.json",
+            (
+                '{"layouts": [{"nodes": [{"nodeId": "A", "nodePosition": {"x": 0, "y": 0}}],'
+                '\n"edges": [{"startNodeId": "A", "endNodeId": "B"}]}]}'
+            ),
+            "a.json:2: layouts[0].edges[0]: no vertex is named 'B'",
+        ),
+        (
+            "a.xml",
+            "<graphml><graph>\n<node id='a'/></graph></graphml>",
+            "a.xml:2: the node 'a' has no coordinates",
+        ),
+        (
+            "a.xml",
+            '<!DOCTYPE x [\n<!ENTITY a "aaaa">]><graphml>&a;</graphml>',
+            "a.xml:2: the entity 'a' is not allowed",
+        ),
+        ("a.xml", "<graphml><graph>", "a.xml:1: this is no XML: no element found"),
+        ("a.xml", "<" + "a><" * 200 + "a>", "its elements are more than 64 deep"),
+        (
+            "a.xml",
+            '<model name="old"><point name="A"/></model>',
+            "a plant model of version nothing (open and save it with openTCS 6)",
+        ),
+        (
+            "a.yaml",
+            "levels: {L1: {vertices: [[0, 0]], lanes: [[0, -1]]}}",
+            "levels.L1.lanes[0][1]: -1 is no vertex (give a number from 0 to 0)",
+        ),
+        (
+            "a.yaml",
+            "levels: {L1: {vertices: [[0, 0, 0, A]], lanes: [[0, 0]]}}",
+            "has no measurement, so the length of a pixel is not known",
+        ),
+        (
+            "a.yaml",
+            "coordinate_system: wgs84\nlevels: {L1: {vertices: [[0, 0, 0, A]]}}",
+            "coordinates are 'wgs84' (give the building's navigation graph instead)",
+        ),
+        (
+            "a.yaml",
+            "image: no.png\nresolution: 0.1\norigin: [0, 0, 0]\nfree_thresh: 0\noccupied_thresh: 1",
+            "a.yaml:1: image: there is no picture 'no.png' beside the file (put it there)",
+        ),
+        ("a.yaml", "image: a.pgm\nresolution: 0\norigin: [0, 0]", "0 is not positive"),
+        ("a.yaml", "a: &a [1]\nb: !!python/tuple [1]", "the tag 'tag:yaml.org,2002:python/tuple'"),
+        ("nodes.csv", "name,x,y\nA,0,0\n", "these are nodes without their edges"),
+        ("a.txt", "once upon a time", "this is no layout"),
+        (
+            "a.map",
+            "type octile\nheight 1000000000\nwidth 1000000000\nmap\n..",
+            "line 2: height '1000000000' is no size",
+        ),
+    ],
+)
+def test_a_bad_layout_is_refused_with_line_and_remedy(
+    tmp_path: Path, name: str, text: str, message: str
+) -> None:
+    (tmp_path / name).write_text(text, "utf-8")
+    with pytest.raises(InputError) as caught:
+        read_layout(tmp_path / name)
+    assert message in str(caught.value)
