@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
-from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution, PrecedenceGraph
+from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution, graph_on
 
 Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
@@ -49,10 +49,10 @@ class Forecast:
         self.booked = execution.start <= now
         self.entered = execution.enter <= now
         self.books_ahead = adg.scenario.rules.books_ahead
-        self.graph = PrecedenceGraph(
+        self.graph = graph_on(
+            adg.scenario,
             [self._route(robot) for robot in range(len(adg.routes))],
             headway=planning_headway(adg.scenario),
-            books_ahead=self.books_ahead,
         )
         self.is_possible = self.graph.give_all(self._rights())
 

@@ -9,8 +9,14 @@ from rightofway.precedence.adg import (
     Stoppage,
     order_of,
 )
-from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
-from rightofway.precedence.segments import Segment, crossing, shared_segment
+from rightofway.precedence.graph import (
+    BookedRows,
+    Meeting,
+    PrecedenceGraph,
+    graph_of,
+    graph_on,
+)
+from rightofway.precedence.segments import Segment, SegmentOfSizes, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
     critical_circuit_without,
@@ -28,6 +34,7 @@ from rightofway.precedence.timed_event_graph import (
 __all__ = [
     "ActionDependencyGraph",
     "Arcs",
+    "BookedRows",
     "Circuit",
     "CyclicSchedule",
     "DelayModel",
@@ -37,12 +44,14 @@ __all__ = [
     "PrecedenceGraph",
     "RunBatch",
     "Segment",
+    "SegmentOfSizes",
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
     "critical_circuit_without",
     "crossing",
     "graph_of",
+    "graph_on",
     "order_of",
     "sensitivity",
     "shared_segment",
