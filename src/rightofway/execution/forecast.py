@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 
 from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
-from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution, graph_on
+from rightofway.precedence import (
+    ActionDependencyGraph,
+    DelaySample,
+    Execution,
+    graph_on,
+    rights_in,
+)
 
 Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
@@ -91,12 +97,13 @@ class Forecast:
 
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the unused rights of way, in the order of planned times."""
-        before = self.adg.before
         lengths = np.diff(self.adg.first_visit)
         robot = np.repeat(np.arange(len(lengths)), lengths)
-        unused = np.flatnonzero(~self.booked & (before >= 0) & (robot[before] != robot))
-        unused = unused[np.argsort(self.adg.planned[unused], kind="stable")]
-        yield from zip(before[unused].tolist(), unused.tolist(), strict=True)
+        first, second = rights_in(self.adg.order).T
+        unused = ~self.booked[second] & (robot[first] != robot[second])
+        first, second = first[unused], second[unused]
+        in_order = np.argsort(self.adg.planned[second], kind="stable")
+        yield from zip(first[in_order].tolist(), second[in_order].tolist(), strict=True)
 
     def _route(self, robot: int) -> Route:
         """Return a route with actual durations so far and the expected one of the current visit."""

@@ -8,6 +8,7 @@ from rightofway.precedence.adg import (
     RunBatch,
     Stoppage,
     order_of,
+    rights_in,
 )
 from rightofway.precedence.graph import (
     BookedRows,
@@ -53,6 +54,7 @@ __all__ = [
     "graph_of",
     "graph_on",
     "order_of",
+    "rights_in",
     "sensitivity",
     "shared_segment",
     "tight_arcs",

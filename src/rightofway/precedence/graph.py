@@ -227,8 +227,10 @@ class PrecedenceGraph:
     def _refused_cycle(self) -> list[Visit]:
         return [] if self._delays_frozen else self._kernel.cycle().tolist()
 
-    def keep_order(self, when: Sequence[Sequence[int]]) -> None:
+    def keep_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.
+
+        Robots with a size: between all incompatible visits.
 
         Parameters
         ----------
