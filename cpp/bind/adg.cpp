@@ -41,7 +41,12 @@ delay_a, delay_b : float64[D]
 first_stoppage : int32[R + 1]
     Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
 stoppage_tick, stoppage_ticks : int64[S]
-    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.)";
+    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
+first_right, rights : int32[N + 1], int32[M] or None
+    Where robots have sizes: visit ``x`` starts when the visits ``rights[first_right[x]] ..`` have
+    ended; ``before`` is then -1.
+vertex_row, edge_row, first_excluded, excluded : int32 or None
+    Where robots have sizes: as ``PrecedenceGraph`` takes them.)";
 
 constexpr auto runs_doc = R"(Run the plan many times by right of way, and by the clock.
 
@@ -197,7 +202,13 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           bool books_ahead, const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
           const ArrayIn<double>& delay_a, const ArrayIn<double>& delay_b,
           const ArrayIn<std::int32_t>& first_stoppage, const ArrayIn<Tick>& stoppage_tick,
-          const ArrayIn<Tick>& stoppage_ticks) {
+          const ArrayIn<Tick>& stoppage_ticks,
+          const std::optional<ArrayIn<std::int32_t>>& first_right,
+          const std::optional<ArrayIn<VisitId>>& rights,
+          const std::optional<ArrayIn<std::int32_t>>& vertex_row,
+          const std::optional<ArrayIn<std::int32_t>>& edge_row,
+          const std::optional<ArrayIn<std::int32_t>>& first_excluded,
+          const std::optional<ArrayIn<std::int32_t>>& excluded) {
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
     std::vector<Delay> delays;
@@ -208,7 +219,14 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
     }
     const auto first = view(first_stoppage);
     new (self) BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
-                         view(before), headway, books_ahead, view(since)},
+                         view(before),
+                         headway,
+                         books_ahead,
+                         view(since),
+                         view_or_empty(first_right),
+                         view_or_empty(rights),
+                         {view_or_empty(vertex_row), view_or_empty(edge_row),
+                          view_or_empty(first_excluded), view_or_empty(excluded)}},
                         view(pace), std::move(delays), {first.begin(), first.end()},
                         stoppages_of(stoppage_tick, stoppage_ticks));
 }
@@ -221,7 +239,10 @@ void bind_adg(nb::module_& module) {
              array("dwell"), array("drive"), array("before"), array("since"), nb::arg("headway"),
              nb::arg("books_ahead"), array("pace"), array("delay_kind"), array("delay_a"),
              array("delay_b"), array("first_stoppage"), array("stoppage_tick"),
-             array("stoppage_ticks"))
+             array("stoppage_ticks"), array("first_right").none() = nb::none(),
+             array("rights").none() = nb::none(), array("vertex_row").none() = nb::none(),
+             array("edge_row").none() = nb::none(), array("first_excluded").none() = nb::none(),
+             array("excluded").none() = nb::none())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)

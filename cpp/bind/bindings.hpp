@@ -36,6 +36,11 @@ std::span<const T> view(const ArrayIn<T>& array) {
     return {array.data(), array.size()};
 }
 
+template <class T>
+std::span<const T> view_or_empty(const std::optional<ArrayIn<T>>& array) {
+    return array ? view(*array) : std::span<const T>{};
+}
+
 // Hands the vector's memory over to Python, which frees it with the last array that uses it.
 template <class Out, class T>
 Out hand_over(std::vector<T>&& values, std::initializer_list<std::size_t> shape) {

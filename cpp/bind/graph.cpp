@@ -33,7 +33,14 @@ headway : int
 swaps_conflict : bool
     Whether swaps are conflicts.
 active : uint8[R]
-    Robots with 0 here have times, but no conflicts and no rights of way.)";
+    Robots with 0 here have times, but no conflicts and no rights of way.
+vertex_row, edge_row : int32[N] or None
+    Where robots have sizes: the rows of ``Problem`` that each visit books, at its vertex and along
+    the edge driven out of it; -1 for the edge of last visits.
+first, excluded : int32[S + 1], int32[M] or None
+    A booking of row ``r`` excludes others from the rows ``excluded[first[r]] ..``. Conflicts and
+    rights of way are then between incompatible visits: ``precede(a, b)`` lets the drive into ``b``
+    start after ``a`` has ended, wherever both are.)";
 
 constexpr auto keep_order_doc =
     R"(Give the rights of way of all visits to a vertex in an order, all at once.
@@ -56,6 +63,12 @@ constexpr auto cycle_doc =
 
 Visits in order, from ``b`` to the visit after ``a``; empty if there was another reason.)";
 
+constexpr auto incompatible_doc =
+    R"(Return all incompatible visits of two robots, int32[K, 4]; none where no robot has a size.
+
+Visit of i, visit of j, and the visits whose starts count: i waits for j by
+``precede(visit of j, start of i)``, j for i by ``precede(visit of i, start of j)``.)";
+
 constexpr auto conflicts_of_doc =
     R"(Return the weight of one robot's conflicts with the ``others`` (uint8[R], not 0). [ticks])";
 
@@ -72,9 +85,21 @@ std::optional<ConflictTuple> to_tuple(const std::optional<Conflict>& found) {
 void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
           const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
           const ArrayIn<Tick>& approach, Tick headway, bool swaps_conflict,
-          const ArrayIn<std::uint8_t>& active) {
-    const RouteArrays arrays{view(first_visit), view(vertex),   view(least), view(approach),
-                             headway,           swaps_conflict, view(active)};
+          const ArrayIn<std::uint8_t>& active,
+          const std::optional<ArrayIn<std::int32_t>>& vertex_row,
+          const std::optional<ArrayIn<std::int32_t>>& edge_row,
+          const std::optional<ArrayIn<std::int32_t>>& first,
+          const std::optional<ArrayIn<std::int32_t>>& excluded) {
+    const RouteArrays arrays{
+        view(first_visit),
+        view(vertex),
+        view(least),
+        view(approach),
+        headway,
+        swaps_conflict,
+        view(active),
+        {view_or_empty(vertex_row), view_or_empty(edge_row), view_or_empty(first),
+         view_or_empty(excluded)}};
     const nb::gil_scoped_release released;
     new (self) PrecedenceGraph(arrays);
 }
@@ -105,6 +130,14 @@ void bind_queries(nb::class_<PrecedenceGraph>& graph) {
             nb::arg("robot"),
             "Return the rights of way ``(a, b)`` on a longest path to the robot's last visit, the "
             "latest first, int32[K, 2].")
+        .def(
+            "incompatible",
+            [](const Graph& self, RobotId i, RobotId j) {
+                std::vector<VisitId> flat = self.incompatible(i, j);
+                const std::size_t rows = flat.size() / 4;
+                return hand_over<TableOut<VisitId>>(std::move(flat), {rows, 4});
+            },
+            nb::arg("i"), nb::arg("j"), incompatible_doc)
         .def("conflicts", &Graph::conflicts,
              "Return the weight of all conflicts left, 0 if there are none. [ticks]")
         .def(
@@ -160,7 +193,9 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
 void bind_graph(nb::module_& module) {
     nb::class_<PrecedenceGraph> graph(module, "PrecedenceGraph", class_doc);
     graph.def("__init__", &init, array("first_visit"), array("vertex"), array("least"),
-              array("approach"), nb::arg("headway"), nb::arg("swaps_conflict"), array("active"));
+              array("approach"), nb::arg("headway"), nb::arg("swaps_conflict"), array("active"),
+              array("vertex_row").none() = nb::none(), array("edge_row").none() = nb::none(),
+              array("first").none() = nb::none(), array("excluded").none() = nb::none());
     bind_queries(graph);
     bind_changes(graph);
 }

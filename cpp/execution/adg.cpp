@@ -1,5 +1,6 @@
 #include "execution/adg.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "core/reject.hpp"
@@ -28,6 +29,8 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
       drive_(arrays.drive.begin(), arrays.drive.end()),
       before_(arrays.before.begin(), arrays.before.end()),
       since_(arrays.since.begin(), arrays.since.end()),
+      first_right_(arrays.first_right.begin(), arrays.first_right.end()),
+      rights_(arrays.rights.begin(), arrays.rights.end()),
       headway_(arrays.headway),
       books_ahead_(arrays.books_ahead) {
     require_length("planned", planned_.size(), vertex_.size());
@@ -38,6 +41,7 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
         require_length("since", since_.size(), vertex_.size());
     }
     number_robots();
+    incompatible_ = IncompatibleVisits(robot_, arrays.rows);
     check();
 }
 
@@ -75,6 +79,24 @@ void ActionDependencyGraph::check() const {
             reject_entry("before", static_cast<std::size_t>(x), other,
                          "is at another vertex, or before a first visit");
         }
+    }
+    if (has_sizes()) {
+        check_rights();
+    }
+}
+
+void ActionDependencyGraph::check_rights() const {
+    require_length("first_right", first_right_.size(), vertex_.size() + 1);
+    if (first_right_.front() != 0 ||
+        static_cast<std::size_t>(first_right_.back()) != rights_.size() ||
+        !std::is_sorted(first_right_.begin(), first_right_.end())) {
+        throw std::invalid_argument("first_right: does not rise from 0 to the number of rights");
+    }
+    for (const VisitId other : rights_) {
+        require_id("rights", other, n_visits());
+    }
+    if (!books_ahead_) {
+        throw std::invalid_argument("books_ahead: robots with sizes book ahead");
     }
 }
 

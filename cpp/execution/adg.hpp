@@ -1,5 +1,6 @@
 // The action dependency graph (ADG) of a plan: visits with least durations, and for each visit the
-// previous visit to its vertex.
+// previous visit to its vertex. Where robots have sizes, a visit can have several visits before it,
+// at any vertices, which have to end before the drive into it starts.
 //
 // W. Hoenig et al., Persistent and robust execution of MAPF schedules in warehouses, IEEE Robotics
 // and Automation Letters 4, 2019.
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "precedence/incompatible_visits.hpp"
 
 namespace rightofway {
 
@@ -23,6 +25,11 @@ struct AdgArrays {
     Tick headway = 0;
     bool books_ahead = false;
     std::span<const Tick> since = {};  // n: earliest start of each visit; or empty
+    // Where robots have sizes, `before` is `none`, and visit x has the visits rights[k]
+    // before it, for k from first_right[x] to first_right[x + 1] - 1.
+    std::span<const std::int32_t> first_right = {};
+    std::span<const VisitId> rights = {};
+    BookedRows rows = {};
 };
 
 class ActionDependencyGraph {
@@ -48,6 +55,23 @@ class ActionDependencyGraph {
     // The visit before `visit` at its vertex, which has to leave first; or `none`. If it is a last
     // visit, which never ends, `visit` cannot take place.
     VisitId before(VisitId visit) const { return before_[visit]; }
+    // Only where robots have sizes: all visits that have to leave before `visit` starts.
+    std::span<const VisitId> all_before(VisitId visit) const {
+        return {rights_.data() + first_right_[visit], rights_.data() + first_right_[visit + 1]};
+    }
+    // The number of visits before a visit, and the k-th of them.
+    int n_before(VisitId visit) const {
+        return has_sizes() ? static_cast<int>(all_before(visit).size()) : before_[visit] != none;
+    }
+    VisitId before(VisitId visit, int k) const {
+        return has_sizes() ? all_before(visit)[static_cast<std::size_t>(k)] : before_[visit];
+    }
+
+    bool has_sizes() const { return incompatible_.is_known(); }
+    // Only where robots have sizes.
+    std::span<const IncompatibleVisit> incompatible(VisitId visit) const {
+        return incompatible_.of(visit);
+    }
 
     // Earliest start [tick]: when the right of way was given during execution, else 0.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
@@ -59,6 +83,7 @@ class ActionDependencyGraph {
   private:
     void number_robots();
     void check() const;
+    void check_rights() const;
 
     std::vector<VisitId> first_visit_;
     std::vector<VertexId> vertex_;
@@ -67,7 +92,10 @@ class ActionDependencyGraph {
     std::vector<Tick> drive_;
     std::vector<VisitId> before_;
     std::vector<Tick> since_;
+    std::vector<std::int32_t> first_right_;
+    std::vector<VisitId> rights_;
     std::vector<RobotId> robot_;
+    IncompatibleVisits incompatible_;
     Tick headway_;
     bool books_ahead_;
 };

@@ -25,6 +25,9 @@ void insertion_sort(std::span<VisitId> visits, Key&& key) {
 }  // namespace
 
 ExecutedConflicts::ExecutedConflicts(const ActionDependencyGraph& plan) : plan_(plan) {
+    if (plan.has_sizes()) {
+        return;
+    }
     const auto gather = [this](auto&& by_place, Groups& groups) {
         for (auto& [place, visits] : by_place) {
             const RobotId robot = plan_.robot(visits.front());
@@ -53,6 +56,9 @@ ExecutedConflicts::ExecutedConflicts(const ActionDependencyGraph& plan) : plan_(
 
 ConflictCount ExecutedConflicts::count(const ActualTimes& times) {
     ConflictCount found;
+    if (plan_.has_sizes()) {
+        count_incompatible(times, found);
+    }
     for (std::size_t group = 0; group + 1 < at_vertex_.first.size(); ++group) {
         count_at_vertex(group, times, found);
     }
@@ -60,6 +66,33 @@ ConflictCount ExecutedConflicts::count(const ActualTimes& times) {
         count_on_edge(group, times, found);
     }
     return found;
+}
+
+// All incompatible visits book ahead: a swap is an overlap of bookings.
+void ExecutedConflicts::count_incompatible(const ActualTimes& times, ConflictCount& found) const {
+    const auto start = [&](VisitId x, VisitId starts) {
+        return starts > plan_.last_of(plan_.robot(x)) ? never : times.start[starts];
+    };
+    const Tick headway = plan_.headway();
+    for (VisitId one = 0; one < plan_.n_visits(); ++one) {
+        for (const IncompatibleVisit& other : plan_.incompatible(one)) {
+            if (other.visit < one) {
+                continue;
+            }
+            const Tick one_start = start(one, other.own_starts(one));
+            const Tick other_start = start(other.visit, other.starts());
+            const Tick one_end = leave(one, times);
+            const Tick other_end = leave(other.visit, times);
+            const Tick begin = std::max(one_start, other_start);
+            if (begin >= never || one_start >= other_end + headway ||
+                other_start >= one_end + headway) {
+                continue;
+            }
+            const Tick first_end = one_start <= other_start ? one_end : other_end;
+            ++(begin < first_end ? found.vertex : found.headway);
+            found.first = std::min(found.first, begin);
+        }
+    }
 }
 
 void ExecutedConflicts::count_at_vertex(std::size_t group, const ActualTimes& times,

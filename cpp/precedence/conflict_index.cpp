@@ -63,12 +63,14 @@ ConflictIndex::Groups<Value>::Groups(const Routes& routes, std::vector<VisitId> 
 ConflictIndex::ConflictIndex(const Routes& routes)
     : routes_(routes),
       bookings_(
-          routes, visits_where(routes, [](VisitId) { return true; }),
+          routes, visits_where(routes, [&](VisitId) { return !routes.has_sizes(); }),
           [&](VisitId x) { return routes.vertex(x); }, [&](VisitId x) { return routes.vertex(x); }),
       enters_(
-          routes, visits_where(routes, [&](VisitId x) { return routes.may_swap(x); }),
+          routes, visits_where(routes,
+                       [&](VisitId x) { return !routes.has_sizes() && routes.may_swap(x); }),
           [&](VisitId x) { return std::pair(routes.vertex(x - 1), routes.vertex(x)); },
-          [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }) {
+          [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }),
+      stays_(routes.has_sizes() ? static_cast<std::size_t>(routes.n_visits()) : 0) {
     for (auto& slot : enters_.slots) {
         slot.value = never;
     }
@@ -84,8 +86,13 @@ ConflictIndex::ConflictIndex(const Routes& routes)
     }
 }
 
+bool ConflictIndex::has(VisitId visit) const {
+    return routes_.has_sizes() ? stays_[visit].start != never
+                               : !bookings_.slots[bookings_.slot_of[visit]].value.is_empty();
+}
+
 Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
-    if (!bookings_.find(visit)->is_empty()) {
+    if (has(visit)) {
         return 0;
     }
     move(visit, timetable);
@@ -94,6 +101,10 @@ Tick ConflictIndex::add(VisitId visit, const Timetable& timetable) {
 
 Tick ConflictIndex::remove(VisitId visit) {
     const Tick removed = weight(visit);
+    if (routes_.has_sizes()) {
+        stays_[visit] = {};
+        return removed;
+    }
     *bookings_.find(visit) = no_booking;
     if (Tick* const enter = enters_.find(visit)) {
         *enter = never;
@@ -105,6 +116,13 @@ void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
     if (!routes_.is_active(routes_.robot(visit))) {
         return;
     }
+    if (routes_.has_sizes()) {
+        const auto [start, end] = booked(visit, routes_, timetable);
+        const Tick edge_start =
+            routes_.is_last(visit) ? never : timetable.leave(visit) - routes_.approach(visit + 1);
+        stays_[visit] = {start, edge_start, end};
+        return;
+    }
     *bookings_.find(visit) = booked(visit, routes_, timetable);
     if (Tick* const enter = enters_.find(visit)) {
         *enter = timetable.enter(visit);
@@ -113,6 +131,17 @@ void ConflictIndex::move(VisitId visit, const Timetable& timetable) {
 
 template <class Use>
 void ConflictIndex::for_each_conflict(VisitId visit, Use&& use) const {
+    if (routes_.has_sizes()) {
+        for (const IncompatibleVisit& other : routes_.incompatible(visit)) {
+            const Booking own = stays_[visit].from(other.own_is_later != 0);
+            const Booking its = stays_[other.visit].from(other.is_later != 0);
+            if (const Tick weight = overlap(own, its); weight > 0) {
+                use(Other{other.visit, routes_.robot(other.visit)}, std::max(own.start, its.start),
+                    weight, ConflictKind::vertex);
+            }
+        }
+        return;
+    }
     const Booking own = bookings_.slots[bookings_.slot_of[visit]].value;
     bookings_.for_each_other(visit, [&](const auto& other) {
         if (const Tick weight = overlap(own, other.value); weight > 0) {

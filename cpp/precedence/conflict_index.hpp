@@ -4,7 +4,8 @@
 // can be half of a swap, grouped by edge. Routes are fixed: the groups are made once, each in one
 // piece of memory; only bookings and enters change. Visits are added and removed one by one, and
 // each call returns the change of the weight of all conflicts. Removing a set of visits and adding
-// the set with new times therefore counts every pair exactly once.
+// the set with new times therefore counts every pair exactly once. Where robots have sizes, the
+// groups are empty, and each visit is compared with the visits that are incompatible with it.
 #pragma once
 
 #include <cstdint>
@@ -84,7 +85,22 @@ class ConflictIndex {
         }
     };
 
-    // Calls use(other visit, its robot, tick, weight, kind) for each conflict of a visit.
+    // What a visit books where robots have sizes: its vertex, and later the edge driven out.
+    struct Stay {
+        Tick start = never;
+        Tick edge_start = never;
+        Tick end = never;
+
+        Booking from(bool is_edge) const { return {is_edge ? edge_start : start, end}; }
+    };
+
+    struct Other {
+        VisitId visit;
+        RobotId robot;
+    };
+
+    bool has(VisitId visit) const;
+    // Calls use(other, tick, weight, kind) for each conflict of a visit.
     template <class Use>
     void for_each_conflict(VisitId visit, Use&& use) const;
     template <class Accept>
@@ -95,6 +111,7 @@ class ConflictIndex {
     const Routes& routes_;
     Groups<Booking> bookings_;
     Groups<Tick> enters_;
+    std::vector<Stay> stays_;  // of each visit, only where robots have sizes
 };
 
 }  // namespace rightofway

@@ -1,5 +1,6 @@
 #include "precedence/precedence_graph.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -47,6 +48,25 @@ std::vector<RightOfWay> PrecedenceGraph::rights_of(RobotId robot) const {
 std::vector<RightOfWay> PrecedenceGraph::critical_rights(RobotId robot) const {
     require_id("robot", robot, n_robots());
     return timetable_.critical_rights(routes_.last_of(robot));
+}
+
+std::vector<VisitId> PrecedenceGraph::incompatible(RobotId robot, RobotId other) const {
+    require_id("i", robot, n_robots());
+    require_id("j", other, n_robots());
+    std::vector<VisitId> found;
+    if (!routes_.has_sizes()) {
+        return found;
+    }
+    for (VisitId x = routes_.first_of(robot); x <= routes_.last_of(robot); ++x) {
+        const auto all = routes_.incompatible(x);
+        auto one = std::lower_bound(
+            all.begin(), all.end(), routes_.first_of(other),
+            [](const IncompatibleVisit& left, VisitId visit) { return left.visit < visit; });
+        for (; one != all.end() && one->visit <= routes_.last_of(other); ++one) {
+            found.insert(found.end(), {x, one->visit, one->own_starts(x), one->starts()});
+        }
+    }
+    return found;
 }
 
 Tick PrecedenceGraph::conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const {
@@ -129,7 +149,7 @@ void PrecedenceGraph::check_pair(VisitId a, VisitId b) const {
     if (routes_.robot(a) == routes_.robot(b)) {
         reject("b", b, "is a visit of the same robot as a, " + std::to_string(a));
     }
-    if (routes_.vertex(a) != routes_.vertex(b)) {
+    if (!routes_.has_sizes() && routes_.vertex(a) != routes_.vertex(b)) {
         reject("b", b,
                "is at vertex " + std::to_string(routes_.vertex(b)) + ", but a, " +
                    std::to_string(a) + ", is at vertex " + std::to_string(routes_.vertex(a)));

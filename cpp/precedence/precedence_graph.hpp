@@ -43,6 +43,10 @@ class PrecedenceGraph {
     // The rights of way on a longest path to a robot's last visit, latest first.
     std::vector<RightOfWay> critical_rights(RobotId robot) const;
 
+    // All incompatible visits of two robots, flat: visit of the robot, visit of the other robot,
+    // and the visits whose starts count (see IncompatibleVisit). Empty where no robot has a size.
+    std::vector<VisitId> incompatible(RobotId robot, RobotId other) const;
+
     // The weight of all conflicts, or of one robot's with robots whose mask is nonzero.
     Tick conflicts() const { return conflicts_; }
     Tick conflicts_of(RobotId robot, std::span<const std::uint8_t> others) const;
@@ -51,7 +55,7 @@ class PrecedenceGraph {
     std::optional<Conflict> next_conflict_between(RobotId robot, RobotId other) const;
 
     // See Timetable. Throws std::invalid_argument unless a and b are visits of two active robots
-    // to the same vertex.
+    // to the same vertex. Where robots have sizes, the visits may be at different vertices.
     bool precede(VisitId a, VisitId b);
     // See Timetable: orders the visits of every vertex at once. A rollback below this change is
     // refused. Throws std::invalid_argument unless there is one number per visit, rising along

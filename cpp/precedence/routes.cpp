@@ -63,6 +63,7 @@ Routes::Routes(const RouteArrays& arrays)
         check_robot(r);
     }
     check_horizon();
+    incompatible_ = IncompatibleVisits(robot_, arrays.rows);
 }
 
 void Routes::number_robots() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "precedence/incompatible_visits.hpp"
 
 namespace rightofway {
 
@@ -21,6 +22,7 @@ struct RouteArrays {
     Tick headway = 0;                // ticks from the leave to the end of the booking
     bool swaps_conflict = true;
     std::span<const std::uint8_t> active;  // r: an inactive robot (0) has no conflicts
+    BookedRows rows = {};                  // where robots have sizes; approaches are then above 0
 };
 
 class Routes {
@@ -43,6 +45,12 @@ class Routes {
     Tick approach(VisitId visit) const { return approach_[visit]; }
     Tick headway() const { return headway_; }
     bool swaps_conflict() const { return swaps_conflict_; }
+
+    bool has_sizes() const { return incompatible_.is_known(); }
+    // Only where robots have sizes.
+    std::span<const IncompatibleVisit> incompatible(VisitId visit) const {
+        return incompatible_.of(visit);
+    }
 
     bool is_first(VisitId visit) const { return visit == first_of(robot(visit)); }
     bool is_last(VisitId visit) const { return visit == last_of(robot(visit)); }
@@ -70,6 +78,7 @@ class Routes {
     std::vector<std::uint8_t> active_;
     std::vector<RobotId> robot_;          // of each visit
     std::vector<Tick> longest_approach_;  // of each robot
+    IncompatibleVisits incompatible_;
 };
 
 }  // namespace rightofway

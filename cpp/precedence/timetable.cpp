@@ -54,7 +54,9 @@ bool Timetable::keep_order(std::span<const Tick> when) {
     raised_.clear();
     cycle_.clear();
     const std::vector<Tick> before = enter_;
-    const bool is_possible = give_in_order(when) && sweep(when);
+    const bool is_possible =
+        (routes_.has_sizes() ? give_incompatible_in_order(when) : give_in_order(when)) &&
+        sweep(when);
     if (!is_possible) {
         enter_ = before;
         rollback(0);
@@ -89,6 +91,53 @@ bool Timetable::give_in_order(std::span<const Tick> when) {
             return false;
         }
         journal_.push_back({rights_.give(a, b), true, trail_.size()});
+    }
+    return true;
+}
+
+// The start of each visit gets, from each other robot, the latest visit that leaves before it, if
+// no earlier start of the same robot has it already.
+bool Timetable::give_incompatible_in_order(std::span<const Tick> when) {
+    const auto leaves = [&](VisitId x) { return routes_.is_last(x) ? never : when[x + 1]; };
+    std::vector<VisitId> latest(static_cast<std::size_t>(routes_.n_robots()), none);
+    std::vector<RobotId> met;
+    std::vector<VisitId> firsts;
+    for (RobotId robot = 0; robot < routes_.n_robots(); ++robot) {
+        for (VisitId b = routes_.first_of(robot); b <= routes_.last_of(robot); ++b) {
+            firsts.clear();
+            for (const VisitId x : {b - 1, b}) {  // the edge driven into b, then its vertex
+                if (x < routes_.first_of(robot) || !routes_.is_active(robot)) {
+                    continue;
+                }
+                for (const IncompatibleVisit& other : routes_.incompatible(x)) {
+                    const VisitId a = other.visit;
+                    if (other.own_starts(x) != b || !routes_.is_active(routes_.robot(a)) ||
+                        leaves(a) > leaves(x)) {
+                        continue;
+                    }
+                    if (routes_.is_last(a) || routes_.is_first(b) || leaves(a) == leaves(x) ||
+                        when[a + 1] >= when[b]) {
+                        return false;
+                    }
+                    firsts.push_back(a);
+                }
+            }
+            std::sort(firsts.rbegin(), firsts.rend());
+            for (const VisitId a : firsts) {
+                VisitId& known = latest[routes_.robot(a)];
+                if (known == none) {
+                    met.push_back(routes_.robot(a));
+                }
+                if (a > known) {
+                    known = a;
+                    journal_.push_back({rights_.give(a, b), true, trail_.size()});
+                }
+            }
+        }
+        for (const RobotId other : met) {
+            latest[other] = none;
+        }
+        met.clear();
     }
     return true;
 }

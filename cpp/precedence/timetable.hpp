@@ -2,7 +2,8 @@
 //
 // Times are longest paths in the precedence graph. Every visit is a node. A route is an arc from
 // each visit to the next visit; "a goes before b" is an arc from the visit after a (its enter is
-// a's leave) to b. Enters are the least solution of enter[q] >= enter[p] + length(p, q).
+// a's leave) to b. Enters are the least solution of enter[q] >= enter[p] + length(p, q). Where
+// robots have sizes, a and b are visits to any vertices: the drive into b starts after a's leave.
 //
 // A new arc raises visits (raise_search.hpp); times change only when the arc is accepted. When an
 // arc is taken back, the visits held by the arc fall to the times that their other arcs allow, in
@@ -39,7 +40,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     bool precede(VisitId a, VisitId b);
 
     // Orders the visits of every vertex by `when` (one number per visit; ties by visit), in one
-    // sweep: each visit gets the right of way over the next visit, if of another robot. Numbers
+    // sweep: each visit gets the right of way over the next visit, if of another robot. Where
+    // robots have sizes, it orders all incompatible visits by the numbers of their leaves. Numbers
     // rise along routes, and no visit waits for a leave with a larger number. Returns false and
     // changes nothing if numbers break these conditions or the order is impossible. Precondition:
     // no rights of way.
@@ -88,6 +90,7 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
 
     bool closes_swap(VisitId a, VisitId b) const;
     bool give_in_order(std::span<const Tick> when);
+    bool give_incompatible_in_order(std::span<const Tick> when);
     bool sweep(std::span<const Tick> when);
     Tick& raise(VisitId visit) { return raise_[visit]; }
     VisitId& cause(VisitId visit) { return cause_[visit]; }

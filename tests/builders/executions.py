@@ -68,7 +68,7 @@ def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> executio
         vertex=adg.vertex.tolist(),
         planned=adg.planned.tolist(),
         nominal_drive=adg.drive.tolist(),
-        before=adg.before.tolist(),
+        before=adg.order.tolist(),
         since=adg.since.tolist(),
         headway=int(adg.scenario.problem.headway),
         books_ahead=adg.scenario.rules.books_ahead,

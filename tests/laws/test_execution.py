@@ -24,7 +24,7 @@ def test_the_kernel_equals_robots_that_look(seed: int, rules: int, chance: int) 
     delays = some_delays(draw, len(plan.tracks), last)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delays)
     since = np.array([draw.choice([0, 0, 0, 12]) for _ in adg.vertex], np.int64)
-    adg = adg.reordered(adg.before, since)
+    adg = adg.reordered(adg.order, since)
     delay_sample = adg.delay_sample(chance, 3)
     slow = oracle_of(adg, delay_sample)
     for clock, run in ((False, execution.by_right_of_way), (True, execution.by_clock)):
@@ -48,12 +48,12 @@ def test_robots_in_a_wrong_order_deadlock_just_where_the_kernel_says(
     firsts = set(adg.first_visit.tolist())
     swappable = [
         visit
-        for visit, other in enumerate(adg.before.tolist())
+        for visit, other in enumerate(adg.order.tolist())
         if other >= 0 and other not in firsts and adg.robot_of(other) != adg.robot_of(visit)
     ]
     if not swappable:
         return
-    before = adg.before.copy()
+    before = adg.order.copy()
     visit = draw.choice(swappable)
     other = int(before[visit])
     after = np.flatnonzero(before == visit)

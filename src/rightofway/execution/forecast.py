@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 
 from rightofway.model import Route, Tick
 from rightofway.planners.task import planning_headway
-from rightofway.precedence import ActionDependencyGraph, DelaySample, Execution, PrecedenceGraph
+from rightofway.precedence import (
+    ActionDependencyGraph,
+    DelaySample,
+    Execution,
+    graph_on,
+    rights_in,
+)
 
 Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
@@ -49,10 +55,10 @@ class Forecast:
         self.booked = execution.start <= now
         self.entered = execution.enter <= now
         self.books_ahead = adg.scenario.rules.books_ahead
-        self.graph = PrecedenceGraph(
+        self.graph = graph_on(
+            adg.scenario,
             [self._route(robot) for robot in range(len(adg.routes))],
             headway=planning_headway(adg.scenario),
-            books_ahead=self.books_ahead,
         )
         self.is_possible = self.graph.give_all(self._rights())
 
@@ -91,12 +97,13 @@ class Forecast:
 
     def _rights(self) -> Iterator[tuple[int, int]]:
         """Yield the unused rights of way, in the order of planned times."""
-        before = self.adg.before
         lengths = np.diff(self.adg.first_visit)
         robot = np.repeat(np.arange(len(lengths)), lengths)
-        unused = np.flatnonzero(~self.booked & (before >= 0) & (robot[before] != robot))
-        unused = unused[np.argsort(self.adg.planned[unused], kind="stable")]
-        yield from zip(before[unused].tolist(), unused.tolist(), strict=True)
+        first, second = rights_in(self.adg.order).T
+        unused = ~self.booked[second] & (robot[first] != robot[second])
+        first, second = first[unused], second[unused]
+        in_order = np.argsort(self.adg.planned[second], kind="stable")
+        yield from zip(first[in_order].tolist(), second[in_order].tolist(), strict=True)
 
     def _route(self, robot: int) -> Route:
         """Return a route with actual durations so far and the expected one of the current visit."""

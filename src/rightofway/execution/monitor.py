@@ -24,7 +24,7 @@ from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task
-from rightofway.precedence import ActionDependencyGraph, RunBatch, order_of
+from rightofway.precedence import ActionDependencyGraph, RunBatch, rights_in
 
 HORIZON = 2
 """Delays later than this multiple of the makespan, planned or actual, are ignored."""
@@ -195,11 +195,11 @@ def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
     mark = forecast.graph.checkpoint()
     task = Task(scenario=adg.scenario)
     LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
-    before = order_of(adg.vertex, forecast.times())
+    order = adg.order_at(forecast.times())
     # A visit that has begun must not wait for one that has not.
-    waits_for = before[booked]
-    is_allowed = booked[waits_for[waits_for >= 0]].all()
-    if np.array_equal(before, adg.before) or not is_allowed:
+    first, second = rights_in(order).T
+    is_allowed = booked[first[booked[second]]].all()
+    if np.array_equal(order, adg.order) or not is_allowed:
         forecast.graph.rollback(mark)
         return None
-    return adg.reordered(before, np.where(booked, adg.since, forecast.now))
+    return adg.reordered(order, np.where(booked, adg.since, forecast.now))

@@ -28,9 +28,10 @@ class Decision:
         When they would have met [ticks].
     kind
         ``vertex`` (both at one vertex), or both in one segment: ``head-on`` (in opposite ways) or
-        ``following`` (the same way).
+        ``following`` (the same way); ``crossing`` for robots with a size whose ways cross.
     vertices
-        The vertex; or the segment, in the order of the robot that goes first.
+        The vertex; or the segment, in the order of the robot that goes first: robots with a size
+        may be in one segment at different vertices.
     robots
         The two robots (i, j), i < j, by index.
     waits
@@ -54,7 +55,7 @@ class Decision:
     """
 
     tick: Tick
-    kind: Literal["vertex", "head-on", "following"]
+    kind: Literal["vertex", "head-on", "following", "crossing"]
     vertices: tuple[VertexId, ...]
     robots: tuple[int, int]
     waits: int

@@ -3,8 +3,9 @@
 A *rule* decides which of two robots waits; this module does the rest. The earliest conflict is
 resolved first. Where no waiting keeps two robots apart, one of them is deferred: it is rerouted
 when all others have their times (`reroute`). Where that fails, or takes more than its share of
-the time, the whole fleet is planned by `lacam`. So a planner made of this is complete whatever its
-rule: given time it finds a plan or proves that none exists.
+the time, the whole fleet is planned by `lacam`. Where robots have a size and one is deferred, the
+whole fleet is planned by `prioritized`. So a planner made of this is complete whatever its rule:
+given time it finds a plan or proves that none exists.
 """
 
 from __future__ import annotations
@@ -20,15 +21,17 @@ import numpy as np
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
 from rightofway.planners.lacam import plan_fleet
+from rightofway.planners.prioritized import fleet_search, plan_in_turn
 from rightofway.planners.routing import shortest_route
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
     Segment,
+    SegmentOfSizes,
     crossing,
     graph_of,
-    shared_segment,
+    graph_on,
 )
 from rightofway.search import Booking, Bookings, Distances, earliest_track
 
@@ -85,11 +88,9 @@ class PartialPlan:
         self.settled = np.zeros(len(routes), np.uint8)
         self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
-        self.graph = graph or PrecedenceGraph(
-            routes,
-            headway=planning_headway(task.scenario),
-            books_ahead=task.scenario.rules.books_ahead,
-            forbid_swaps=sees_swaps,
+        headway = planning_headway(task.scenario)
+        self.graph = graph or graph_on(
+            task.scenario, routes, headway=headway, forbid_swaps=sees_swaps
         )
 
     def resolve_all(self, rule: Rule) -> None:
@@ -104,11 +105,11 @@ class PartialPlan:
             self.decisions += resolution.decisions
             self.settled[list(meeting.robots)] = 1
 
-    def segment_of(self, meeting: Meeting) -> Segment:
-        """Return the vertices that only one of the two robots can be in at a time."""
-        (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
+    def segment_of(self, meeting: Meeting) -> Segment | SegmentOfSizes:
+        """Return the visits of which one robot goes first in all."""
         if self.sees_swaps:
-            return shared_segment(self.routes[i], visit_i, self.routes[j], visit_j)
+            return self.graph.segment(*meeting.visits)
+        (i, visit_i), (_, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
         return crossing(self.routes[i], visit_i, visit_j)
 
     def defer(self, meeting: Meeting) -> None:
@@ -140,14 +141,15 @@ class PartialPlan:
                 break
         return why
 
-    def decide(self, meeting: Meeting, segment: Segment, waits: int, delay: Tick) -> Decision:
+    def decide(
+        self, meeting: Meeting, segment: Segment | SegmentOfSizes, waits: int, delay: Tick
+    ) -> Decision:
         """Record that one of two robots (0: i, 1: j) waits; rules add their reasons."""
         first_visit = segment.i_first if waits == 0 else segment.j_first
-        ahead = segment.vertices
         return Decision(
             tick=meeting.tick,
             kind=segment.kind,
-            vertices=ahead[::-1] if waits == 0 and segment.kind == "head-on" else ahead,
+            vertices=segment.ahead(waits),
             robots=meeting.robots,
             waits=meeting.robots[waits],
             waits_at=self.routes[meeting.robots[waits]].vertices[first_visit - 1],
@@ -162,7 +164,7 @@ Rule = Callable[[PartialPlan, Meeting], Resolution | None]
 
 
 def rights_if_waits(
-    graph: PrecedenceGraph, meeting: Meeting, segment: Segment, waits: int
+    graph: PrecedenceGraph, meeting: Meeting, segment: Segment | SegmentOfSizes, waits: int
 ) -> tuple[Right, ...]:
     """Return the rights of way in a segment if one of two robots (0: i, 1: j) waits."""
     i, j = meeting.robots
@@ -183,6 +185,8 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
 def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
     """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
+    if plan.deferred and task.scenario.problem.resources is not None:
+        return _plan_together(task, next(iter(plan.deferred.values())))
     tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
     rerouted = reroute(task, distances, tracks, list(plan.deferred))
     if rerouted is None:
@@ -210,8 +214,11 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 def _plan_together(task: Task, because: str) -> Draft:
     robots = range(len(task.scenario.robots))
+    has_sizes = task.scenario.problem.resources is not None
+    found = plan_in_turn(task, fleet_search(task), "shortest") if has_sizes else plan_fleet(task)
+    assert found is not None, "robots with a size get a plan, or an error"
     return replace(
-        plan_fleet(task),
+        found,
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )

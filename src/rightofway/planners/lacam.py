@@ -33,7 +33,7 @@ from rightofway.planners.impossible import (
     refuse_the_impossible,
 )
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
-from rightofway.precedence import PrecedenceGraph
+from rightofway.precedence import graph_on
 from rightofway.search import Distances, plan_by_lacam, untimed_lacam
 
 SHARE_OF_TIME = 0.9
@@ -110,8 +110,6 @@ def timetable_in_order(
         route_through(scenario.roadmap, itinerary, vertices)
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
-    graph = PrecedenceGraph(
-        routes, headway=planning_headway(scenario), books_ahead=scenario.rules.books_ahead
-    )
+    graph = graph_on(scenario, routes, headway=planning_headway(scenario))
     graph.keep_order(arrivals)
     return graph.tracks()

@@ -30,7 +30,7 @@ from rightofway.model import Improvement, Tick
 from rightofway.planners.conflict_resolution import rights_if_waits
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.planners.two_level import two_level
-from rightofway.precedence import Meeting, PrecedenceGraph, graph_of, shared_segment
+from rightofway.precedence import Meeting, PrecedenceGraph, graph_of
 
 MOST_FAVOURS = 3
 """How many robots are favoured or disfavoured in a round, at most."""
@@ -147,8 +147,8 @@ class LocalSearch:
     def reverse(self, first: int, second: int) -> bool:
         """Flip a right of way and all others between the two robots in the segment around it."""
         graph = self.graph
-        (i, visit_i), (j, visit_j) = graph.place(first), graph.place(second)
-        segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
+        (i, _), (j, _) = graph.place(first), graph.place(second)
+        segment = graph.segment_of_right(first, second)
         if not graph.take_back(first, second):
             return False  # a flip before has taken it back already
         for a, b in segment.meetings():
@@ -175,8 +175,7 @@ class LocalSearch:
     def resolve_one(self, meeting: Meeting, preference: _Preference | None) -> bool:
         """Let one of two robots wait, by preference or by what it costs; false if neither can."""
         graph, mark = self.graph, self.graph.checkpoint()
-        (i, visit_i), (j, visit_j) = (graph.place(visit) for visit in meeting.visits)
-        segment = shared_segment(graph.routes[i], visit_i, graph.routes[j], visit_j)
+        segment = graph.segment(*meeting.visits)
         choices = []
         for waits in (0, 1):
             against = preference is not None and preference.robot in meeting.robots

@@ -88,6 +88,7 @@ PLANNERS = (
         "rightofway.planners.two_level:two_level",
         "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "paper",
@@ -107,24 +108,28 @@ PLANNERS = (
         "Two-level, then changes of rights of way on critical paths until no change improves.",
         options.LocalSearchOptions,
         improves=True,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "fixed-priority",
         "rightofway.planners.priorities:fixed_priority",
         "Right of way in the order of the scenario: the first robot goes first.",
         options.PriorityOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "random-priority",
         "rightofway.planners.priorities:random_priority",
         "Right of way by random orders of the robots; the best plan is kept.",
         options.RandomPriorityOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "priority-search",
         "rightofway.planners.priorities:priority_search",
         "Right of way by an order of the robots that hill climbing improves.",
         options.PrioritySearchOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "prioritized",

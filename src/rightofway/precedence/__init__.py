@@ -8,9 +8,16 @@ from rightofway.precedence.adg import (
     RunBatch,
     Stoppage,
     order_of,
+    rights_in,
 )
-from rightofway.precedence.graph import Meeting, PrecedenceGraph, graph_of
-from rightofway.precedence.segments import Segment, crossing, shared_segment
+from rightofway.precedence.graph import (
+    BookedRows,
+    Meeting,
+    PrecedenceGraph,
+    graph_of,
+    graph_on,
+)
+from rightofway.precedence.segments import Segment, SegmentOfSizes, crossing, shared_segment
 from rightofway.precedence.sensitivity import (
     Sensitivity,
     critical_circuit_without,
@@ -28,6 +35,7 @@ from rightofway.precedence.timed_event_graph import (
 __all__ = [
     "ActionDependencyGraph",
     "Arcs",
+    "BookedRows",
     "Circuit",
     "CyclicSchedule",
     "DelayModel",
@@ -37,13 +45,16 @@ __all__ = [
     "PrecedenceGraph",
     "RunBatch",
     "Segment",
+    "SegmentOfSizes",
     "Sensitivity",
     "Stoppage",
     "TimedEventGraph",
     "critical_circuit_without",
     "crossing",
     "graph_of",
+    "graph_on",
     "order_of",
+    "rights_in",
     "sensitivity",
     "shared_segment",
     "tight_arcs",

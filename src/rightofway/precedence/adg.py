@@ -1,7 +1,8 @@
 """Action dependency graph: the routes of a plan and its order of visits at each vertex, no clock.
 
 A robot enters a vertex when the visit directly before has left it, however late that is. The visits
-of a rotation wait for each other and begin at one instant: one joint event.
+of a rotation wait for each other and begin at one instant: one joint event. A robot with a size
+starts to drive into a vertex when all visits before that are incompatible have ended.
 
 References
 ----------
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.model.resources import refuse_sizes
+from rightofway.precedence.graph import BookedRows, Pairs, graph_on
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -156,9 +157,10 @@ class ActionDependencyGraph:
         The delays to draw from.
     routes
         The routes of the tracks, if known already.
-    before
-        For each visit the one directly before it at its vertex, -1 for none; int32[N]. Without, the
-        order of the plan.
+    order
+        For each visit the one directly before it at its vertex, -1 for none; int32[N]. Where robots
+        have a size, all pairs (first, second): the second starts when the first has ended;
+        int32[M, 2], sorted by the second. Without, the order of the plan.
     since
         When each visit was given its right of way; it begins no sooner [ticks]; int64[N]. Without,
         tick 0.
@@ -167,7 +169,7 @@ class ActionDependencyGraph:
     ----------
     routes
         Vertices, least dwells and drives of each robot.
-    first_visit, vertex, planned, dwell, drive, before, since
+    first_visit, vertex, planned, dwell, drive, order, since
         Arrays over visits, robot after robot: index of each robot's first visit (int32[R + 1]),
         vertex (int32[N]), planned enter, least dwell and drive into it (int64[N], ticks), and the
         two above.
@@ -180,10 +182,9 @@ class ActionDependencyGraph:
         delay_model: DelayModel,
         *,
         routes: Sequence[Route] | None = None,
-        before: NDArray[np.int32] | None = None,
+        order: NDArray[np.int32] | None = None,
         since: NDArray[np.int64] | None = None,
     ) -> None:
-        refuse_sizes(scenario.problem.resources, "execution", "simulate a fleet of points")
         itineraries = scenario.problem.itineraries
         self.scenario, self.delay_model = scenario, delay_model
         self.routes = tuple(
@@ -196,7 +197,7 @@ class ActionDependencyGraph:
         self.first_visit = np.array([0, *accumulate(map(len, tracks))], np.int32)
         self.vertex = np.concatenate([track.vertices for track in tracks])
         self.planned = np.concatenate([track.enter for track in tracks])
-        self.before = order_of(self.vertex, self.planned) if before is None else before
+        self.order = self.order_at(self.planned) if order is None else order
         self.since = np.zeros(len(self.vertex), np.int64) if since is None else since
         self.dwell = np.array([ticks for route in self.routes for ticks in route.dwell], np.int64)
         self.drive = np.array([ticks for route in self.routes for ticks in route.drive], np.int64)
@@ -206,7 +207,7 @@ class ActionDependencyGraph:
             self.planned,
             self.dwell,
             self.drive,
-            self.before,
+            self._before(),
             self.since,
             int(scenario.problem.headway),
             scenario.rules.books_ahead,
@@ -217,18 +218,40 @@ class ActionDependencyGraph:
             np.array([0, *accumulate(map(len, delay_model.stoppages))], np.int32),
             np.array([one.tick for one in chain(*delay_model.stoppages)], np.int64),
             np.array([one.ticks for one in chain(*delay_model.stoppages)], np.int64),
+            *self._rows_and_rights(),
         )
 
+    def order_at(self, when: NDArray[np.int64]) -> NDArray[np.int32]:
+        """Return the order of visits, as above, that take place at some times; int64[N]."""
+        if self.scenario.problem.resources is None:
+            return order_of(self.vertex, when)
+        graph = graph_on(self.scenario, self.routes)
+        graph.keep_order(np.split(when, self.first_visit[1:-1]))
+        rights = graph.rights()
+        return rights[np.lexsort((rights[:, 0], rights[:, 1]))]
+
+    def _before(self) -> NDArray[np.int32]:
+        return self.order if self.order.ndim == 1 else np.full(len(self.vertex), -1, np.int32)
+
+    def _rows_and_rights(self) -> tuple[NDArray[np.int32], ...]:
+        """Return what the kernel takes where robots have a size."""
+        rows = BookedRows.of(self.scenario, [route.vertices for route in self.routes])
+        if rows is None:
+            return ()
+        first, second = (column.copy() for column in self.order.T)
+        begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
+        return begins, first, *rows.arrays()
+
     def reordered(
-        self, before: NDArray[np.int32], since: NDArray[np.int64] | None = None
+        self, order: NDArray[np.int32], since: NDArray[np.int64] | None = None
     ) -> ActionDependencyGraph:
-        """Return the same routes with another order of visits; `before` and `since` as above."""
+        """Return the same routes with another order of visits; `order` and `since` as above."""
         return ActionDependencyGraph(
             self.scenario,
             self.tracks_at(self.planned),
             self.delay_model,
             routes=self.routes,
-            before=before,
+            order=order,
             since=self.since if since is None else since,
         )
 
@@ -282,3 +305,17 @@ def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> NDArray[np.i
     follows = vertex[order[1:]] == vertex[order[:-1]]
     before[order[1:][follows]] = order[:-1][follows]
     return before
+
+
+def rights_in(order: NDArray[np.int32]) -> Pairs:
+    """Return an order of visits as pairs (first, second); int32[M, 2], sorted by the second.
+
+    Parameters
+    ----------
+    order
+        As `ActionDependencyGraph` takes it.
+    """
+    if order.ndim > 1:
+        return order
+    second = np.flatnonzero(order >= 0).astype(np.int32)
+    return np.column_stack((order[second], second))

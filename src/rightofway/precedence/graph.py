@@ -4,11 +4,16 @@ Every visit is a node, its enter the time. An arc leads from a visit to the next
 as long as the visit lasts at least. A *right of way* at a vertex is one more arc: the visit that
 goes second enters no earlier than the first one has left (and the headway is over). The timetable
 is the longest path to each node; a cycle of positive length is a deadlock and is refused.
+
+Robots with a size have rights of way between visits of different vertices: the drive into the
+second visit starts no earlier than the first visit has ended. A visit books its vertex and, during
+the drive out of it, an edge; where only that edge is too near to the other robot, the second visit
+of the right of way is the one that the edge leads to.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import Literal
@@ -17,11 +22,70 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Route, Scenario, Tick, Track, VertexId, route_of
-from rightofway.model.resources import refuse_sizes
+from rightofway.model import Resources, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.precedence.segments import (
+    IncompatiblePair,
+    Segment,
+    SegmentOfSizes,
+    segments_of_sizes,
+    shared_segment,
+)
 
 Visit = int
 """A visit's number in the graph: the robots' routes one behind the other."""
+
+Pairs = NDArray[np.int32]
+"""Pairs of visits; int32, shape (n, 2)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BookedRows:
+    """What the visits of robots with a size book.
+
+    Attributes
+    ----------
+    vertex, edge
+        The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
+        shape (N,).
+    resources
+        Which rows exclude each other.
+    """
+
+    vertex: NDArray[np.int32]
+    edge: NDArray[np.int32]
+    resources: Resources
+
+    @classmethod
+    def of(
+        cls, scenario: Scenario, vertices: Sequence[Sequence[int] | NDArray[np.int32]]
+    ) -> BookedRows | None:
+        """Return the rows of visits, or None where no robot has a size.
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        vertices
+            The vertices that each robot visits.
+        """
+        resources = scenario.problem.resources
+        if resources is None:
+            return None
+        at_vertex, along_edge = [], []
+        for robot, route in enumerate(vertices):
+            visited = np.asarray(route, np.int32)
+            edges = scenario.roadmap.edges(visited[:-1], visited[1:])
+            at_vertex.append(resources.vertex_row(robot, 0) + visited)
+            along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
+        return cls(
+            vertex=np.concatenate(at_vertex, dtype=np.int32),
+            edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
+            resources=resources,
+        )
+
+    def arrays(self) -> tuple[NDArray[np.int32], ...]:
+        """Return the arrays as kernels take them: the rows, and the lists of excluded rows."""
+        return self.vertex, self.edge, self.resources.first, self.resources.excluded
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +102,8 @@ class Meeting:
         The two robots (i, j), i < j.
     visits
         Their visits to one vertex: in a vertex conflict the overlapping ones; in a swap, i's visit
-        to the vertex that it enters and j's to the same vertex, which it leaves.
+        to the vertex that it enters and j's to the same vertex, which it leaves. Robots with a size
+        may be at different vertices, or on the edges driven out of them.
     """
 
     tick: Tick
@@ -62,6 +127,8 @@ class PrecedenceGraph:
         Whether a swap counts as a conflict (the published method does not see them).
     frozen
         Visits that no right of way may delay: `give_way` refuses it.
+    rows
+        What the visits book, where robots have a size.
     """
 
     def __init__(
@@ -72,8 +139,11 @@ class PrecedenceGraph:
         books_ahead: bool,
         forbid_swaps: bool = True,
         frozen: Iterable[Visit] = (),
+        rows: BookedRows | None = None,
     ) -> None:
         self.routes = tuple(routes)
+        self._has_sizes = rows is not None
+        self._segments: dict[tuple[int, int], Mapping[tuple[int, int], SegmentOfSizes]] = {}
         self._frozen = frozenset(frozen)
         self._delays_frozen = False
         lengths = [len(route) for route in routes]
@@ -90,6 +160,7 @@ class PrecedenceGraph:
             int(headway),
             forbid_swaps,
             np.ones(len(routes), np.uint8),
+            *(() if rows is None else rows.arrays()),
         )
 
     def visit(self, robot: int, index: int) -> Visit:
@@ -108,6 +179,9 @@ class PrecedenceGraph:
 
     def give_way(self, first: Visit, second: Visit) -> bool:
         """Let ``first`` have the right of way over ``second``, a visit to the same vertex.
+
+        Robots with a size may be at different vertices: the drive into ``second`` starts when
+        ``first`` has ended.
 
         False, with nothing changed, if that is impossible: ``first`` never leaves, ``second`` is
         there from the start or frozen, or both would deadlock with what is decided already.
@@ -153,8 +227,10 @@ class PrecedenceGraph:
     def _refused_cycle(self) -> list[Visit]:
         return [] if self._delays_frozen else self._kernel.cycle().tolist()
 
-    def keep_order(self, when: Sequence[Sequence[int]]) -> None:
+    def keep_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> None:
         """Give the right of way at every vertex in an order in which all visits can take place.
+
+        Robots with a size: between all incompatible visits.
 
         Parameters
         ----------
@@ -168,6 +244,39 @@ class PrecedenceGraph:
     def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) of which one is a visit of the robot."""
         return [(first, second) for first, second in self._kernel.rights_of(robot).tolist()]
+
+    def rights(self) -> Pairs:
+        """Return all (first, second) in the order they were given."""
+        return self._kernel.rights_of_way()
+
+    def segment(self, visit: Visit, other: Visit) -> Segment | SegmentOfSizes:
+        """Return the segment around two visits that are in conflict if both are at one time."""
+        (i, index_i), (j, index_j) = self.place(visit), self.place(other)
+        if self._has_sizes:
+            return self._segments_of(i, j)[index_i, index_j]
+        return shared_segment(self.routes[i], index_i, self.routes[j], index_j)
+
+    def segment_of_right(self, first: Visit, second: Visit) -> Segment | SegmentOfSizes:
+        """Return the segment for which a right of way holds."""
+        if not self._has_sizes:
+            return self.segment(first, second)
+        (i, index_i), (j, starts) = self.place(first), self.place(second)
+        segments = self._segments_of(i, j)
+        return next(
+            segment
+            for index_j in (starts, starts - 1)
+            if (segment := segments.get((index_i, index_j))) is not None
+            and (index_i, starts) in segment.meetings()
+        )
+
+    def _segments_of(self, i: int, j: int) -> Mapping[tuple[int, int], SegmentOfSizes]:
+        """Return the segments of two robots by the indices of the visits in them."""
+        if (i, j) not in self._segments:
+            begin_i, begin_j = self.visit(i, 0), self.visit(j, 0)
+            indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
+            pairs = [IncompatiblePair(*pair) for pair in indices.tolist()]
+            self._segments[i, j] = segments_of_sizes(self.routes[i], self.routes[j], pairs)
+        return self._segments[i, j]
 
     def checkpoint(self) -> int:
         """Return a mark to roll back to."""
@@ -235,6 +344,35 @@ class PrecedenceGraph:
         ]
 
 
+def graph_on(
+    scenario: Scenario,
+    routes: Sequence[Route],
+    *,
+    headway: Tick | None = None,
+    forbid_swaps: bool = True,
+) -> PrecedenceGraph:
+    """Return the precedence graph of some routes, without a right of way.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    routes
+        One for each robot.
+    headway
+        A longer one than the scenario asks for [ticks].
+    forbid_swaps
+        Whether a swap counts as a conflict.
+    """
+    return PrecedenceGraph(
+        routes,
+        headway=scenario.problem.headway if headway is None else headway,
+        books_ahead=scenario.rules.books_ahead,
+        forbid_swaps=forbid_swaps,
+        rows=BookedRows.of(scenario, [route.vertices for route in routes]),
+    )
+
+
 def graph_of(
     scenario: Scenario, tracks: Sequence[Track], *, headway: Tick | None = None
 ) -> PrecedenceGraph:
@@ -253,15 +391,11 @@ def graph_of(
     -----
     With the headway of the scenario, no robot is later in the timetable than in the plan.
     """
-    refuse_sizes(scenario.problem.resources, "the precedence graph", "plan with prioritized")
     itineraries = scenario.problem.itineraries
-    graph = PrecedenceGraph(
-        [
-            route_of(scenario.roadmap, itinerary, track)
-            for itinerary, track in zip(itineraries, tracks, strict=True)
-        ],
-        headway=scenario.problem.headway if headway is None else headway,
-        books_ahead=scenario.rules.books_ahead,
-    )
+    routes = [
+        route_of(scenario.roadmap, itinerary, track)
+        for itinerary, track in zip(itineraries, tracks, strict=True)
+    ]
+    graph = graph_on(scenario, routes, headway=headway)
     graph.keep_order([track.enter.tolist() for track in tracks])
     return graph

@@ -17,8 +17,8 @@ class DecisionDocument(Document):
     """Who got the right of way where two robots would have met, and why."""
 
     tick: Ticks = Field(description="when they would have met, a whole number of ticks")
-    kind: Literal["vertex", "head-on", "following"] = Field(
-        description="vertex, head-on, or following"
+    kind: Literal["vertex", "head-on", "following", "crossing"] = Field(
+        description="vertex, head-on, following, or crossing"
     )
     vertices: list[Name] = Field(description="the names of the vertex, or of the segment in order")
     robots: PairOfNames = Field(description="the names of the two robots")

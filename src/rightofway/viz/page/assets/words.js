@@ -191,6 +191,7 @@ class Words {
     switch (decision.kind) {
       case "head-on": return `${i} and ${j} would have met head-on on the way from ${place}.`;
       case "following": return `${i} and ${j} go the same way from ${place} and cannot overtake.`;
+      case "crossing": return `${i} and ${j} would have come too near to each other: ${this.robot(this.first(decision))} drives from ${place}.`;
       default: return `${i} and ${j} would both have been in ${place}.`;
     }
   }

@@ -1,0 +1,84 @@
+#include "precedence/incompatible_visits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+// 2^28 pairs take 2 GB.
+constexpr std::size_t most_pairs = std::size_t{1} << 28;
+
+struct BookedBy {
+    VisitId visit;
+    std::uint8_t is_edge;
+};
+
+}  // namespace
+
+IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const BookedRows& rows) {
+    if (rows.first.empty()) {
+        return;
+    }
+    const auto n_visits = static_cast<VisitId>(robot.size());
+    const auto n_rows = static_cast<std::int32_t>(rows.first.size()) - 1;
+    require_length("vertex_row", rows.vertex.size(), robot.size());
+    require_length("edge_row", rows.edge.size(), robot.size());
+    for (VisitId x = 0; x < n_visits; ++x) {
+        require_id("vertex_row", rows.vertex[x], n_rows);
+        if (rows.edge[x] != none) {
+            require_id("edge_row", rows.edge[x], n_rows);
+        }
+    }
+    std::vector<std::vector<BookedBy>> booked(static_cast<std::size_t>(n_rows));
+    const auto rows_of = [&](VisitId x) { return std::array{rows.vertex[x], rows.edge[x]}; };
+    for (VisitId x = 0; x < n_visits; ++x) {
+        for (std::uint8_t is_edge = 0; is_edge < 2; ++is_edge) {
+            if (rows_of(x)[is_edge] != none) {
+                booked[rows_of(x)[is_edge]].push_back({x, is_edge});
+            }
+        }
+    }
+    first_.reserve(robot.size() + 1);
+    first_.push_back(0);
+    std::vector<IncompatibleVisit> found;
+    for (VisitId x = 0; x < n_visits; ++x) {
+        found.clear();
+        for (std::uint8_t is_edge = 0; is_edge < 2; ++is_edge) {
+            const std::int32_t row = rows_of(x)[is_edge];
+            if (row == none) {
+                continue;
+            }
+            for (std::int32_t k = rows.first[row]; k < rows.first[row + 1]; ++k) {
+                for (const BookedBy& other : booked[rows.excluded[k]]) {
+                    if (robot[other.visit] != robot[x]) {
+                        found.push_back({other.visit, other.is_edge, is_edge});
+                    }
+                }
+            }
+        }
+        std::sort(found.begin(), found.end(),
+                  [](const auto& left, const auto& right) { return left.visit < right.visit; });
+        for (const IncompatibleVisit& one : found) {
+            if (others_.size() > first_.back() && others_.back().visit == one.visit) {
+                others_.back().is_later &= one.is_later;
+                others_.back().own_is_later &= one.own_is_later;
+            } else {
+                others_.push_back(one);
+            }
+        }
+        first_.push_back(others_.size());
+        if (others_.size() > most_pairs) {
+            throw std::overflow_error("robots: more than " + std::to_string(most_pairs) +
+                                      " pairs of their visits are too near to each other (plan "
+                                      "fewer laps or fewer robots at once)");
+        }
+    }
+}
+
+}  // namespace rightofway
