@@ -41,13 +41,7 @@ delay_a, delay_b : float64[D]
 first_stoppage : int32[R + 1]
     Robot ``r`` has the stoppages ``first_stoppage[r] .. first_stoppage[r + 1] - 1``.
 stoppage_tick, stoppage_ticks : int64[S]
-    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.
-first_nearby, nearby : int32[N + 1], int32[n]
-    Visits at other vertices that each visit waits for, in compressed rows; empty where robots are
-    points.
-exclusive : int32[3 P]
-    Two visits of different robots at different vertices, and which of their bookings exclude each
-    other; see `rightofway.precedence.exclusions`.)";
+    When each stoppage of every run begins, rising, and how long it lasts; ``NEVER`` for ever.)";
 
 constexpr auto runs_doc = R"(Run the plan many times by right of way, and by the clock.
 
@@ -203,8 +197,7 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           bool books_ahead, const ArrayIn<double>& pace, const ArrayIn<std::int32_t>& delay_kind,
           const ArrayIn<double>& delay_a, const ArrayIn<double>& delay_b,
           const ArrayIn<std::int32_t>& first_stoppage, const ArrayIn<Tick>& stoppage_tick,
-          const ArrayIn<Tick>& stoppage_ticks, const ArrayIn<std::int32_t>& first_nearby,
-          const ArrayIn<VisitId>& nearby, const ArrayIn<std::int32_t>& exclusive) {
+          const ArrayIn<Tick>& stoppage_ticks) {
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
     std::vector<Delay> delays;
@@ -214,11 +207,10 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
             {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
     }
     const auto first = view(first_stoppage);
-    new (self) BoundAdg(
-        {view(first_visit), view(vertex), view(planned), view(dwell), view(drive), view(before),
-         headway, books_ahead, view(since), view(first_nearby), view(nearby), view(exclusive)},
-        view(pace), std::move(delays), {first.begin(), first.end()},
-        stoppages_of(stoppage_tick, stoppage_ticks));
+    new (self) BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
+                         view(before), headway, books_ahead, view(since)},
+                        view(pace), std::move(delays), {first.begin(), first.end()},
+                        stoppages_of(stoppage_tick, stoppage_ticks));
 }
 
 }  // namespace
@@ -229,7 +221,7 @@ void bind_adg(nb::module_& module) {
              array("dwell"), array("drive"), array("before"), array("since"), nb::arg("headway"),
              nb::arg("books_ahead"), array("pace"), array("delay_kind"), array("delay_a"),
              array("delay_b"), array("first_stoppage"), array("stoppage_tick"),
-             array("stoppage_ticks"), array("first_nearby"), array("nearby"), array("exclusive"))
+             array("stoppage_ticks"))
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)

@@ -27,9 +27,6 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
       dwell_(arrays.dwell.begin(), arrays.dwell.end()),
       drive_(arrays.drive.begin(), arrays.drive.end()),
       before_(arrays.before.begin(), arrays.before.end()),
-      first_nearby_(arrays.first_nearby.begin(), arrays.first_nearby.end()),
-      nearby_(arrays.nearby.begin(), arrays.nearby.end()),
-      exclusive_(arrays.exclusive.begin(), arrays.exclusive.end()),
       since_(arrays.since.begin(), arrays.since.end()),
       headway_(arrays.headway),
       books_ahead_(arrays.books_ahead) {
@@ -68,17 +65,6 @@ void ActionDependencyGraph::check() const {
     check_ticks("since", since_, never);
     if (headway_ < 0 || headway_ >= longest) {
         reject("headway", headway_, "is not in 0.." + std::to_string(longest - 1));
-    }
-    if (!first_nearby_.empty()) {
-        require_length("first_nearby", first_nearby_.size(), vertex_.size() + 1);
-        require_length("nearby", nearby_.size(), static_cast<std::size_t>(first_nearby_.back()));
-    }
-    for (std::size_t k = 0; k < nearby_.size(); ++k) {
-        require_id("nearby[" + std::to_string(k) + "]", nearby_[k], n_visits());
-    }
-    for (std::size_t k = 0; k + 2 < exclusive_.size(); k += 3) {
-        require_id("exclusive[" + std::to_string(k) + "]", exclusive_[k], n_visits());
-        require_id("exclusive[" + std::to_string(k + 1) + "]", exclusive_[k + 1], n_visits());
     }
     for (VisitId x = 0; x < n_visits(); ++x) {
         const VisitId other = before_[x];

@@ -1,11 +1,10 @@
 // The action dependency graph (ADG) of a plan: visits with least durations, and for each visit the
-// previous visit to its vertex; where robots have sizes, also visits at other vertices.
+// previous visit to its vertex.
 //
 // W. Hoenig et al., Persistent and robust execution of MAPF schedules in warehouses, IEEE Robotics
 // and Automation Letters 4, 2019.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,17 +23,7 @@ struct AdgArrays {
     Tick headway = 0;
     bool books_ahead = false;
     std::span<const Tick> since = {};  // n: earliest start of each visit; or empty
-    // Where robots have sizes: visits at other vertices that each visit waits for, in compressed
-    // rows; n + 1 and m. Or empty.
-    std::span<const std::int32_t> first_nearby = {};
-    std::span<const VisitId> nearby = {};
-    // Pairs of visits of different robots that must not overlap, not of one vertex: the two visits
-    // and the bookings that exclude each other, as bits of `Parts`; 3 p.
-    std::span<const std::int32_t> exclusive = {};
 };
-
-// A visit books its vertex, and the edge into it while it is driven along.
-enum Parts : std::int32_t { vertices = 1, vertex_edge = 2, edge_vertex = 4, edges = 8 };
 
 class ActionDependencyGraph {
   public:
@@ -60,22 +49,6 @@ class ActionDependencyGraph {
     // visit, which never ends, `visit` cannot take place.
     VisitId before(VisitId visit) const { return before_[visit]; }
 
-    // Visits at other vertices that have to be left before `visit`; empty where robots are points.
-    std::span<const VisitId> nearby(VisitId visit) const {
-        if (first_nearby_.empty()) {
-            return {};
-        }
-        return {nearby_.data() + first_nearby_[visit], nearby_.data() + first_nearby_[visit + 1]};
-    }
-    // True if `accept` is true of each visit that has to be left before `visit`.
-    template <class Accept>
-    bool all_before(VisitId visit, Accept&& accept) const {
-        const auto others = nearby(visit);
-        return (before(visit) == none || accept(before(visit))) &&
-               std::all_of(others.begin(), others.end(), accept);
-    }
-    std::span<const std::int32_t> exclusive() const { return exclusive_; }
-
     // Earliest start [tick]: when the right of way was given during execution, else 0.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
 
@@ -93,9 +66,6 @@ class ActionDependencyGraph {
     std::vector<Tick> dwell_;
     std::vector<Tick> drive_;
     std::vector<VisitId> before_;
-    std::vector<std::int32_t> first_nearby_;
-    std::vector<VisitId> nearby_;
-    std::vector<std::int32_t> exclusive_;
     std::vector<Tick> since_;
     std::vector<RobotId> robot_;
     Tick headway_;

@@ -59,37 +59,7 @@ ConflictCount ExecutedConflicts::count(const ActualTimes& times) {
     for (std::size_t group = 0; group + 1 < on_edge_.first.size(); ++group) {
         count_on_edge(group, times, found);
     }
-    count_nearby(times, found);
     return found;
-}
-
-// Each pair of visits counts once, whichever of its bookings overlap.
-void ExecutedConflicts::count_nearby(const ActualTimes& times, ConflictCount& found) const {
-    const auto pairs = plan_.exclusive();
-    for (std::size_t k = 0; k + 2 < pairs.size(); k += 3) {
-        const VisitId one = pairs[k];
-        const VisitId other = pairs[k + 1];
-        const Tick start = std::max(times.start[one], times.start[other]);
-        if (start >= never) {
-            continue;
-        }
-        Tick left = -1;  // the latest end of a pair of bookings that overlap, without the headway
-        const auto look = [&](Parts parts, Tick end, Tick other_end) {
-            if ((pairs[k + 2] & parts) != 0) {
-                left = std::max(left, std::min(end, other_end));
-            }
-        };
-        const Tick leaves = leave(one, times);
-        const Tick other_leaves = leave(other, times);
-        look(Parts::vertices, leaves, other_leaves);
-        look(Parts::vertex_edge, leaves, times.enter[other]);
-        look(Parts::edge_vertex, times.enter[one], other_leaves);
-        look(Parts::edges, times.enter[one], times.enter[other]);
-        if (start < left + plan_.headway()) {
-            ++(start < left ? found.vertex : found.headway);
-            found.first = std::min(found.first, start);
-        }
-    }
 }
 
 void ExecutedConflicts::count_at_vertex(std::size_t group, const ActualTimes& times,

@@ -2,9 +2,7 @@
 //
 // A visit books its vertex from its start to its leave, plus the headway. Conflicts are overlapping
 // bookings of one vertex by two robots, and swaps: two robots exchange vertices at one instant.
-// Where robots have sizes, overlapping bookings of vertices and edges that exclude each other
-// count, too. (ConflictIndex updates weights for one plan; this class counts all pairs of many
-// runs, by kind.)
+// (ConflictIndex updates weights for one plan; this class counts all pairs of many runs, by kind.)
 #pragma once
 
 #include <cstdint>
@@ -30,7 +28,6 @@ class ExecutedConflicts {
 
   private:
     void count_at_vertex(std::size_t group, const ActualTimes& times, ConflictCount& found);
-    void count_nearby(const ActualTimes& times, ConflictCount& found) const;
     void count_on_edge(std::size_t group, const ActualTimes& times, ConflictCount& found);
     Tick leave(VisitId visit, const ActualTimes& times) const {
         return plan_.is_last(visit) ? never : times.enter[visit + 1];

@@ -87,7 +87,7 @@ ExecutionTimetable::ExecutionTimetable(const ActionDependencyGraph& plan)
 void ExecutionTimetable::order_events() {
     struct Open {
         VisitId visit;
-        std::size_t next;  // wait to follow: 0: own robot, from 1 on: other robots
+        int next;  // wait to follow: 0: own robot, 1: another robot
     };
     const auto n_visits = static_cast<std::size_t>(plan_.n_visits());
     std::vector<std::int32_t> number(n_visits, -1);
@@ -96,11 +96,11 @@ void ExecutionTimetable::order_events() {
     std::vector<VisitId> component;
     std::vector<Open> path;
     std::int32_t count = 0;
-    const auto waits_for = [this](VisitId x, std::size_t which) {
+    const auto waits_for = [this](VisitId x, int which) {
         if (which == 0) {
             return plan_.is_first(x) ? none : x - 1;
         }
-        const VisitId other = which == 1 ? plan_.before(x) : plan_.nearby(x)[which - 2];
+        const VisitId other = plan_.before(x);
         return other == none || plan_.is_last(other) ? none : other + 1;
     };
     const auto begin = [&](VisitId x) {
@@ -115,7 +115,7 @@ void ExecutionTimetable::order_events() {
         }
         while (!path.empty()) {
             const VisitId x = path.back().visit;
-            if (path.back().next < 2 + plan_.nearby(x).size()) {
+            if (path.back().next < 2) {
                 const VisitId other = waits_for(x, path.back().next++);
                 if (other != none && number[other] < 0) {
                     begin(other);
@@ -158,11 +158,14 @@ bool ExecutionTimetable::is_possible(std::span<const VisitId> group) const {
         if (plan_.is_first(x)) {
             return true;
         }
+        const VisitId other = plan_.before(x);
+        const bool waits_for_a_last = other != none && plan_.is_last(other);
+        const bool waits_for_itself = other != none && other + 1 == x;
+        const bool waits_in_vain = !can_take_place(x - 1) || (other != none && !waits_for_a_last &&
+                                                              !can_take_place(other + 1));
         const bool has_length =
             is_joint && (plan_.headway() > 0 || plan_.books_ahead() || is_inside(x - 1));
-        return can_take_place(x - 1) && !has_length && plan_.all_before(x, [&](VisitId other) {
-            return !plan_.is_last(other) && other + 1 != x && can_take_place(other + 1);
-        });
+        return !waits_for_a_last && !waits_for_itself && !waits_in_vain && !has_length;
     });
 }
 
@@ -192,15 +195,8 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
     const Tick drive_before = plan_.books_ahead() ? 0 : sample.drive[x];
     const Tick drive_after = sample.drive[x] - drive_before;
     const Tick ready = stoppages.busy_until(sum(from, sample.dwell[x - 1] + drive_before));
-    VisitId other = plan_.before(x);
-    Tick free = other == none ? 0 : sum(times.enter[other + 1], plan_.headway());
-    for (const VisitId one : plan_.nearby(x)) {
-        const Tick left = sum(times.enter[one + 1], plan_.headway());
-        if (left > free) {
-            free = left;
-            other = one;
-        }
-    }
+    const VisitId other = plan_.before(x);
+    const Tick free = other == none ? 0 : sum(times.enter[other + 1], plan_.headway());
     const Tick start = stoppages.waits_until(std::max({ready, free, plan_.since(x)}));
     times.start[x] = start;
     times.enter[x] = drive_after == 0 ? start : stoppages.busy_until(sum(start, drive_after));

@@ -13,7 +13,6 @@ from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
 from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
-from rightofway.model.resources import refuse_sizes
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
@@ -79,13 +78,10 @@ def simulate(
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    policy = ExecutionPolicy(switch=switch, replan=replan)
-    if any(policy):
-        remedy = "leave out switch and replan"
-        refuse_sizes(plan.scenario.problem.resources, "changing a plan on the way", remedy)
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
+    policy = ExecutionPolicy(switch=switch, replan=replan)
     batches: list[RunBatch] = []
     kept: list[NDArray[np.int64]] = []
     switches = replans = cut_off = deadlocks = 0

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.precedence.exclusions import exclusions_of
+from rightofway.model.resources import refuse_sizes
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -183,6 +183,7 @@ class ActionDependencyGraph:
         before: NDArray[np.int32] | None = None,
         since: NDArray[np.int64] | None = None,
     ) -> None:
+        refuse_sizes(scenario.problem.resources, "execution", "simulate a fleet of points")
         itineraries = scenario.problem.itineraries
         self.scenario, self.delay_model = scenario, delay_model
         self.routes = tuple(
@@ -199,7 +200,6 @@ class ActionDependencyGraph:
         self.since = np.zeros(len(self.vertex), np.int64) if since is None else since
         self.dwell = np.array([ticks for route in self.routes for ticks in route.dwell], np.int64)
         self.drive = np.array([ticks for route in self.routes for ticks in route.drive], np.int64)
-        nearby = exclusions_of(scenario.problem, tracks, self.drive)
         self._kernel = _core.ActionDependencyGraph(
             self.first_visit,
             self.vertex,
@@ -217,9 +217,6 @@ class ActionDependencyGraph:
             np.array([0, *accumulate(map(len, delay_model.stoppages))], np.int32),
             np.array([one.tick for one in chain(*delay_model.stoppages)], np.int64),
             np.array([one.ticks for one in chain(*delay_model.stoppages)], np.int64),
-            nearby.first,
-            nearby.before,
-            nearby.pairs.reshape(-1),
         )
 
     def reordered(
