@@ -121,7 +121,7 @@ def test_a_plan_that_cannot_be_read_does_not_keep_others_from_being_checked(
 def test_examples_that_were_not_copied_yet_say_how(cli: Cli) -> None:
     assert cli("plan", "examples/door.yaml").err == (
         "examples/door.yaml: there is no such file"
-        " (write the examples with: rightofway examples --copy .)\n"
+        " (rightofway examples --copy . writes the examples)\n"
     )
 
 
