@@ -13,6 +13,7 @@ from rightofway.planners import registered
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Distances
+from tests.builders.seeds import seeds
 from tests.builders.sizes import sized, sized_on_lanes
 from tests.oracles.space import encounters, overlaps
 
@@ -28,7 +29,7 @@ def heedless(scenario: Scenario) -> Plan:
     return Plan(scenario=scenario, tracks=tuple(graph.tracks()), run=run)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60, 10))
 def test_the_judge_finds_the_pairs_that_the_oracle_finds(seed: int) -> None:
     """Same-vertex conflicts are kinds of their own; the oracle has all bookings in one."""
     scenario = (sized if seed % 2 else sized_on_lanes)(seed)
@@ -50,7 +51,7 @@ def test_the_judge_finds_the_pairs_that_the_oracle_finds(seed: int) -> None:
 
 
 @pytest.mark.parametrize("planner", KNOW_SIZES)
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", seeds(30, 5))
 def test_plans_of_robots_with_sizes_keep_them_apart(planner: str, seed: int) -> None:
     scenario = (sized if seed % 2 else sized_on_lanes)(seed + 100)
     try:
