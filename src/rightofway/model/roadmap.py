@@ -87,8 +87,8 @@ class Roadmap:
     zones
         Vertices and edges that hold one robot at a time.
     obstacles
-        What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no plan depends on
-        it, and roadmaps that differ in it alone are equal.
+        What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
+        plan depends on it, and roadmaps that differ in it alone are equal.
     """
 
     indptr: NDArray[np.int32]
