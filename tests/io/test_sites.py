@@ -57,6 +57,25 @@ def test_an_origin_moves_places_and_obstacles_alike(y: str) -> None:
     assert scenario_of(dump_scenario(moved)) == moved
 
 
+def test_names_of_obstacles_stay_with_the_grid_that_a_floor_is_cut_into() -> None:
+    nameless = {"rect": [0, 1, 1, 1]}
+    shape = {"floor": {"size": [3, 2.5], "obstacles": [TABLE, nameless]}}
+    trip = {"home": {"x": 0, "y": 0}, "target": {"x": 2, "y": 1}}
+    scenario = loaded(shape, **trip).scenario
+    document = dump_scenario(scenario)
+    assert document["map"]["obstacles"] == [TABLE]
+    assert dump_scenario(scenario_of(document)) == document
+    without = loaded({"floor": {"size": [3, 2.5], "obstacles": [nameless]}}, **trip).scenario
+    assert "obstacles" not in dump_scenario(without)["map"]
+
+
+@pytest.mark.parametrize("beside", ["floor", "roadmap"])
+def test_only_a_grid_has_obstacles_beside_it(beside: str) -> None:
+    shape = {"floor": {"size": [3, 2]}, "roadmap": {"vertices": {"A": [0, 0]}, "edges": []}}
+    with pytest.raises(InputError, match=f"obstacles are given beside a {beside}"):
+        loaded({beside: shape[beside], "obstacles": [TABLE]}, home={"x": 0, "y": 0})
+
+
 def test_what_blocks_a_point_on_a_floor_is_named() -> None:
     with pytest.raises(InputError) as caught:
         loaded(floor(y="up"), home={"x": 1.5, "y": 0.5}, target="N0")

@@ -197,7 +197,7 @@ def test_a_tie_is_called_a_tie_and_nothing_is_lost_by_nothing(show: Opener) -> N
 
 
 def test_the_head_says_in_plain_words_what_the_plan_does(show: Opener) -> None:
-    viewer = show(door(), title="door.yaml")
+    viewer = show(door(), title="door.yaml", viewport={"width": 1600, "height": 1000})
     assert viewer.text("#headline").split("\n") == ["door.yaml", "2 robots"]
     assert viewer.text("#figures").split("\n") == [
         "All home at", "10", "Latest", "R1", "Time lost", "1 (waiting)", "Loses most", "R1, 1",

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.builders.plans import door, door_shifted
-from tests.viewer.conftest import Opener, Viewer
+from tests.viewer.conftest import Opener, Viewer, pixel
 
 
 @pytest.fixture
@@ -30,8 +30,29 @@ def test_both_maps_show_the_same_moment(both: Viewer) -> None:
 def test_the_list_says_which_robots_gain_or_lose(both: Viewer) -> None:
     rows = both.page.locator("#compared-list .row:visible").all_inner_texts()
     assert [row.split("\n") for row in rows] == [
-        ["R2", "9 → 9", "the same"],
-        ["R1", "10 → 11", "1 later"],
+        ["R2", "the same", "9 → 9"],
+        ["R1", "1 later", "10 → 11"],
+    ]
+
+
+def test_the_diagram_shows_both_plans(both: Viewer) -> None:
+    """At tick 10 R1 is home in N0; in the other plan it is on its way there, from N1."""
+    both.wait_for("!frames.asked")
+    assert both.text("#diagram-title") == "Place over time: strong lines A.json, thin lines B.json"
+    line = both.ask(
+        "(([here], [there]) => [diagram.area.x(10.5), (here.y + there.y) / 2])"
+        "(...[0, 1].map((vertex) => diagram.spaceTime.axis.spots(vertex)))"
+    )
+    assert pixel(both, "diagram", *line) != pixel(both, "diagram", line[0] + 4, line[1])
+
+
+def test_paper_has_a_table_of_both_plans(both: Viewer) -> None:
+    both.ask("paper.lay(true)")
+    both.page.emulate_media(media="print")
+    assert both.text("#paper-robots").splitlines() == [
+        "Robot\tHome at, A.json\tHome at, B.json\tIn B.json\tTime lost, A.json\tTime lost, B.json",
+        "R1\t10\t11\t1 later\t1\t2",
+        "R2\t9\t9\tthe same\t\t",
     ]
 
 

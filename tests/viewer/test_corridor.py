@@ -83,7 +83,7 @@ def test_a_corridor_is_the_shortest_way_between_two_places(show: Opener) -> None
     viewer.page.mouse.click(box["x"] + left + 2 * scale, box["y"] + top + 2 * scale)  # N8
     assert viewer.ask("choice.corridor") == [0, 1, 3, 5, 6]
     viewer.wait_for("!frames.asked")
-    assert viewer.text("#diagram-title").startswith("Distance over time, N0 to N8, 4 length units")
+    assert viewer.text("#diagram-title").startswith("N0 to N8, 4 length units: slopes are speeds")
     assert viewer.ask("diagram.spaceTime.axis.rows.map(({ vertex }) => vertex)") == [0, 1, 3, 5, 6]
     viewer.wait_for("location.hash.endsWith('from=N0&to=N8')")
     viewer.page.keyboard.press("c")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -9,7 +11,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from rightofway.model import Plan
+from rightofway.model import Obstacle, Plan
 from rightofway.viz import Background
 from tests.builders.plans import crowd, door, loop, yard
 from tests.viewer.conftest import Opener, Viewer, pixel
@@ -178,3 +180,18 @@ def test_lanes_out_of_sight_are_not_drawn(show: Opener) -> None:
     }"""
     in_sight, out_of_sight = (viewer.page.evaluate(drawn, right) for right in (0, 5000))
     assert in_sight - out_of_sight >= 5  # a lane for both ways and its dashes, three for one way
+
+
+def test_obstacles_have_their_names_on_the_map_and_at_the_pointer(show: Opener) -> None:
+    side = Fraction(1)
+    table = Obstacle(name="table", x=Fraction(0), y=side, width=side, height=side)
+    plan = door()
+    roadmap = replace(plan.scenario.roadmap, obstacles=(table,))
+    viewer = show(replace(plan, scenario=replace(plan.scenario, roadmap=roadmap)))
+    assert "table" in [label["name"] for label in labels(viewer)]
+    left, top, scale = viewer.ask("(({left, top, scale}) => [left, top, scale])(mapView.viewport)")
+    box = viewer.page.locator("#map").bounding_box()
+    assert box
+    viewer.page.mouse.move(box["x"] + left, box["y"] + top + scale)
+    assert viewer.text("#hover").splitlines()[0] == "table"
+    assert viewer.complaints == []

@@ -29,9 +29,9 @@ class Obstacle:
     Attributes
     ----------
     name
-        For messages; may be empty.
+        For messages and the map; may be empty.
     x, y
-        Its upper left corner, x to the right and y down [length unit].
+        Its corner with the least x and y [length unit].
     width, height
         Its size [length unit], positive.
     """

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
+from rightofway.model.clustering import Obstacle
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
 from rightofway.model.values import Number, coerced, length, number, optional
@@ -85,6 +86,9 @@ class Roadmap:
         edge has one. Classes of one length may differ in it.
     zones
         Vertices and edges that hold one robot at a time.
+    obstacles
+        What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
+        plan depends on it, and roadmaps that differ in it alone are equal.
     """
 
     indptr: NDArray[np.int32]
@@ -97,6 +101,7 @@ class Roadmap:
     frame: Frame = field(default_factory=Frame)
     speed_limits: tuple[Fraction | None, ...] = ()
     zones: tuple[Zone, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

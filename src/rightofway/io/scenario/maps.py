@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         EdgeDocument,
         FloorDocument,
         MapDocument,
+        ObstacleDocument,
         RoadmapDocument,
     )
 
@@ -119,10 +120,25 @@ def map_of(
             file = file_beside(base, document.file)
             lines = load_map(file)
             roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
-            return LoadedMap(roadmap=roadmap, lines=lines, file=file)
-    with under("grid"):
-        roadmap = roadmap_of_grid(document.grid, cell_size=cell_size, **frame)
-        return LoadedMap(roadmap=roadmap, lines=tuple(document.grid))
+    else:
+        with under("grid"):
+            file, lines = None, tuple(document.grid)
+            roadmap = roadmap_of_grid(lines, cell_size=cell_size, **frame)
+    roadmap = replace(roadmap, obstacles=_named(document.obstacles))
+    return LoadedMap(roadmap=roadmap, lines=lines, file=file)
+
+
+def _named(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:
+    """Return the obstacles that have a name, in the site's frame."""
+    return tuple(_placed(document) for document in documents if document.name)
+
+
+def _placed(
+    document: ObstacleDocument, left: Fraction = Fraction(0), low: Fraction = Fraction(0)
+) -> Obstacle:
+    """Return an obstacle relative to a point of the site."""
+    x, y, width, height = document.rect
+    return Obstacle(name=document.name, x=x - left, y=y - low, width=width, height=height)
 
 
 def file_beside(base: Path | None, name: str) -> Path:
@@ -159,6 +175,7 @@ def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> Load
             origin=origin,
             yaw=document.yaw or Fraction(0),
         )
+        roadmap = replace(roadmap, obstacles=_named(document.floor.obstacles))
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
@@ -171,11 +188,7 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     return Floor(
         width=width,
         height=height,
-        obstacles=tuple(
-            Obstacle(name=obstacle.name, x=x - left, y=y - low, width=width, height=height)
-            for obstacle in document.obstacles
-            for x, y, width, height in [obstacle.rect]
-        ),
+        obstacles=tuple(_placed(obstacle, left, low) for obstacle in document.obstacles),
     )
 
 

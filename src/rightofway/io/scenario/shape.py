@@ -48,7 +48,7 @@ MAX_CELLS_ALLOWED = 10_000_000
 class ObstacleDocument(Document):
     """A rectangle of a floor that robots cannot enter."""
 
-    name: Words = Field(default="", description="what it is, for messages")
+    name: Words = Field(default="", description="what it is, for messages and the map")
     rect: Rectangle = Field(
         description="[x, y, width, height]; x and y are the least that it covers [length unit]"
     )
@@ -152,6 +152,7 @@ class MapDocument(Document):
                 "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
                 **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
                 "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
+                "obstacles": {"anyOf": [{"required": ["grid"]}, {"required": ["file"]}]},
             },
         )
     )
@@ -172,6 +173,9 @@ class MapDocument(Document):
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
     yaw: Angle = optional("angle by which the map is turned about its origin, from x to y [rad]")
+    obstacles: list[ObstacleDocument] = Field(
+        default=[], description="names of blocked cells of a grid or file: a list of rectangles"
+    )
     spacing: Positive = optional("split longer edges of a roadmap into pieces [length unit]")
 
     @model_validator(mode="after")
@@ -194,6 +198,9 @@ class MapDocument(Document):
             raise ValueError(
                 f"spacing is given with a {kind}, which has no long edges (take it out)"
             )
+        if kind not in {"grid", "file"} and "obstacles" in self.model_fields_set:
+            remedy = "give them in the floor" if kind == "floor" else "take them out"
+            raise ValueError(f"obstacles are given beside a {kind} ({remedy})")
         if kind != "floor" and self.cell_size == "clustered":
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
         return self

@@ -128,7 +128,12 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
     yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
-    return {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
+    shape = {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
+    named = [
+        {"name": it.name, "rect": [written(part) for part in (it.x, it.y, it.width, it.height)]}
+        for it in roadmap.obstacles
+    ]
+    return {**shape, "obstacles": named} if named else shape
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:

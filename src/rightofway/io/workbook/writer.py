@@ -111,7 +111,7 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     else:
         _write_roadmap(workbook, where["roadmap"])
     _write_robots(workbook.create_sheet("robots"), document["robots"])
-    of_map = {key: where[key] for key in where if key not in {"grid", "roadmap"}}
+    of_map = {key: where[key] for key in where if key not in {"grid", "roadmap", "obstacles"}}
     given = {**document.get("rules", {}), **of_map}
     given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
     _write_rules(workbook.create_sheet("rules"), given)

@@ -20,6 +20,7 @@ from rightofway.metrics import Metrics, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
+    Grid,
     Loss,
     LostTime,
     Plan,
@@ -83,7 +84,7 @@ def payload_of(
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
         "map": _map(scenario.roadmap),
-        "line": _line(scenario.roadmap, trips),
+        "line": _line(scenario.roadmap, trips, trips_of(other[0]) if other else ()),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
         "faults": _faults(plan, check(plan, limit=LISTED_FAULTS)),
@@ -160,7 +161,7 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
         "frame": _frame(plane, roadmap),
     }
     if roadmap.grid is not None:
-        return {**size, "rows": roadmap.grid.lines()}
+        return {**size, "rows": roadmap.grid.lines(), **_obstacles(roadmap, roadmap.grid)}
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     return {
         **size,
@@ -172,6 +173,18 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
     }
 
 
+def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:
+    """Return the named obstacles: name, left, top, width and height in the drawing."""
+    size, found = grid.cell_size, []
+    low = grid.rows * size - size / 2
+    left, bottom = roadmap.frame.to_site((-size / 2, low))
+    for it in roadmap.obstacles:
+        down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
+        sides = (it.x - left - size / 2, low + down, it.width, it.height)
+        found.append([it.name, *(round(float(side / size), DECIMALS) for side in sides)])
+    return {"obstacles": found} if found else {}
+
+
 def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
     left, top = map(Fraction, plane.corner)
@@ -180,9 +193,15 @@ def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
 
 
-def _line(roadmap: Roadmap, trips: Sequence[Trip]) -> list[list[float]]:
-    """Return the places over time of a small fleet: vertex and distance along the line."""
-    places = vertices_in_line([trip.vertices for trip in trips], edge_length(roadmap))
+def _line(roadmap: Roadmap, trips: Sequence[Trip], others: Sequence[Trip]) -> list[list[float]]:
+    """Return the places over time of a small fleet: vertex and distance along the line.
+
+    Another plan of the same robots may visit other places, which come after.
+    """
+    routes = [[*trip.vertices] for trip in trips]
+    for route, other in zip(routes, others, strict=False):
+        route.extend(other.vertices)
+    places = vertices_in_line(routes, edge_length(roadmap))
     return [[vertex, round(place, DECIMALS)] for vertex, place in places.items()]
 
 

@@ -63,7 +63,7 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
     beside = (scale * 0.45 if is_grid else lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
     return Sizes(
         robot=robot,
-        home=max(scale * 0.37 if is_grid else 0, robot + 1.5),
+        home=max(scale * 0.345 if is_grid else 0, robot + 1.5),
         stop=max(min(robot * 0.75, 17), 3),
         lane=lane,
         vertex=min(lane * 0.45, 5.5),

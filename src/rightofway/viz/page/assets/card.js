@@ -32,7 +32,7 @@ class Card {
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
-      ...(robot.planned || this.plan.steady ? [] : [this.#sum(robot)]),
+      ...(robot.planned || this.plan.steady ? [] : this.#sum(robot)),
       facts([
         ...this.#times(robot),
         ...(this.comparison ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]] : []),
@@ -53,8 +53,9 @@ class Card {
     const row = (sign, term, ticks, className = "") => element("tr", { className },
       element("td", {}, sign), element("th", { scope: "row" }, term), element("td", {}, this.words.time(ticks)));
     const end = this.plan.endsAtHome ? "Home at" : "Done at";
-    return element("table", { className: "sum" }, row("", "Alone", robot.alone),
-      ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))), row("=", parts.length ? end : `${end}, no time lost`, robot.completion, "all"));
+    const table = element("table", { className: "sum" }, row("", "Alone", robot.alone),
+      ...parts.map(([term, ticks]) => row(ticks < 0 ? "−" : "+", term, Math.abs(ticks))), row("=", end, robot.completion, "all"));
+    return parts.length ? [table] : [table, element("p", { className: "none-lost" }, "It loses no time.")];
   }
 
   #times(robot) {

@@ -6,18 +6,19 @@ const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; wh
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
 class Census {
   #counts;
-  #planned;
+  #beside;
 
   constructor(plan, theme, choice) {
     Object.assign(this, { plan, theme, choice });
     this.#counts = new FleetMemo(plan, () => this.#count(plan.robots));
-    this.#planned = new FleetMemo(plan, () => this.#out(this.#count(plan.planned)));
+    this.#beside = new FleetMemo(plan, () => this.#out(this.#count(choice.beside)));
     this.samples = Math.min(plan.end, MOST_SAMPLES);
   }
 
   get title() {
     const what = `What the ${this.plan.robots.length} robots do over time`;
-    return this.choice.ghosts ? `${what}; the line: how many are out by plan` : what;
+    const { beside, besideName } = this.choice;
+    return beside ? `${what}; the line: how many are out in ${besideName}` : what;
   }
 
   paint(context, area) {
@@ -29,7 +30,7 @@ class Census {
       context.fillStyle = colours[activity];
       this.#band(context, area, below, counts[activity]);
     }
-    if (this.choice.ghosts) this.#outline(context, area, this.#planned.value);
+    if (this.choice.beside) this.#outline(context, area, this.#beside.value);
     this.#legend(context, area, colours);
   }
 

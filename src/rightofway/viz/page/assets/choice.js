@@ -105,6 +105,16 @@ class Choice extends Observable {
     return this.mode === "both";
   }
 
+  /** The robots that the diagram draws thin beside those shown: by plan, or in the other plan; or null. */
+  get beside() {
+    return this.ghosts ? this.plan.planned : this.plan.other?.planned ?? null;
+  }
+
+  /** Where they drive like that. */
+  get besideName() {
+    return this.ghosts ? "the plan" : this.plan.other?.title;
+  }
+
   /** Whether a robot is to stand out; all do while none is chosen. */
   standsOut(index) {
     if (this.decision) return this.decision.robots.includes(index);

@@ -20,7 +20,8 @@ class Comparison {
     for (const [id, shown] of [["map-title", plan], ["other-title", other]]) this.#title(document.getElementById(id), shown);
     this.find = document.getElementById("find-compared");
     this.list = new VirtualList(document.getElementById("compared-list"), {
-      rowHeight: 34,
+      rowHeight: 50,
+      className: "change",
       none: "No robot has that name.",
       fill: (row, robot) => this.#fill(row, robot),
       choose: (robot) => choice.chooseRobot(robot.index),
@@ -92,7 +93,7 @@ class Comparison {
     const other = this.other.planned[robot.index];
     row.replaceChildren(
       swatch(robot), element("span", { className: "name" }, robot.name),
-      element("span", { className: "state" }, `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`),
-      element("span", { className: "late" }, this.changeInWords(robot)));
+      element("span", { className: "late" }, this.changeInWords(robot)),
+      element("span", { className: "state" }, `${this.words.time(robot.completion)} → ${this.words.time(other.completion)}`));
   }
 }

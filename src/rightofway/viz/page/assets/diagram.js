@@ -39,8 +39,7 @@ class Diagram {
 
   get #title() {
     const { picked } = this.choice;
-    const whose = this.plan.other ? `${this.plan.title}: ` : "";
-    if (!picked) return whose + this.view.title;
+    if (!picked) return this.view.title;
     if (!picked.length) return "Corridor: press the place on the map where it begins";
     return `Corridor from ${this.words.vertex(picked[0])}: press the place where it ends`;
   }

@@ -1,14 +1,17 @@
 "use strict";
 
+const LINE = 36; // letters of a fault that surely fit in a line
+
 /** All faults of a plan that breaks rules: the earliest first; choosing one goes to its moment and place. */
 class FaultList {
   constructor(plan, clock, choice, words) {
     Object.assign(this, { plan, clock, choice, words });
     this.find = document.getElementById("find-fault");
     this.items = plan.faults.map((fault, index) => this.#item(fault, index));
+    const isLong = this.items.some(({ head, detail }) => Math.max(head.length, detail.length) > LINE);
     this.list = new VirtualList(document.getElementById("fault-list"), {
-      rowHeight: 52,
-      className: "two",
+      rowHeight: isLong ? 72 : 52,
+      className: isLong ? "two long" : "two",
       none: this.items.length ? "No fault fits that." : "The plan keeps every rule.",
       fill: fillTwoLines,
       choose: (item) => item.choose(),

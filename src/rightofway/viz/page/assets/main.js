@@ -30,7 +30,8 @@ const tabs = new Tabs([plan.robots.length, decisionList.items.length, plan.fault
 const deepLink = new DeepLink(plan, clock, choice);
 const summary = new Summary(plan, choice, words, comparison);
 const share = new Share(plan, clock, [mapView, ...(comparison ? [comparison.view] : [])], diagram, theme, words, deepLink);
-const paper = new Paper(plan, clock, theme, words, () => frames.paint(performance.now()));
+const paper = new Paper(plan, clock, theme, words, comparison, () => frames.paint(performance.now()));
+document.body.classList.toggle("high", plan.roadmap.height > 1.15 * plan.roadmap.width);
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
 for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
 for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;

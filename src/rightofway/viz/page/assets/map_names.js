@@ -120,7 +120,7 @@ class MapNames {
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#width(context, name, font);
     const [x, y] = this.#at(index);
-    const away = this.#isHome(index) ? this.sizes.home : radius + (this.#isChosen(index) ? 5 : 0);
+    const away = Math.max(this.#isHome(index) ? this.sizes.home : 0, radius + (this.#isChosen(index) ? 5 : 0));
     const change = this.clock.playing ? 9 : 1;
     let [best, least, box] = [-1, Infinity, null];
     for (let step = 0; step < SIDES.length; step++) {
@@ -136,7 +136,7 @@ class MapNames {
     else box = this.#overOthers(SIDES.map((side) => boxBeside(x, y, away, width, ROBOT_TYPE + 2, side)));
     this.#robots.take(...box);
     context.font = font;
-    context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
+    context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.6;
     this.#write(context, name, box, this.motion.activity[index] === DONE ? this.theme.muted : this.theme.ink);
     context.globalAlpha = 1;
   }
@@ -144,7 +144,9 @@ class MapNames {
   /** Where the name of a chosen robot stands in a crowd: over other robots, but over no other name. */
   #overOthers(boxes) {
     const covers = (box, it) => box[0] < it.box[2] && it.box[0] < box[2] && box[1] < it.box[3] && it.box[1] < box[3];
-    return boxes.find((box) => !this.written.some((it) => covers(box, it))) ?? boxes[0];
+    const { width, height } = this.#robots;
+    const inside = boxes.filter(([left, top, right, bottom]) => left >= 0 && top >= 0 && right <= width && bottom <= height);
+    return inside.find((box) => !this.written.some((it) => covers(box, it))) ?? inside[0] ?? boxes[0];
   }
 
   #isHome(index) {
@@ -161,12 +163,18 @@ class MapNames {
   }
 
   #writePlaces(context) {
-    for (const { name, box, ink, font, halo } of this.#spots) {
+    context.textBaseline = "middle";
+    for (const { name, box, ink, font, halo, isUpright } of this.#spots) {
       if (!this.#robots.isFree(...box)) continue;
       context.font = font;
       context.textAlign = "left";
-      context.textBaseline = "middle";
-      haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
+      if (isUpright) {
+        context.save();
+        context.translate((box[0] + box[2]) / 2 + 0.5, box[3]);
+        context.rotate(-Math.PI / 2);
+        haloed(context, name, 0, 0, ink, halo, 3);
+        context.restore();
+      } else haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
       this.written.push({ name, box });
     }
   }
@@ -192,7 +200,30 @@ class MapNames {
       spots.push({ name, box, font, ...this.#colours(vertex, isMark) });
       if (spots.length >= MOST_PLACES) break;
     }
+    this.#nameObstacles(context, spots);
     return spots;
+  }
+
+  /** Along an obstacle or upwards in it, where there is room. */
+  #nameObstacles(context, spots) {
+    const { left, top, scale } = this.viewport;
+    const font = this.theme.font(PLACE_TYPE);
+    for (const it of this.plan.roadmap.obstacles) {
+      const name = cut(it.name);
+      const wide = this.#width(context, name, font) / 2;
+      const isUpright = 2 * wide > it.width * scale && it.height > it.width;
+      const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
+      if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
+      const x = left + (it.left + it.width / 2) * scale;
+      const boxes = [0.5, 0.75, 0.25].map((share) => {
+        const y = top + it.top * scale + Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
+        return [x - across, y - down, x + across, y + down];
+      });
+      const box = boxes.find((each) => this.#places.isFree(...each) && this.#marks.isFree(...each));
+      if (!box) continue;
+      this.#places.take(...box);
+      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.wall, isUpright });
+    }
   }
 
   #colours(vertex, isMark) {
@@ -232,7 +263,7 @@ class MapNames {
     const high = PLACE_TYPE + 2;
     const { scale } = this.viewport;
     if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
-      const inset = Math.min(scale * 0.05, 7);
+      const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
       const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
       return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
     }

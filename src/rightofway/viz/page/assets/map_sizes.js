@@ -25,7 +25,7 @@ class MapSizes {
 
   /** Half the side of a home. */
   get home() {
-    const inCell = this.plan.roadmap.rows ? this.viewport.scale * 0.37 : 0;
+    const inCell = this.plan.roadmap.rows ? this.viewport.scale * 0.345 : 0;
     return Math.max(inCell, this.robot + 1.5);
   }
 

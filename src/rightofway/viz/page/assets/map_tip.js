@@ -36,9 +36,11 @@ class MapTip {
   #about(x, y, radius) {
     const index = nearest(this.motion.x, this.motion.y, x, y, Math.max(radius * 1.2, 0.3));
     const vertex = this.plan.roadmap.near(x, y);
+    const obstacle = this.plan.roadmap.obstacleAt(x, y);
     return [
       ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
       ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
+      ...(obstacle ? [{ text: obstacle.name, kind: "title" }] : []),
       { text: this.#position(x, y), kind: "position" },
     ];
   }

@@ -17,6 +17,7 @@ class Roadmap {
     this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
     this.unit = raw.frame.unit; // length units in a unit of the drawing
     this.background = raw.background ?? null;
+    this.obstacles = (raw.obstacles ?? []).map(([name, left, top, width, height]) => ({ name, left, top, width, height }));
     if (this.rows) this.#readGrid();
     else this.#readNetwork(raw);
     this.size = this.x.length;
@@ -38,6 +39,11 @@ class Roadmap {
     const [u, v, yaw] = [x * unit, (frame.yUp ? -y : y) * unit, frame.yaw ?? 0];
     const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
     return [frame.x + cos * u - sin * v, frame.y + sin * u + cos * v];
+  }
+
+  /** The named obstacle at a point of the drawing, or undefined. */
+  obstacleAt(x, y) {
+    return this.obstacles.find(({ left, top, width, height }) => x >= left && x <= left + width && y >= top && y <= top + height);
   }
 
   /** The vertex within half a unit of a point, or -1. */

@@ -10,12 +10,11 @@ class RobotRows {
   }
 
   get title() {
-    if (this.choice.mode === "plan") {
-      return "Robots over time: a line is driving, a frame waiting, a block working or turning";
-    }
-    const signs = "Robots over time; red: held up, orange: waits for a late robot";
-    if (!this.choice.ghosts) return signs;
-    return `${signs}, grey: ${this.#hasGhosts ? "the plan" : "done by plan"}`;
+    const { mode, beside, besideName } = this.choice;
+    const other = beside && `, grey: ${this.#hasGhosts ? "" : "done in "}${besideName}`;
+    if (mode !== "plan") return `Robots over time; red: held up, orange: waits for a late robot${other ?? ""}`;
+    if (beside) return `${this.plan.title}: lines drive, frames wait, blocks work${other}`;
+    return "Robots over time: a line is driving, a frame waiting, a block working or turning";
   }
 
   paint(context, area) {
@@ -25,7 +24,7 @@ class RobotRows {
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
     this.bottleneck.paintDiagram(context, area, ({ robot }) => this.#lane(robot));
     for (const robot of this.plan.robots) this.#row(context, robot);
-    if (this.choice.ghosts) for (const robot of this.plan.planned) this.#ghost(context, robot);
+    for (const robot of this.choice.beside ?? []) this.#ghost(context, robot);
   }
 
   /** The row of a robot. */
@@ -34,10 +33,10 @@ class RobotRows {
   }
 
   get #hasGhosts() {
-    return this.choice.ghosts && this.rowHeight >= ROW_WITH_GHOST;
+    return this.choice.beside && this.rowHeight >= ROW_WITH_GHOST;
   }
 
-  /** The plan as a thin row at the upper edge: a line, with blocks where the robot works or turns. */
+  /** The plan beside it as a thin row at the upper edge: a line, with blocks where the robot works or turns. */
   #ghost(context, robot) {
     const { phases } = robot;
     const thick = Math.max(this.rowHeight * 0.16, 1);

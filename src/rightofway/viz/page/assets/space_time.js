@@ -28,8 +28,8 @@ class SpaceTime {
     const vertices = this.#route;
     if (!vertices) return "Place over time";
     const length = this.plan.quantities.length(this.#rounded(new Corridor(this.plan.roadmap, vertices).length));
-    if (!corridor) return `Distance over time along the route of ${robot.name}, ${length}`;
-    return `Distance over time, ${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length}`;
+    if (!corridor) return `Route of ${robot.name}, ${length}`;
+    return `${this.words.vertex(corridor[0])} to ${this.words.vertex(corridor.at(-1))}, ${length}`;
   }
 
   #rounded(length) {
@@ -37,14 +37,15 @@ class SpaceTime {
   }
 
   get #signs() {
-    if (this.choice.decision) return "lines are the two robots, fields what is booked";
-    if (this.choice.robot) return "slopes are speeds, fields what it and others book";
-    return this.choice.corridor ? "slopes are speeds, fields what robots book" : "lines are robots, fields what they book";
+    const { decision, beside, besideName } = this.choice;
+    if (beside) return `strong lines ${this.plan.title}, thin lines ${besideName}`;
+    if (decision) return `${several(this.#drawn().map(({ name }) => name))}, fields are bookings`;
+    return this.#route ? "slopes are speeds, fields bookings" : "lines are robots, fields their bookings";
   }
 
   get #signsOfFloor() {
     const signs = ["stripes: held up", "orange: waits for a late robot"];
-    if (this.choice.ghosts) signs.push("thin lines: the plan");
+    if (this.choice.ghosts) signs.push(`thin lines: ${this.choice.besideName}`);
     return signs.join(", ");
   }
 
@@ -56,7 +57,8 @@ class SpaceTime {
     for (const vertex of vertices) this.#bookings(context, vertex);
     this.bottleneck.paintDiagram(context, area, ({ vertex }) => this.#lane(vertex));
     const drawn = this.#drawn();
-    if (this.choice.ghosts) for (const { planned } of drawn) this.#line(context, planned, true);
+    const { beside } = this.choice;
+    if (beside) for (const { index } of drawn) this.#line(context, beside[index], true);
     for (const robot of this.plan.robots) if (!this.#isDrawn(robot)) this.#passing(context, robot);
     for (const robot of drawn) this.#line(context, robot);
     if (this.choice.decision) this.#mark(context, this.choice.decision);
@@ -168,10 +170,10 @@ class SpaceTime {
     context.globalAlpha = 1;
   }
 
-  /** The plan beside what happened; dotted, a way that the rows have at another length. */
+  /** The plan beside what happened, or another plan; dotted, a way that the rows have at another length. */
   #thin(context, begin, end, from, to, isTrue) {
     context.setLineDash(isTrue ? [] : [2, 4]);
-    context.lineWidth = 1;
+    context.lineWidth = 1.5;
     context.globalAlpha = 0.75;
     context.beginPath();
     line(context, this.area.x(begin), from, this.area.x(end), to);

@@ -76,16 +76,19 @@ class Summary {
 
   /** The sum of all lost time, and its parts. */
   #timeLost(robots) {
+    const all = robots.reduce((sum, { delay }) => sum + delay, 0);
+    return all ? [this.words.time(all), element("small", {}, ` (${this.#lostParts(robots)})`)] : "none";
+  }
+
+  /** "waiting 35 s, detours 6 s"; the only part without its time. */
+  #lostParts(robots) {
     const sum = (part) => robots.reduce((all, robot) => all + part(robot), 0);
     const parts = [
       ["waiting", sum(({ lost }) => lost.waiting)],
       ["detours", sum(({ lost }) => lost.detours)],
       ["making room", sum(({ lost }) => lost.makingRoom)],
     ].filter(([, ticks]) => ticks);
-    const all = sum(({ delay }) => delay);
-    if (!all) return "none";
-    const told = parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0];
-    return [this.words.time(all), element("small", {}, ` (${told})`)];
+    return parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0]?.[0] ?? "";
   }
 
   /** Both plans, and how many robots gain by the other one. */
@@ -157,6 +160,7 @@ class Summary {
       ["Lower bound", this.words.time(lowerBound)],
       ["Gap", gap],
       ["Makespan", this.words.time(makespan)],
+      ["Time lost", this.#lostParts(this.plan.planned)],
       ["Tick", isUnit ? "" : `${this.words.duration(1)}, the step in which times are counted`],
     ];
   }

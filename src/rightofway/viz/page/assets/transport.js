@@ -28,7 +28,7 @@ class Transport {
     if (now === this.#told) return;
     this.#told = now;
     const all = this.words.time(end);
-    this.readout.replaceChildren(element("b", {}, now), ` of ${all}`);
+    this.readout.replaceChildren(element("b", {}, now), element("span", {}, ` of ${all}`));
     if (!playing) this.slider.setAttribute("aria-valuetext", `${now} of ${all}`);
   }
 
