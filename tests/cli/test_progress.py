@@ -15,14 +15,14 @@ def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setenv("COLUMNS", "20")
+    monkeypatch.setenv("COLUMNS", "21")
     times = iter([100, 100, 103.14])
     monkeypatch.setattr(time, "monotonic", lambda: next(times))
     with progress(10) as report:
-        report("flowtime 19")
-        report("flowtime 18 and more than fits")
+        report("cost 19")
+        report("cost 18, more than fits")
     shown = capsys.readouterr().err
-    assert shown == f"{CLEAR}0.0 of 10 s, flowti{CLEAR}3.1 of 10 s, flowti{CLEAR}"
+    assert shown == f"{CLEAR}0.0 of 10 s, cost 19{CLEAR}3.1 of 10 s, cost 18{CLEAR}"
 
 
 def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(

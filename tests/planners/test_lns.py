@@ -51,7 +51,7 @@ def test_progress_tells_flowtime_gap_and_rate() -> None:
     heard: list[str] = []
     rightofway.solve(CROWDED, "lns", options={"iterations": 20}, report=heard.append)
     assert heard
-    assert all("above the bound" in one and "attempts per second" in one for one in heard)
+    assert all("above the bound" in one and "attempts per s" in one for one in heard)
 
 
 def test_it_stops_when_time_is_up() -> None:

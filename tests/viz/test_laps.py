@@ -2,14 +2,17 @@
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 
+from rightofway.cyclic import excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
 from rightofway.viz import page_of, payload_of
+from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, counter_steady, door
 
 
@@ -103,3 +106,13 @@ def test_a_steady_period_makes_sense(change: dict[str, Any], message: str) -> No
 def test_ticks_may_come_from_arrays() -> None:
     group = replace(counter_steady(), start=Tick(int(np.int64(6))))
     assert told(group)["steady"][0]["start"] == 6
+
+
+def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None:
+    """R2 of the second door of the paper never gets the right of way: it is stuck, not faulty."""
+    trips = [("N0", "N6"), ("N2", "N8")]
+    scenario = grid_fleet(["...", "@.@", "..."], trips, speeds=[Fraction(1, 2), Fraction(1, 3)])
+    plan, steady = excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
+    assert payload_of(plan, steady=steady)["faults"]["count"] == 0
+    whole = replace(plan, run=replace(plan.run, status="whole laps"))
+    assert payload_of(whole, steady=steady)["faults"]["kinds"] == {"stop missed": 1}

@@ -26,7 +26,12 @@ Examples:
 """
 
 
-@click.command(epilog=EXAMPLES, short_help="List where robots meet that never wait.")
+LEGEND = """\
+before, left: conflicts of the whole fleet before and after the decision
+if i, if j: conflicts left if robot i waits, and if robot j waits"""
+
+
+@click.command(epilog=EXAMPLES, short_help="List where robots would meet if none of them waited.")
 @click.argument("source", type=click.Path(), metavar="SCENARIO_OR_PLAN",
                 shell_complete=files(*SCENARIOS))  # fmt: skip
 @count_option
@@ -84,6 +89,8 @@ def collisions(
     elif not output:
         routes = "shortest routes" if plan is None else "routes of the plan"
         parts = [f"On the {routes}, without waits: {_counted(listed)}.", *_texts(lists)]
+        if len(lists) > 1:
+            parts[-1] += f"\n\n{LEGEND}"
         if plan is not None:
             left = meetings(scenario, plan.tracks)
             parts.append(f"Left in the plan: {_counted(left)}.")

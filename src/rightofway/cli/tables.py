@@ -89,7 +89,7 @@ def _shown(
     )
 
 
-@click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is, when.")
+@click.command(epilog=TABLE_EXAMPLES, short_help="Print where each robot is at each time.")
 @click.argument("plan", type=click.Path(), shell_complete=files(*PLANS))
 @foreign_options
 @click.option("-o", "--output", metavar="FILE",

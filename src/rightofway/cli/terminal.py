@@ -104,7 +104,8 @@ def progress(
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
 
     The line begins with the time since the command began, and the time limit [s] if there is one:
-    ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second.
+    ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second. Of a line that is too
+    long for the terminal, what follows the last commas is left out.
     """
     if quiet() or not sys.stderr.isatty():
         yield lambda _: None
@@ -116,6 +117,8 @@ def progress(
     def show(message: str) -> None:
         latest[0] = message
         line = f"{time.monotonic() - began:.1f}{of} s, {message}".removesuffix(", ")
+        while len(line) >= width() and ", " in line:
+            line = line.rpartition(", ")[0]
         click.echo(f"{CLEAR}{line[: width() - 1]}", err=True, nl=False)
 
     def repeat() -> None:

@@ -106,8 +106,10 @@ def excerpt(
         means, pattern = [mean or Fraction(1) for mean in group.mean_laps()], group.pattern
         end = pattern.transient + periods * pattern.period if pattern else periods * max(means)
         until = max(until, ceil(end))
-        visits_per_tick += sum(map(Fraction, map(len, group.context.routes), means))
-    until = min(until, int(most_visits / visits_per_tick))
+        rows = zip(group.context.routes, group.mean_laps(), strict=True)
+        visits_per_tick += sum(Fraction(len(route)) / mean for route, mean in rows if mean)
+    if visits_per_tick:
+        until = min(until, int(most_visits / visits_per_tick))
 
     def laps_and_visits(group: GroupResult, index: int, made: int) -> tuple[int, int]:
         if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):

@@ -102,8 +102,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
             )
             rate = (done - done_before) / (time.perf_counter() - began)
             reached = task.scenario.quantities.duration(search.flowtime)
-            gap = f", {search.flowtime / bound - 1:.2%} above the bound" if bound else ""
-            task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per second")
+            gap = f", {search.flowtime / bound - 1:.1%} above the bound" if bound else ""
+            task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per s")
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
