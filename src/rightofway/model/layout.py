@@ -5,7 +5,7 @@ Lengths are metres, speeds metres per second, and y grows upwards, whatever the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -13,6 +13,7 @@ from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.model.geometry import Point
 from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
 from rightofway.model.spacing import split_lanes
+from rightofway.model.zones import NamedZone
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,25 +79,6 @@ class Station:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LayoutZone:
-    """Vertices and lanes that hold one robot at a time.
-
-    Attributes
-    ----------
-    name
-        Its name.
-    vertices
-        Names of its vertices.
-    edges
-        Tail and head of each of its lanes.
-    """
-
-    name: str
-    vertices: tuple[str, ...] = ()
-    edges: tuple[tuple[str, str], ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Level:
     """One floor of a building, or one of several layouts in a file.
 
@@ -114,7 +96,7 @@ class Level:
     vertices: tuple[LayoutVertex, ...]
     edges: tuple[LayoutEdge, ...]
     stations: tuple[Station, ...] = ()
-    zones: tuple[LayoutZone, ...] = ()
+    zones: tuple[NamedZone, ...] = ()
     links: int = 0
 
     @property
@@ -231,11 +213,14 @@ def roadmap_of_level(
     positions: dict[str, Point] = {
         vertex.name: (vertex.at[0] * metre, vertex.at[1] * metre) for vertex in level.vertices
     }
-    edges = list(slowest.values())
+    edges, zones = list(slowest.values()), _zones(level, slowest)
     if spacing is not None:
+        if zones:
+            raise InputError.at("spacing", "spacing does not know zones yet (take it out)")
         positions, edges = split_lanes(positions, edges, spacing)
     drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-    return roadmap_of_edges(drawn, edges, y_up=True), tuple(_lacks(level, lanes, slowest))
+    roadmap = roadmap_of_edges(drawn, edges, y_up=True, zones=zones)
+    return roadmap, tuple(_lacks(level, lanes, slowest))
 
 
 def _slower(one: Edge, other: Edge) -> Edge:
@@ -253,8 +238,21 @@ def _lacks(
         yield f"{_counted(parallel, 'parallel lane')} left out: the slowest of each counts"
     if level.links:
         yield f"{_counted(level.links, 'lane')} to other levels left out: plans stay on one level"
-    if level.zones:
-        yield f"{_counted(len(level.zones), 'zone')} not kept: several robots may be in one"
+
+
+def _zones(level: Level, lanes: Collection[tuple[str, str]]) -> list[NamedZone]:
+    """Return the zones with what the roadmap has of them.
+
+    A vertex that can be entered and left along lanes of a zone belongs to it.
+    """
+    found = []
+    for zone in level.zones:
+        edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
+        passed = {head for _, head in edges} & {tail for tail, _ in edges}
+        vertices = tuple(dict.fromkeys((*zone.vertices, *sorted(passed))))
+        if vertices or edges:
+            found.append(NamedZone(name=zone.name, vertices=vertices, edges=edges))
+    return found
 
 
 def _counted(number: int, noun: str) -> str:

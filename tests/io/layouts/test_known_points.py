@@ -235,7 +235,8 @@ def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units()
     [
         ("P1", {"layout": "hall.lif.json", "vehicle_type": "tugger"}),
         ("dock", {"layout": "hall.nav.yaml", "level": "L1"}),
-        ("Dock", {"layout": "plant.xml", "spacing": 1}),
+        ("Dock", {"layout": "plant.xml"}),
+        ("a", {"layout": "hall.graphml", "spacing": 1}),
         ("a", {"layout": "hall.graphml"}),
         ("0", {"layout": "route.geojson"}),
         ("dock", {"layout": "nodes.csv"}),
@@ -247,3 +248,13 @@ def test_a_plan_file_needs_no_layout(home: str, shape: dict[str, Any]) -> None:
     scenario = scenario_on(home, home, **shape)
     plan = solve(scenario)
     assert plan_of(dump_plan(plan)).scenario.roadmap == scenario.roadmap
+
+
+def test_blocks_and_mutex_groups_are_zones_of_the_roadmap() -> None:
+    """The lane of the plant's block is driven both ways, so that its other end belongs to it."""
+    roadmap = scenario_on("Dock", "Saw 1", layout="plant.xml").roadmap
+    (zone,) = roadmap.zones
+    assert [roadmap.name(vertex) for vertex in zone.vertices] == ["Cross", "Dock"]
+    assert len(zone.edges) == 2
+    aisle = scenario_on("dock", "shelf", layout="hall.nav.yaml", level="L1").roadmap.zones[0]
+    assert aisle.name == "aisle"

@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from rightofway.errors import InputError, is_printable, nearest, shown
+from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults
 from rightofway.model.geometry import (
     Point,
@@ -18,13 +18,16 @@ from rightofway.model.layout import (
     Layout,
     LayoutEdge,
     LayoutVertex,
-    LayoutZone,
     Level,
     Station,
 )
+from rightofway.model.zones import NamedZone
 
 MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
 """The most vertices and lanes of a layout."""
+
+MICRO = 1_000_000
+"""Positions are kept to a micrometre: floats hold those of a whole country exactly."""
 
 SHORTEST = Fraction(1, 1000)
 """Length of a lane between two vertices at one position [m]."""
@@ -61,13 +64,15 @@ class LevelDraft:
     vertices: dict[str, LayoutVertex] = field(default_factory=dict)
     lanes: list[Lane] = field(default_factory=list)
     stations: list[Station] = field(default_factory=list)
-    zones: list[LayoutZone] = field(default_factory=list)
+    zones: list[NamedZone] = field(default_factory=list)
 
     def add(self, vertex: LayoutVertex, place: str) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
         if vertex.name in self.vertices:
             message = f"a vertex is named {shown(vertex.name)} already (rename one)"
             raise InputError.at(place, message)
+        x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
+        vertex = replace(vertex, at=(x, y))
         if len(self.vertices) == MAX_VERTICES:
             raise InputError.at(place, f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex
@@ -143,15 +148,12 @@ class Draft:
                 self.faults.note(lane.place, f"speed limit {lane.max_speed} is not positive")
             else:
                 edges.append(self._edge(lane, vertices, step))
-        for station in level.stations:
-            if not is_printable(station.name):
-                self.faults.note("", f"{shown(station.name)} is no name of a station")
         return Level(
             name=level.name,
             vertices=tuple(vertices.values()),
             edges=tuple(edges),
             stations=tuple(self._served(level)),
-            zones=tuple(level.zones),
+            zones=tuple(self._zones(level)),
             links=links,
         )
 
@@ -185,4 +187,15 @@ class Draft:
                 self.repair("a second station of one name is left out")
             else:
                 found[station.name] = replace(station, vertices=there)
+        return list(found.values())
+
+    def _zones(self, level: LevelDraft) -> list[NamedZone]:
+        """Return the zones with vertices or lanes, each name once."""
+        found: dict[str, NamedZone] = {}
+        for zone in level.zones:
+            vertices = tuple(name for name in zone.vertices if name in level.vertices)
+            if zone.name in found or not (vertices or zone.edges):
+                self.repair("a zone without vertices and lanes, or with a name twice, is left out")
+            else:
+                found[zone.name] = replace(zone, vertices=vertices)
         return list(found.values())

@@ -15,7 +15,8 @@ from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part
 from rightofway.model.geometry import Point
-from rightofway.model.layout import Layout, LayoutVertex, LayoutZone
+from rightofway.model.layout import Layout, LayoutVertex
+from rightofway.model.zones import NamedZone
 
 Transform = Callable[[Point], Point]
 
@@ -78,7 +79,7 @@ def _read_level(level: LevelDraft, part: Part, transform: Transform | None, draf
         ends = {name for lane in level.lanes for name in (lane.tail, lane.head)}
         level.vertices = {name: each for name, each in level.vertices.items() if name in ends}
     for name, (vertices, edges) in groups.items():
-        level.zones.append(LayoutZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
+        level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
 
 
 def _own(item: Part, at: int) -> dict[str, Any]:

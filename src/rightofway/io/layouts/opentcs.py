@@ -11,7 +11,8 @@ from fractions import Fraction
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
-from rightofway.model.layout import Layout, LayoutVertex, LayoutZone, Station
+from rightofway.model.layout import Layout, LayoutVertex, Station
+from rightofway.model.zones import NamedZone
 
 VERSIONS = ("0.0.4", "0.0.5", "6.0.0", "7.0.0")
 MILLIMETRE = Fraction(1, 1000)
@@ -124,7 +125,7 @@ def _add_block(
     if block.get("type") == "SAME_DIRECTION_ONLY":
         draft.repair("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
     level.zones.append(
-        LayoutZone(
+        NamedZone(
             name=block.label("name"),
             vertices=tuple(name for name in members if name in level.vertices),
             edges=tuple(ends for name in members for ends in paths.get(name, ())),

@@ -95,7 +95,9 @@ def _dealt(roadmap: Roadmap, level: Level | None) -> list[dict[str, Any]]:
             if vertex is not None and vertex not in parking:
                 stations.setdefault(vertex, station.name)
     count = min(ROBOTS, len(part) // 2)
-    homes = _chosen(parking, part, count, stations)
+    in_zones = {vertex for zone in roadmap.zones for vertex in zone.vertices}
+    free = [vertex for vertex in parking if vertex not in in_zones]
+    homes = _chosen(free, part, count, in_zones.union(stations))
     targets = _chosen(list(stations), part[::-1], count, homes)
     assert inside.issuperset((*homes, *targets))
     if not count:
