@@ -169,10 +169,12 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
     from rightofway.planners.impossible import refuse_stranded
     from rightofway.search import alone_completions
 
-    if not spec.knows_sizes:
+    if task.scenario.problem.resources is not None and not spec.knows_sizes:
         able = " or ".join(one.name for one in registered().values() if one.knows_sizes)
-        what = f"planner {spec.name}"
-        refuse_sizes(task.scenario.problem.resources, what, f"choose {able}")
+        if spec.leaves_swaps:
+            why = "it leaves swaps, and robots with a size collide in them"
+            raise InputError.at("", f"planner {spec.name} is for points: {why} (choose {able})")
+        refuse_sizes(task.scenario.problem.resources, f"planner {spec.name}", f"choose {able}")
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 

@@ -64,7 +64,14 @@ def test_plans_of_robots_with_sizes_keep_them_apart(planner: str, seed: int) -> 
 
 
 def test_a_planner_that_does_not_know_sizes_refuses_them() -> None:
-    others = set(registered()) - set(KNOW_SIZES)
+    others = set(registered()) - set(KNOW_SIZES) - {"paper"}
     for planner in others:
         with pytest.raises(ValueError, match=f"planner {planner} does not know robots with a size"):
             solve(sized_on_lanes(0), planner)
+
+
+def test_the_published_method_is_for_points() -> None:
+    with pytest.raises(ValueError, match="planner paper is for points: it leaves swaps"):
+        solve(sized_on_lanes(0), "paper")
+    with pytest.raises(ValueError, match=r"swaps=leave does not know .* \(choose swaps=resolve\)"):
+        solve(sized_on_lanes(0), "two-level", swaps="leave")

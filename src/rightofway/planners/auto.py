@@ -35,8 +35,6 @@ def auto(task: Task) -> Draft:
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     explained = None
-    if task.scenario.problem.resources is not None:
-        return lns(task)  # two-level does not know robots with a size yet
     if len(task.scenario.robots) <= FEW:
         options = {"swaps": "resolve", "routes": "clear"}
         hurried = replace(task, options=options, deadline=task.deadline.sooner(SHARE))
