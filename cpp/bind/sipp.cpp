@@ -58,7 +58,7 @@ Found earliest_track(const Problem& problem, RobotId robot, const BookingTable& 
     require_id("robot", robot, problem.n_robots());
     require_length("bookings", static_cast<std::size_t>(bookings.n_rows()),
                    static_cast<std::size_t>(problem.n_rows()));
-    Trip trip{problem.itinerary(robot), {}};
+    Trip trip{problem.itinerary(robot), {}, problem.first_row(robot)};
     for (std::size_t k = 0; k < stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),
                        static_cast<std::size_t>(problem.n_vertices()));

@@ -37,6 +37,7 @@ const Trip& TripReader::read(RobotId robot) {
     robot_ = robot;
     const Problem& problem = distances_.problem();
     static_cast<Itinerary&>(trip_) = problem.itinerary(robot);
+    trip_.first_row = problem.first_row(robot);
     tables_.clear();
     trip_.to_stage.clear();
     for (const VertexId stage : trip_.stage_vertex) {

@@ -13,6 +13,7 @@ namespace rightofway {
 
 struct Trip : Itinerary {
     std::vector<DistanceView> to_stage;  // distances to each stage's vertex
+    std::int32_t first_row = 0;          // of the robot's size class in a booking table
 };
 
 // Throws std::invalid_argument if the arrays of a trip do not fit each other or the roads, or if

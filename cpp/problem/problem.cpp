@@ -115,12 +115,9 @@ void Problem::check_robots() const {
 Itinerary Problem::itinerary(RobotId robot) const {
     const auto first = static_cast<std::size_t>(first_stage(robot));
     const std::size_t n = static_cast<std::size_t>(first_stage(robot + 1)) - first;
-    return {home(robot),
-            arrays_.stage_vertex.subspan(first, n),
-            arrays_.stage_work.subspan(first, n),
-            arrays_.stage_turn.subspan(first, n),
-            pace(robot),
-            first_row(robot)};
+    return {home(robot), arrays_.stage_vertex.subspan(first, n),
+            arrays_.stage_work.subspan(first, n), arrays_.stage_turn.subspan(first, n),
+            pace(robot)};
 }
 
 Tick Problem::quickest_edge(RobotId robot) const {

@@ -55,7 +55,6 @@ struct Itinerary {
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
     std::span<const std::int32_t> pace;  // ticks per edge of each length class
-    std::int32_t first_row = 0;          // of the robot's size class
 
     std::size_t n_stages() const { return stage_vertex.size(); }
 

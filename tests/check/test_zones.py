@@ -89,7 +89,7 @@ def test_the_fault_names_the_zone_the_robots_and_the_time() -> None:
 def test_plans_keep_zones_and_lose_no_more_than_they_must(
     planner: str, zone: dict[str, Any] | None, flowtime: int
 ) -> None:
-    options = {} if planner == "prioritized" else {"iterations": 30}
+    options = {"iterations": 30} if planner in {"auto", "lns"} else {}
     plan = solve(scenario_of(document(zone)), planner, options=options)
     assert check(plan).ok
     assert plan.flowtime == flowtime
