@@ -143,7 +143,7 @@ def test_trips_without_a_way_back_are_refused_with_their_place(cli: Cli, slower:
     slower.write_text(SLOWER + "rules: {return: none}\n", encoding="utf-8")
     ended = cli("laps", slower)
     assert ended.code == 2
-    assert "robots[0].return: 'none' leaves nothing to repeat (set return: home)" in ended.err
+    assert "rules.return: 'none' leaves nothing to repeat (set return: home)" in ended.err
 
 
 def test_a_chosen_timetable_reports_its_gain_and_its_fairness(cli: Cli, slower: Path) -> None:

@@ -1,6 +1,7 @@
 """Repeated work by hand: the paper's cases, who meets whom, dead ends, whole laps as a plan."""
 
 import time
+from dataclasses import replace
 from fractions import Fraction
 from typing import cast
 
@@ -184,8 +185,12 @@ def test_no_plan_is_made_of_a_robot_that_waits_for_ever() -> None:
 
 def test_trips_without_a_way_back_and_rules_unknown_are_refused() -> None:
     trips = [("N0", "N3")]
+    scenario = grid_fleet(["...."], trips, rules=Rules(ends="none"))
+    with pytest.raises(InputError, match=r"rules.return: 'none' leaves nothing to repeat"):
+        run_laps(scenario)
+    alone = replace(scenario, rules=Rules(), robots=(replace(scenario.robots[0], ends="none"),))
     with pytest.raises(InputError, match=r"robots\[0\].return: 'none' leaves nothing to repeat"):
-        run_laps(grid_fleet(["...."], trips, rules=Rules(ends="none")))
+        run_laps(alone)
     with pytest.raises(InputError, match=r"robots\[0\].stops: all are at its home N0"):
         run_laps(grid_fleet(["...."], [("N0", "N0")]))
     with pytest.raises(InputError, match=r"rule: 'last-come' is unknown \(choose first-come"):

@@ -156,8 +156,8 @@ Examples:
 def bound(*, scenario: str, count: int | None, in_ticks: bool, as_json: bool) -> None:
     """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
 
-    Both follow from the times at which the robots would be done if each drove alone. A SCENARIO of - is
-    standard input.
+    Both follow from the times at which the robots would be done if each drove alone. A SCENARIO of
+    - is standard input.
     """
     from rightofway.cli.plan_report import MAX_LINES
     from rightofway.metrics import alone_completions

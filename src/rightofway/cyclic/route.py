@@ -23,6 +23,8 @@ from rightofway.planners.routing import (
 )
 from rightofway.search import Distances
 
+NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"
+
 ROUTES = ("clear", "direct", "shortest")
 """The choices of round trips; see `cyclic_routes`."""
 
@@ -190,6 +192,8 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
     refuse_sizes(scenario.problem.resources, "repeated work", "give robots no radius, and no zones")
+    if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
+        raise InputError.at("rules.return", NOTHING_REPEATS)
     faults = [
         fault.within(f"robots[{index}]")
         for index, robot in enumerate(scenario.robots)
@@ -206,7 +210,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
 
 def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     if (robot.ends or scenario.rules.ends) == "none":
-        yield InputFault("return", "'none' leaves nothing to repeat (set return: home)")
+        yield InputFault("return", NOTHING_REPEATS)
     if all(stop.at == robot.home for stop in robot.stops):
         home = scenario.roadmap.name(robot.home)
         yield InputFault("stops", f"all are at its home {home} (let it go somewhere)")
