@@ -121,6 +121,11 @@ def test_what_does_not_fit_is_told_with_place_and_remedy(
             '<!DOCTYPE x [\n<!ENTITY a "aaaa">]><graphml>&a;</graphml>',
             "a.xml:2: the entity 'a' is not allowed",
         ),
+        (
+            "a.xml",
+            '<?xml version="1.0" encoding="klingon"?><graphml><graph/></graphml>',
+            "the GraphML graph has no vertex",
+        ),
         ("a.xml", "<graphml><graph>", "a.xml:1: this is no XML: no element found"),
         ("a.xml", "<" + "a><" * 200 + "a>", "its elements are more than 64 deep"),
         (

@@ -78,7 +78,7 @@ def parse_xml(text: str) -> Element:
     InputError
         If it is no XML, declares entities, or is too large or too deep.
     """
-    parser = expat.ParserCreate(namespace_separator=" ")
+    parser = expat.ParserCreate("utf-8", " ")  # whatever encoding the text declares
     parser.buffer_text = True
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
     document = Element("", {}, 1)
