@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations, product
+from functools import cache, partial
+from itertools import combinations, pairwise, permutations, product
 from typing import NamedTuple
 
 from rightofway.model import Roadmap, Scenario, Track
@@ -148,3 +149,111 @@ def encounters(scenario: Scenario, tracks: list[Track]) -> dict[tuple[int, int],
         if least < needed(scenario, i, j) ** 2:
             found[i, j] = least
     return found
+
+
+class Held(NamedTuple):
+    """A booking by index: from the start of visit ``start`` to the end of visit ``end``."""
+
+    shape: Shape
+    start: int
+    end: int
+
+
+def held(track: Track) -> list[Held]:
+    """Return what a track books, visit by visit: its vertex, and the edge driven out of it."""
+    vertices = track.vertices.tolist()
+    edges = list(pairwise(vertices))
+    return [
+        *(Held((vertex,), k, k) for k, vertex in enumerate(vertices)),
+        *(Held(edge, k + 1, k) for k, edge in enumerate(edges)),
+    ]
+
+
+def executed(
+    scenario: Scenario,
+    tracks: Sequence[Track],
+    dwell: Sequence[Sequence[int]],
+    drive: Sequence[Sequence[int]],
+) -> tuple[list[list[int]], list[list[int]]]:
+    """Return when visits start to be driven to and when they begin, in the order of a plan.
+
+    A drive starts when the stay before is done and all bookings that exclude what it books, and
+    come first in the plan, are over. Goes over all pairs until nothing changes.
+    """
+    headway = int(scenario.problem.headway)
+    waits = list(_waits(scenario, tracks))
+    enter = [[0] * len(track) for track in tracks]
+    start = [[0] * len(track) for track in tracks]
+    changed = True
+    while changed:
+        before = [list(each) for each in enter]
+        for robot, track in enumerate(tracks):
+            for k in range(1, len(track)):
+                done = enter[robot][k - 1] + dwell[robot][k - 1]
+                start[robot][k] = max(start[robot][k], done)
+                enter[robot][k] = start[robot][k] + drive[robot][k]
+        for first, ends, second, starts in waits:
+            over = enter[first][ends + 1] + headway
+            start[second][starts] = max(start[second][starts], over)
+        changed = enter != before
+    return start, enter
+
+
+def _waits(scenario: Scenario, tracks: Sequence[Track]) -> Iterator[tuple[int, int, int, int]]:
+    """Yield robot and visit that ends, then robot and visit whose drive in starts only after."""
+    excludes = cache(partial(incompatible, scenario))
+    for i, j in permutations(range(len(tracks)), 2):
+        for one, other in product(held(tracks[i]), held(tracks[j])):
+            if not excludes(i, one.shape, j, other.shape):
+                continue
+            is_last = one.end == len(tracks[i]) - 1
+            if not is_last and tracks[i].enter[one.end + 1] < _end(tracks[j], other):
+                yield i, one.end, j, other.start
+
+
+def _end(track: Track, booking: Held) -> float:
+    is_last = booking.end == len(track) - 1
+    return float("inf") if is_last else float(track.enter[booking.end + 1])
+
+
+def bookings_meet(
+    scenario: Scenario, tracks: Sequence[Track], start: Sequence[Sequence[int]]
+) -> bool:
+    """Return whether bookings overlap in an execution; ``start``: of the drive into each visit."""
+    headway = int(scenario.problem.headway)
+    excludes = cache(partial(incompatible, scenario))
+    for i, j in combinations(range(len(tracks)), 2):
+        for one, other in product(held(tracks[i]), held(tracks[j])):
+            begin = max(start[i][one.start], start[j][other.start])
+            end = min(_end(tracks[i], one), _end(tracks[j], other)) + headway
+            if begin < end and excludes(i, one.shape, j, other.shape):
+                return True
+    return False
+
+
+def discs_meet(scenario: Scenario, tracks: Sequence[Track], start: Sequence[Sequence[int]]) -> bool:
+    """Return whether robots that drive uniformly from start to enter come too near anywhere."""
+
+    def at(robot: int, tick: Fraction) -> Point:
+        track = tracks[robot]
+        for k in range(1, len(track)):
+            arrives = Fraction(int(track.enter[k]))
+            if tick < arrives:
+                begins = Fraction(start[robot][k])
+                share = max((tick - begins) / (arrives - begins), Fraction(0))
+                a, b = (point(scenario.roadmap, int(v)) for v in track.vertices[k - 1 : k + 1])
+                return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
+        return point(scenario.roadmap, int(track.vertices[-1]))
+
+    for i, j in combinations(range(len(tracks)), 2):
+        ticks = {int(tick) for k in (i, j) for tick in (*tracks[k].enter, *start[k])}
+        turns = sorted(map(Fraction, ticks))
+        for begin, end in pairwise(turns):
+            gaps = []
+            for tick in (begin, end):
+                p, q = at(i, tick), at(j, tick)
+                gaps.append((p[0] - q[0], p[1] - q[1]))
+            square = square_to_line((Fraction(0), Fraction(0)), *gaps)
+            if square < needed(scenario, i, j) ** 2:
+                return True
+    return False

@@ -44,7 +44,9 @@ def any_overlap(boxes: Sequence[tuple[float, float, float, float]]) -> bool:
     return not apart.all()
 
 
-@pytest.mark.parametrize("plan", [door(), loop(), yard(), crowd(50)])
+@pytest.mark.parametrize(
+    "plan", [door(), loop(), yard(), pytest.param(crowd(50), marks=pytest.mark.slow)]
+)
 @pytest.mark.parametrize("scale", [9, 45, 110])
 def test_no_name_covers_another_or_leaves_the_picture(plan: Plan, scale: float) -> None:
     scene = Scene(plan, LIGHT)
