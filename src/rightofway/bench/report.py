@@ -140,8 +140,9 @@ def _figures(group: Group) -> Iterator[str]:
     def spread(found: Quantiles | None, form: str) -> str:
         if found is None:
             return ""
-        low, high = (f"{each:{form}}" for each in (found.first_quartile, found.third_quartile))
-        return f"{found.median:{form}} ({low} to {high})"
+        quartiles = (found.first_quartile, found.median, found.third_quartile)
+        low, median, high = (f"{each:{form}}" for each in quartiles)
+        return median if low == high else f"{median} ({low} to {high})"
 
     yield f"{group.solved} of {group.cases}"
     yield spread(group.ratio, ".3f")
@@ -209,6 +210,7 @@ def _cactus(rows: Sequence[Row], figure: Any) -> None:
         ylabel=f"solved cases, of {most}",
         ylim=(0, 1.05 * most),
     )
+    axes.yaxis.get_major_locator().set_params(integer=True)
     axes.legend(loc="lower right")
 
 

@@ -69,7 +69,7 @@ def bench(
     say(f"wrote {output}")
     _summarize(rows, output, as_json=as_json)
     if report:
-        write_report(rows, report, f"Results of {Path(suite).stem}")
+        write_report(rows, report, f"Benchmark results: {Path(suite).name}")
         say(f"wrote {report}")
     return 1 if any(row["valid"] is False for row in rows) else 0
 

@@ -18,6 +18,15 @@ class Card {
     const content = fault ? this.#fault(fault) : decision ? this.#decision(decision) : this.#robot(robot);
     this.box.replaceChildren(...content);
     this.box.scrollTop = 0;
+    this.#clearMap();
+  }
+
+  /** Where the card lies over the lower half of the screen, bring the map above it. */
+  #clearMap() {
+    const map = document.querySelector(".map");
+    const { top, bottom } = map.getBoundingClientRect();
+    const isOver = getComputedStyle(this.box).position === "fixed" && bottom > this.box.getBoundingClientRect().top;
+    if (isOver && top > 0 && top < innerHeight / 2) map.scrollIntoView();
   }
 
   #header(...title) {

@@ -30,7 +30,9 @@ class MapRobots {
   #faulty(context, radius, scale) {
     context.strokeStyle = this.theme.held;
     context.lineWidth = Math.max(0.03, 2 / scale);
-    for (const index of this.choice.faulty) ring(context, this.motion.x[index], this.motion.y[index], Math.max(radius * 1.75, 9 / scale));
+    const { faulty } = this.choice;
+    const wide = faulty.length > FEW ? radius * 1.3 : Math.max(radius * 1.75, 9 / scale);
+    for (const index of faulty) ring(context, this.motion.x[index], this.motion.y[index], wide);
   }
 
   /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */

@@ -81,7 +81,8 @@ class MapView {
     document.getElementById("heat").setAttribute("aria-pressed", this.choice.heat);
     document.getElementById("heat-legend").hidden = !this.choice.heat;
     const marks = [0, this.use.most / 2, this.use.most];
-    const labels = marks.map((ticks) => element("span", {}, this.words.duration(ticks)));
+    const texts = [...marks.slice(0, -1).map((ticks) => this.words.time(ticks)), this.words.duration(marks.at(-1))];
+    const labels = texts.map((text) => element("span", {}, text));
     document.getElementById("heat-scale").replaceChildren(...labels);
   }
 }

@@ -15,6 +15,8 @@ class Summary {
     document.body.classList.toggle("faulty", plan.faultCount > 0 || plan.other?.faultCount > 0);
     document.getElementById("figures").replaceChildren(...this.figures.map(([term, value, title]) =>
       element("div", { title }, element("dt", {}, term), element("dd", {}, ...[value].flat()))));
+    const header = document.querySelector(".summary");
+    new ResizeObserver(() => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1)).observe(header); // scrolls by keys
     document.getElementById("about-open").hidden = plan.noPlan;
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
@@ -67,8 +69,8 @@ class Summary {
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
-      [`All ${this.#arrived} at`, this.words.time(metrics.makespan), "When the last robot is there"],
-      ["Latest", this.#robot(latest), "The robot that is there last"],
+      [`All ${this.#arrived} at`, this.words.time(metrics.makespan), `When the last robot is ${this.#arrived}`],
+      ["Latest", this.#robot(latest), `The robot that is ${this.#arrived} last`],
       ["Time lost", this.#timeLost(robots), "How much later the robots arrive, all together, than if each drove alone"],
       ["Loses most", loser.delay > 0 ? [this.#robot(loser), `, ${this.words.time(loser.delay)}`] : "", "The robot that loses most time to others"],
     ];
@@ -77,10 +79,10 @@ class Summary {
   /** The sum of all lost time, and its parts. */
   #timeLost(robots) {
     const all = robots.reduce((sum, { delay }) => sum + delay, 0);
-    return all ? [this.words.time(all), element("small", {}, ` (${this.#lostParts(robots)})`)] : "none";
+    return all ? [this.words.time(all), element("small", {}, ` ${this.#lostParts(robots)}`)] : "none";
   }
 
-  /** "waiting 35 s, detours 6 s"; the only part without its time. */
+  /** "(waiting 35 s, detours 6 s)"; the only part without its time. */
   #lostParts(robots) {
     const sum = (part) => robots.reduce((all, robot) => all + part(robot), 0);
     const parts = [
@@ -88,7 +90,7 @@ class Summary {
       ["detours", sum(({ lost }) => lost.detours)],
       ["making room", sum(({ lost }) => lost.makingRoom)],
     ].filter(([, ticks]) => ticks);
-    return parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0]?.[0] ?? "";
+    return `(${parts.length > 1 ? parts.map(([what, ticks]) => `${what} ${this.words.time(ticks)}`).join(", ") : parts[0][0]})`;
   }
 
   /** Both plans, and how many robots gain by the other one. */
@@ -98,7 +100,7 @@ class Summary {
     const changes = plan.planned.map((robot) => comparison.change(robot));
     const count = (holds) => String(changes.filter(holds).length);
     return [
-      [`All ${this.#arrived} at`, both(({ metrics }) => metrics.makespan), "When the last robot is there, in both plans"],
+      [`All ${this.#arrived} at`, both(({ metrics }) => metrics.makespan), `When the last robot is ${this.#arrived}, in both plans`],
       ["Time lost", both(({ metrics }) => metrics.flowtime - metrics.lowerBound), "How much later the robots arrive, all together, than if each drove alone"],
       ["Earlier", count((change) => change < 0), `Robots that arrive earlier in ${plan.other.title}`],
       ["Later", count((change) => change > 0), `Robots that arrive later in ${plan.other.title}`],
@@ -123,9 +125,9 @@ class Summary {
     const done = happened.filter(({ ending }) => ending === DONE);
     const latest = mostOf(done, ({ delayInAll }) => delayInAll);
     return [
-      [`All ${this.#arrived} at`, done.length === happened.length ? this.#insteadOf(metrics.makespan) : "", "When the last robot was there"],
+      [`All ${this.#arrived} at`, done.length === happened.length ? this.#insteadOf(metrics.makespan) : "", `When the last robot was ${this.#arrived}`],
       ["Late", `${late.length} of ${happened.length}`, "Robots that arrived later than planned, or never"],
-      ["Latest by", latest?.delayInAll > 0 ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)] : "", "How late the latest of those was that arrived"],
+      ["Latest by", latest?.delayInAll > 0 ? [`${this.words.time(latest.delayInAll)}, `, this.#robot(latest)] : "", "The largest delay of a robot that arrived"],
     ];
   }
 
@@ -160,7 +162,7 @@ class Summary {
       ["Lower bound", this.words.time(lowerBound)],
       ["Gap", gap],
       ["Makespan", this.words.time(makespan)],
-      ["Time lost", this.#lostParts(this.plan.planned)],
+      ["Time lost", [this.#timeLost(this.plan.planned)].flat().map((part) => part.textContent ?? part).join("")],
       ["Tick", isUnit ? "" : `${this.words.duration(1)}, the step in which times are counted`],
     ];
   }

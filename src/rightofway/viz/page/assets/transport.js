@@ -14,7 +14,7 @@ class Transport {
     this.digits = plan.end / clock.ticksPerUnit < 10 ? 2 : 1;
     const label = (rate) => (rate < 1 ? `1/${1 / rate} ×` : `${rate} ×`);
     this.speed.append(...RATES.map((rate) => element("option", { value: rate }, label(rate))));
-    this.speed.title = "Time units in a second";
+    this.speed.title = `1 × plays 1 ${plan.quantities.units.time ?? "time unit"} of the plan in a second`;
     this.#listen();
     this.#showPlaying();
   }
