@@ -94,9 +94,7 @@ def test_markdown_has_its_pictures_beside_it(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     write_report(ROWS, tmp_path / "halls.md", "Halls")
     text = (tmp_path / "halls.md").read_text(encoding="utf-8")
-    assert (
-        "| a\\|b | a, b | 5 | <two> | 1 of 1 | 1.500 | 5 | 50 |" in text
-    )
+    assert "| a\\|b | a, b | 5 | <two> | 1 of 1 | 1.500 | 5 | 50 |" in text
     for name in re.findall(r"!\[[^\]]*\]\(([^)]*)\)", text):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
     assert len(list(tmp_path.iterdir())) == 3

@@ -9,7 +9,12 @@ from tests.viewer.conftest import Opener, Viewer, pixel
 @pytest.fixture
 def both(show: Opener) -> Viewer:
     """In the other plan R1 waits a tick longer than it must."""
-    return show(door(), title="A.json", other=(door_shifted(1), "B.json"))
+    return show(
+        door(),
+        title="A.json",
+        other=(door_shifted(1), "B.json"),
+        viewport={"width": 1600, "height": 1000},
+    )
 
 
 def test_the_head_compares_both_plans(both: Viewer) -> None:

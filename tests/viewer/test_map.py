@@ -195,3 +195,17 @@ def test_obstacles_have_their_names_on_the_map_and_at_the_pointer(show: Opener) 
     viewer.page.mouse.move(box["x"] + left, box["y"] + top + scale)
     assert viewer.text("#hover").splitlines()[0] == "table"
     assert viewer.complaints == []
+
+
+def test_the_diagram_stands_beside_a_map_that_becomes_much_larger_so(show: Opener) -> None:
+    """The map of the door grows to 1.4 times at 1280 x 720, to 1.1 times at 1600 x 1000."""
+    viewer = show(door(), viewport={"width": 1280, "height": 720})
+    place = "document.getElementById('diagram').getBoundingClientRect().left"
+    assert viewer.ask(f"{place} >= mapView.canvas.getBoundingClientRect().right")
+    assert viewer.ask("mapView.viewport.scale") > 130
+    viewer.page.set_viewport_size({"width": 1600, "height": 1000})
+    viewer.wait_for(f"{place} === 0")
+    viewer.page.set_viewport_size({"width": 1280, "height": 720})
+    viewer.ask("paper.lay(true)")
+    assert viewer.ask(f"{place} === 0")
+    assert viewer.complaints == []

@@ -31,7 +31,8 @@ const deepLink = new DeepLink(plan, clock, choice);
 const summary = new Summary(plan, choice, words, comparison);
 const share = new Share(plan, clock, [mapView, ...(comparison ? [comparison.view] : [])], diagram, theme, words, deepLink);
 const paper = new Paper(plan, clock, theme, words, comparison, () => frames.paint(performance.now()));
-document.body.classList.toggle("high", plan.roadmap.height > 1.15 * plan.roadmap.width);
+layOut();
+window.addEventListener("resize", layOut);
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
 for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
 for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
@@ -78,6 +79,15 @@ const frames = {
     robotList.refresh();
   },
 };
+
+/** Put the diagram beside the map where the map is much larger so than above the diagram. */
+function layOut() {
+  const { width, height } = plan.roadmap;
+  const pane = 0.73 * innerWidth;
+  const above = Math.min(pane / width, (0.73 * innerHeight - 200) / height);
+  const beside = Math.min(pane / 2 / width, (innerHeight - 150) / height);
+  document.body.classList.toggle("high", !document.isPart && beside > 1.25 * above);
+}
 
 /** Paint again what does not move. */
 function repaintAll() {

@@ -215,7 +215,7 @@ class MapNames {
       const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
       if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
       const x = left + (it.left + it.width / 2) * scale;
-      const boxes = [0.5, 0.75, 0.25].map((share) => {
+      const boxes = [0.5, 1, 0].map((share) => {
         const y = top + it.top * scale + Math.min(Math.max(it.height * scale * share, down), it.height * scale - down);
         return [x - across, y - down, x + across, y + down];
       });

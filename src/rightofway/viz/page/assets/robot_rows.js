@@ -1,6 +1,8 @@
 "use strict";
 
 const MOST_ROWS = 60;
+const HIGHEST_ROW = 52; // pixels
+const THICKEST = 20; // pixels; a block
 const ROW_WITH_GHOST = 9; // pixels; in lower rows only the end of the plan is marked
 
 /** A row for each robot: a line while it drives, a frame while it waits, a block while it works. */
@@ -14,12 +16,12 @@ class RobotRows {
     const other = beside && `, grey: ${this.#hasGhosts ? "" : "done in "}${besideName}`;
     if (mode !== "plan") return `Robots over time; red: held up, orange: waits for a late robot${other ?? ""}`;
     if (beside) return `${this.plan.title}: lines drive, frames wait, blocks work${other}`;
-    return "Robots over time: a line is driving, a frame waiting, a block working or turning";
+    return "Robots over time: lines drive, frames wait, blocks work or turn";
   }
 
   paint(context, area) {
     this.area = area;
-    this.rowHeight = Math.min(area.height / this.plan.robots.length, 24);
+    this.rowHeight = Math.min(area.height / this.plan.robots.length, HIGHEST_ROW);
     const names = this.plan.robots.map((robot) => robot.name);
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
     this.bottleneck.paintDiagram(context, area, ({ robot }) => this.#lane(robot));
@@ -67,7 +69,7 @@ class RobotRows {
   #row(context, robot) {
     const { phases } = robot;
     const middle = this.#middle(robot.index) + (this.#hasGhosts ? this.rowHeight * 0.12 : 0);
-    const full = Math.max(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), 1.5);
+    const full = Math.max(Math.min(this.rowHeight * (this.#hasGhosts ? 0.56 : 0.68), THICKEST), 1.5);
     context.fillStyle = context.strokeStyle = robot.colour;
     const begin = this.area.x(0);
     context.fillRect(begin, middle - full * 0.16, this.area.x(robot.completion ?? Infinity) - begin, full * 0.32);
