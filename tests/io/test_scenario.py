@@ -219,8 +219,8 @@ def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
     path.write_text(json.dumps(crossroads()), encoding="utf-8")
     [note] = [note for note in load_with_notes(path).notes if "cross" in note]
     assert note == (
-        "A-B and C-D cross where no vertex is (1 more pair): robots without a radius may meet"
-        " there (give robots a radius, or put a vertex there)"
+        "the lanes A to B and C to D cross where no vertex is (1 more pair):"
+        " robots without a radius may meet there (give robots a radius, or put a vertex there)"
     )
     path.write_text(json.dumps(crossroads(radius="1/10")), encoding="utf-8")
     assert not any("cross" in note for note in load_with_notes(path).notes)

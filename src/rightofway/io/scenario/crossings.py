@@ -35,12 +35,12 @@ def crossing_note(scenario: Scenario) -> Iterator[str]:
         return
     found = list(_crossings(roadmap.positions[lanes], lanes))
     if found:
-        one, other = ("-".join(map(roadmap.name, lanes[lane].tolist())) for lane in found[0])
+        one, other = (" to ".join(map(roadmap.name, lanes[lane].tolist())) for lane in found[0])
         pairs = len(found) - 1
         more = f" ({pairs} more pair{'s' * (pairs != 1)})" if pairs else ""
         yield (
-            f"{one} and {other} cross where no vertex is{more}: robots without a radius may meet"
-            " there (give robots a radius, or put a vertex there)"
+            f"the lanes {one} and {other} cross where no vertex is{more}:"
+            " robots without a radius may meet there (give robots a radius, or put a vertex there)"
         )
 
 
