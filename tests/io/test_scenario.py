@@ -201,9 +201,29 @@ def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path:
     path.write_text(json.dumps(floor), encoding="utf-8")
     assert load_with_notes(path).notes[1] == (
         "each drive, turn and work time is rounded up to a multiple of 0.00050 time units"
-        " (the shortest of them, divided by 1000); simpler numbers stay exact, for example"
-        " speed 1/3 instead of 0.3333"
+        " (the shortest of them, divided by 1000); simpler speeds and lengths stay"
+        " exact, for example 1/3 instead of 0.3333"
     )
+
+
+def crossroads(**robot: Any) -> dict[str, Any]:
+    """A-B crosses C-D and C-E. A-C only meets lanes at its ends; G lies on A-B."""
+    at = {"A": [0, 2], "B": [4, 2], "C": [2, 0], "D": [2, 4], "E": [3, 4], "G": [1, 2], "H": [1, 9]}
+    edges = [["A", "B"], ["C", "D"], ["C", "E"], ["A", "C"], ["G", "H"]]
+    robots = [{"name": "R1", "home": "A", "target": "B", **robot}]
+    return document(map={"roadmap": {"vertices": at, "edges": edges}}, robots=robots)
+
+
+def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
+    path = tmp_path / "x.json"
+    path.write_text(json.dumps(crossroads()), encoding="utf-8")
+    [note] = [note for note in load_with_notes(path).notes if "cross" in note]
+    assert note == (
+        "the lanes A to B and C to D cross where no vertex is (1 more pair):"
+        " robots without a radius may meet there (give robots a radius, or put a vertex there)"
+    )
+    path.write_text(json.dumps(crossroads(radius="1/10")), encoding="utf-8")
+    assert not any("cross" in note for note in load_with_notes(path).notes)
 
 
 def test_at_most_fifty_problems_are_told() -> None:

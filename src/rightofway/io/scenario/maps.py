@@ -63,7 +63,8 @@ class LoadedMap:
         def what_blocks(row: int, column: int) -> str:
             grid, floor = self.roadmap.grid, self.floor
             if floor is None or grid is None:
-                return repr(self.lines[row][column])
+                sign = self.lines[row][column]
+                return "a space, as only '.' is free" if sign == " " else repr(sign)
             if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
                 row = grid.rows - 1 - row
             return _obstacle(row, column, floor, grid)

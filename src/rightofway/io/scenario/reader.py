@@ -21,6 +21,7 @@ from rightofway.io.layouts import refuse_layout
 from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
+from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.io.text import read_text
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
@@ -431,10 +432,11 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
+    yield from crossing_note(scenario)
     if not scenario.problem.clock.exact:
         yield (
             f"each drive, turn and work time is rounded up to a multiple of"
             f" {scenario.quantities.duration(1)} (the shortest of them, divided by"
-            f" {MAX_TICKS_OF_SHORTEST}); simpler numbers stay exact, for example speed 1/3"
-            " instead of 0.3333"
+            f" {MAX_TICKS_OF_SHORTEST}); simpler speeds and lengths stay exact,"
+            " for example 1/3 instead of 0.3333"
         )

@@ -66,7 +66,7 @@ class RobotList {
 
   /** When it is done, and what of that it owes to the others. */
   #times(late, robot) {
-    late.append(`${this.words.time(robot.completion)} `);
+    late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
     late.title = `${this.plan.endsAtHome ? "Home" : "Done"} at ${this.words.moment(robot.completion)}, ` +
       `alone at ${this.words.moment(robot.alone)}`;
