@@ -4,7 +4,7 @@ from fractions import Fraction
 from math import ceil, floor
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -25,6 +25,7 @@ def gap(one: int, other: int) -> int:
     return max(abs(one - other) - 1, 0)
 
 
+@settings(deadline=None)
 @given(drawn=maps, by=distances, outside=st.booleans())
 def test_pixels_nearer_than_the_distance_are_blocked(
     drawn: list[list[int]], by: Fraction, outside: bool
@@ -48,6 +49,7 @@ def test_pixels_nearer_than_the_distance_are_blocked(
             assert found[row, column] == (blocked[row, column] or is_near)
 
 
+@settings(deadline=None)
 @given(drawn=maps, size=st.fractions(1, 3, max_denominator=4))
 def test_a_cell_is_free_if_all_pixels_that_it_touches_are(
     drawn: list[list[int]], size: Fraction
