@@ -98,7 +98,9 @@ def test_plans_keep_zones_and_lose_no_more_than_they_must(
 def test_planners_that_do_not_know_zones_refuse_them() -> None:
     scenario = scenario_of(document({"vertices": ["B", "F"]}))
     for planner in set(registered()) - set(KNOW_ZONES):
-        with pytest.raises(InputError, match=f"planner {planner} (does not know .* zones|is for points)"):
+        with pytest.raises(
+            InputError, match=f"planner {planner} (does not know .* zones|is for points)"
+        ):
             solve(scenario, planner)
 
 

@@ -64,7 +64,7 @@ def opened(path: Path) -> None:
         str(error).encode()
 
 
-@settings(max_examples=150)
+@settings(max_examples=150, deadline=None)
 @given(data=st.data())
 def test_values_of_wrong_kinds_are_refused(data: st.DataObject) -> None:
     source = data.draw(st.sampled_from(DATA))
@@ -82,7 +82,7 @@ def test_values_of_wrong_kinds_are_refused(data: st.DataObject) -> None:
         opened(path)
 
 
-@settings(max_examples=150)
+@settings(max_examples=150, deadline=None)
 @given(data=st.data())
 def test_files_that_are_cut_or_swapped_are_refused(data: st.DataObject) -> None:
     source = data.draw(st.sampled_from(FILES))

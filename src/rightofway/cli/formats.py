@@ -26,16 +26,19 @@ Examples:
   rightofway convert paths.txt --map hall.map -o plan.json
   rightofway convert plan.json --to lns2 -o paths.txt
   rightofway convert hall.lif.json -o hall.yaml
+  rightofway convert hall.lif.json --to nav2 -o hall.geojson
 """
 
 SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
 
 def _list_formats(formatter: click.HelpFormatter) -> None:
-    from rightofway.io import FOREIGN_FORMATS
+    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS
 
     with formatter.section("Formats of plans of other programs"):
         formatter.write_dl([(name, each.summary) for name, each in FOREIGN_FORMATS.items()])
+    with formatter.section("Formats of layouts of other programs"):
+        formatter.write_dl([(name, each.summary) for name, each in LAYOUT_WRITERS.items()])
 
 
 def _foreign_names() -> Iterable[str]:
@@ -56,7 +59,7 @@ def _foreign_names() -> Iterable[str]:
               help="File to write, the same as the argument TARGET; - for standard output.",
               )  # fmt: skip
 @click.option("--to", "name", metavar="FORMAT", shell_complete=words(_foreign_names),
-              help="Write a plan in the format of another program; see below.")  # fmt: skip
+              help="Write a plan or a layout for another program; see below.")  # fmt: skip
 @count_option
 @foreign_options
 def convert(
@@ -68,7 +71,8 @@ def convert(
     file contains the map. A .scen file has no speeds, work times, turning times and ways home; the
     command reports which of these it left out. A plan is written as .json, or with --to. A layout
     of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a scenario,
-    .yaml or .json, that has the layout as its map and a few robots to begin with.
+    .yaml or .json, that has the layout as its map and a few robots to begin with; with --to it is
+    written for another program, and a message names what its format cannot say.
     """
     from rightofway.model import Plan
 
@@ -76,9 +80,10 @@ def convert(
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
     _check_target(path, name)
-    if name is None and _is_layout(source):
-        _write_example(source, path)
+    if _is_layout(source):
+        _write_layout(source, path, name)
         return
+    _refuse_layout_format(source, name)
     found = read_either(source, count)
     if isinstance(found, Plan):
         _write_plan(found, path, name)
@@ -90,16 +95,17 @@ def convert(
 
 def _check_target(path: str, name: str | None) -> None:
     """Refuse, before any work, a format or an ending that is not known."""
-    from rightofway.io import FOREIGN_FORMATS
+    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS
 
+    known = (*FOREIGN_FORMATS, *LAYOUT_WRITERS)
     if name is None:
         if path != "-" and Path(path).suffix.lower() not in SUFFIXES:
             endings = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
             remedy = "give a name that does, or with --to the format of another program"
             raise click.UsageError(f"{path!r} does not end in {endings} ({remedy})")
-    elif name not in FOREIGN_FORMATS:
-        meant, known = nearest(name, FOREIGN_FORMATS), ", ".join(FOREIGN_FORMATS)
-        hint = f"did you mean {meant}?" if meant else f"give one of {known}"
+    elif name not in known:
+        meant = nearest(name, known)
+        hint = f"did you mean {meant}?" if meant else f"give one of {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
 
 
@@ -108,6 +114,35 @@ def _is_layout(source: str) -> bool:
     from rightofway.io import is_layout
 
     return source != "-" and is_layout(source)
+
+
+def _refuse_layout_format(source: str, name: str | None) -> None:
+    from rightofway.io import LAYOUT_WRITERS
+
+    if name in LAYOUT_WRITERS:
+        raise click.UsageError(f"--to {name} is for layouts, and {source} is none")
+
+
+def _write_layout(source: str, path: str, name: str | None) -> None:
+    """Write a layout in another format, or without one a scenario that has it as its map."""
+    from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
+    from rightofway.model.layout import Layout
+
+    if name is None:
+        _write_example(source, path)
+        return
+    layout = read_layout(source)
+    if name not in LAYOUT_WRITERS or not isinstance(layout, Layout):
+        what = "a layout" if isinstance(layout, Layout) else "a map in cells or pixels"
+        remedy = "give a name that ends in .yaml for a scenario"
+        raise click.UsageError(f"{source} is {what}, which is not written as {name} ({remedy})")
+    try:
+        text, losses = layout_text(layout, name)
+    except InputError as error:
+        raise InputError(error.faults, source) from None
+    put_text(text, path)
+    for note in (*layout.notes, *losses):
+        say(f"{path}: {note}")
 
 
 def _write_example(source: str, path: str) -> None:

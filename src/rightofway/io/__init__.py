@@ -7,7 +7,7 @@ else in the package.
 
 from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text
 from rightofway.io.formats import schema
-from rightofway.io.layouts import is_layout, read_layout
+from rightofway.io.layouts import LAYOUT_WRITERS, is_layout, layout_text, read_layout
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.plan.reader import load_either, load_plan, plan_of
 from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
@@ -19,12 +19,14 @@ from rightofway.io.text import DELAY_FILES, load_delays
 __all__ = [
     "DELAY_FILES",
     "FOREIGN_FORMATS",
+    "LAYOUT_WRITERS",
     "Loaded",
     "dump_plan",
     "dump_scenario",
     "example_of_layout",
     "foreign_text",
     "is_layout",
+    "layout_text",
     "load",
     "load_delays",
     "load_either",

@@ -206,5 +206,5 @@ def place_of(parts: Iterable[str | int]) -> str:
         if isinstance(part, str) and part.isidentifier():
             place += f".{part}" if place else part
         else:
-            place += f"[{shown(part)}]"
+            place += f"[{part if type(part) is int else shown(part)}]"
     return place

@@ -133,13 +133,12 @@ def grown(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) -> NDArray
         Blocked pixels; bool, shape (rows, columns).
     """
     framed = np.pad(blocked, 1, constant_values=outside)
-    rows, columns = framed.shape
-    reach = min(ceil(by), max(rows, columns))  # pixels with that many between them are far enough
+    rows = len(framed)
     gap = np.empty(framed.shape, np.uint16)
     for begin in range(0, rows, STRIP):  # a strip at a time needs little memory
         gap[begin : begin + STRIP] = np.minimum(_gap_in_row(framed[begin : begin + STRIP]), FAR)
     result = framed.copy()
-    for down in range(reach + 1):
+    for down in range(min(ceil(by) + 1, rows)):
         between = max(down - 1, 0)
         rest = by**2 - between**2
         if rest <= 0:

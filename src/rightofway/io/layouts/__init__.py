@@ -8,12 +8,15 @@ from rightofway.io.layouts.formats import (
     read_layout,
     refuse_layout,
 )
+from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
 
 __all__ = [
+    "LAYOUT_WRITERS",
     "LayoutFormat",
     "described",
     "is_layout",
     "layout_formats",
+    "layout_text",
     "read_layout",
     "refuse_layout",
 ]

@@ -71,8 +71,9 @@ class LevelDraft:
         if vertex.name in self.vertices:
             message = f"a vertex is named {shown(vertex.name)} already (rename one)"
             raise InputError.at(place, message)
-        x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
-        vertex = replace(vertex, at=(x, y))
+        if any(MICRO % number.denominator for number in vertex.at):
+            x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
+            vertex = replace(vertex, at=(x, y))
         if len(self.vertices) == MAX_VERTICES:
             raise InputError.at(place, f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex

@@ -20,8 +20,8 @@ from rightofway.io.text import parse_json, parse_yaml, read_text
 from rightofway.model.layout import Layout
 from rightofway.model.occupancy import CellMap, Occupancy
 
-MAX_CHARACTERS = 30_000_000
-"""A longer layout is refused: reading it would take gigabytes."""
+MAX_CHARACTERS = 50_000_000
+"""A longer layout is refused: reading it would take half a gigabyte and more."""
 
 GROUP = "rightofway.layouts"
 """Entry points of this group are further formats."""

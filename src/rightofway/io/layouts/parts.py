@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from rightofway.errors import InputError, is_printable, shown
 from rightofway.io.faults import place_of
 from rightofway.model.values import DIGITS, coordinate
+
+BILLION = 10**9
 
 LONGEST_NAME = 200
 """Characters of the longest name."""
@@ -71,7 +74,10 @@ class Part:
 
     def number(self) -> Fraction:
         """Return the value as a number; text counts where a number is written in it."""
-        return number_in(self.value, self.place)
+        try:
+            return number_in(self.value, "")
+        except InputError as error:
+            raise self.fault(error.faults[0].message) from None
 
     def flag(self) -> bool:
         """Return the value as true or false; 0 and 1 count, too."""
@@ -81,7 +87,7 @@ class Part:
 
 
 def number_in(value: object, place: str) -> Fraction:
-    """Return a number of a file, to a millionth of a millimetre where it has more decimals.
+    """Return a number of a file, to a billionth where it has more decimals.
 
     Raises
     ------
@@ -89,9 +95,14 @@ def number_in(value: object, place: str) -> Fraction:
         For anything else, and for numbers above a thousand million.
     """
     try:
-        found = coordinate(value.strip() if isinstance(value, str) else value)
+        return _number(value) if isinstance(value, Hashable) else _number.__wrapped__(value)
     except ValueError as error:
         raise InputError.at(place, str(error)) from None
+
+
+@lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
+def _number(value: Hashable) -> Fraction:
+    found = coordinate(value.strip() if isinstance(value, str) else value)
     if abs(found) > 10 ** (DIGITS // 2):
-        raise InputError.at(place, f"{shown(value)} is out of range (check the unit)")
-    return Fraction(round(found * 10**9), 10**9)
+        raise ValueError(f"{shown(value)} is out of range (check the unit)")
+    return found if BILLION % found.denominator == 0 else Fraction(round(found * BILLION), BILLION)

@@ -23,6 +23,9 @@ from rightofway.model.occupancy import Occupancy
 ROBOTS = 6
 """Robots of the example, at most."""
 
+SHIFT = 7
+"""By how many halves of the distance between homes the first target is away from the first home."""
+
 CELL_SIZE = "1/2"
 """Side of the cells that a map in pixels is cut into [m]."""
 
@@ -98,7 +101,8 @@ def _dealt(roadmap: Roadmap, level: Level | None) -> list[dict[str, Any]]:
     in_zones = {vertex for zone in roadmap.zones for vertex in zone.vertices}
     free = [vertex for vertex in parking if vertex not in in_zones]
     homes = _chosen(free, part, count, in_zones.union(stations))
-    targets = _chosen(list(stations), part[::-1], count, homes)
+    shift = SHIFT * len(part) // (2 * ROBOTS)  # targets lie across from homes
+    targets = _chosen(list(stations), part[shift:] + part[:shift], count, homes)
     assert inside.issuperset((*homes, *targets))
     if not count:
         first = roadmap.name(0)

@@ -1,0 +1,339 @@
+"""Layouts, written for other programs; what a format has no place for is named.
+
+Reading what was written gives the same layout, but for what `losses_of` names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+from rightofway.errors import InputError, listed
+from rightofway.io.text import json_line
+from rightofway.model.geometry import squared_distance
+from rightofway.model.layout import Layout, LayoutEdge, LayoutVertex, Level
+
+LISTS = {"layouts", "nodes", "edges", "stations", "features"}
+"""Keys of lists that are spread over lines."""
+
+FREE_FOR_ALL = "any"
+"""The vehicle type of a LIF lane with a speed limit that is open to all, where no type is named."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutWriter:
+    """A format that layouts are written in.
+
+    Attributes
+    ----------
+    summary
+        What it is, in a few words.
+    write
+        Returns the text of a layout.
+    says
+        What it has a place for beside vertices, directed lanes and speed limits.
+    """
+
+    summary: str
+    write: Callable[[Layout], str]
+    says: frozenset[str]
+
+
+def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
+    """Return a layout as the text of a file for another program.
+
+    Parameters
+    ----------
+    layout
+        The layout.
+    name
+        A key of `LAYOUT_WRITERS`.
+
+    Returns
+    -------
+    tuple
+        The text, and what the layout has and the format cannot say, a sentence each.
+
+    Raises
+    ------
+    InputError
+        If the layout has several levels, and the format knows one.
+    """
+    writer = LAYOUT_WRITERS[name]
+    if len(layout.levels) > 1 and "levels" not in writer.says:
+        message = f"{len(layout.levels)} levels, and {name} knows one (write lif or open-rmf)"
+        raise InputError.at("", message)
+    return writer.write(layout), tuple(losses_of(layout, writer.says))
+
+
+def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
+    """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say.
+
+    Parameters
+    ----------
+    layout
+        The layout.
+    says
+        What the format has a place for.
+    """
+    vertices = [vertex for level in layout.levels for vertex in level.vertices]
+    edges = [edge for level in layout.levels for edge in level.edges]
+    counts = {
+        "names of vertices": sum(not _is_number(vertex.name) for vertex in vertices),
+        "stations": sum(len(level.stations) for level in layout.levels),
+        "parking places": sum(vertex.is_parking for vertex in vertices),
+        "charging places": sum(vertex.is_charging for vertex in vertices),
+        "lengths of curves": sum(map(_curved, layout.levels)),
+        "drawn curves": sum(bool(edge.shape) for edge in edges),
+        "vehicle types": len({name for edge in edges for name in edge.types or ()}),
+        "zones": sum(len(level.zones) for level in layout.levels),
+        "further zones of one place": sum(map(_overlaps, layout.levels)),
+        "lanes to other levels": sum(level.links for level in layout.levels),
+    }
+    lost = [f"{what} ({count})" for what, count in counts.items() if count and what not in says]
+    if lost:
+        yield f"left out, the format has no place for them: {listed(lost)}"
+
+
+def _is_number(name: str) -> bool:
+    return name.isascii() and name.isdecimal() and str(int(name)) == name
+
+
+def _overlaps(level: Level) -> int:
+    """Return how often a vertex or lane is in a zone beside its first one."""
+    members = [each for zone in level.zones for each in (*zone.vertices, *zone.edges)]
+    return len(members) - len(set(members))
+
+
+def _curved(level: Level) -> int:
+    """Return how many lanes are longer than the straight line, by more than rounding."""
+    at = {vertex.name: vertex.at for vertex in level.vertices}
+    step = Fraction(1, 1000)
+    return sum(
+        edge.length > step
+        and (edge.length - step) ** 2 > squared_distance(at[edge.tail], at[edge.head])
+        for edge in level.edges
+    )
+
+
+def _lif(layout: Layout) -> str:
+    layouts = [
+        {
+            "layoutId": level.name or "0",
+            "layoutVersion": "1",
+            "layoutLevelId": level.name or "0",
+            "nodes": [_lif_node(vertex, level) for vertex in level.vertices],
+            "edges": [_lif_edge(edge, number, level) for number, edge in enumerate(level.edges)],
+            "stations": [
+                {"stationId": station.name, "interactionNodeIds": list(station.vertices)}
+                for station in level.stations
+            ],
+        }
+        for level in layout.levels
+    ]
+    about = {
+        "projectIdentification": "layout",
+        "creator": "rightofway",
+        "exportTimestamp": "1970-01-01T00:00:00Z",
+        "lifVersion": "1.0.0",
+    }
+    return _json({"metaInformation": about, "layouts": layouts}) + "\n"
+
+
+def _json(value: dict[str, Any], margin: str = "\n") -> str:
+    """Return JSON with one node, edge, station or feature on a line."""
+    if LISTS.isdisjoint(value):
+        return json_line(value)
+    inner = margin + "  "
+    parts = []
+    for key, child in value.items():
+        text = json_line(child)
+        if key in LISTS and child:
+            rows = f",{inner}  ".join(_json(item, f"{inner}  ") for item in child)
+            text = f"[{inner}  {rows}{inner}]"
+        parts.append(f"{json_line(key)}: {text}")
+    return f"{{{inner}{f',{inner}'.join(parts)}{margin}}}"
+
+
+def _types(edge: LayoutEdge | None, level: Level) -> list[str]:
+    types = None if edge is None else edge.types
+    return sorted(types or level.vehicle_types or [FREE_FOR_ALL])
+
+
+def _lif_node(vertex: LayoutVertex, level: Level) -> dict[str, Any]:
+    actions = [
+        {"actionType": name, "requirementType": "CONDITIONAL", "blockingType": "HARD"}
+        for name in ("startCharging", "stopCharging")
+        if vertex.is_charging
+    ]
+    return {
+        "nodeId": vertex.name,
+        "nodePosition": {"x": float(vertex.at[0]), "y": float(vertex.at[1])},
+        "vehicleTypeNodeProperties": [
+            {"vehicleTypeId": name, **({"actions": actions} if actions else {})}
+            for name in _types(None, level)
+        ],
+    }
+
+
+def _lif_edge(edge: LayoutEdge, number: int, level: Level) -> dict[str, Any]:
+    limit = {} if edge.max_speed is None else {"maxSpeed": float(edge.max_speed)}
+    return {
+        "edgeId": f"{edge.tail}-{edge.head} {number}",
+        "startNodeId": edge.tail,
+        "endNodeId": edge.head,
+        "vehicleTypeEdgeProperties": [
+            {"vehicleTypeId": name, "rotationAllowed": True, **limit}
+            for name in _types(edge, level)
+        ],
+    }
+
+
+def _nav2(layout: Layout) -> str:
+    level = layout.levels[0]
+    are_numbers = all(_is_number(vertex.name) for vertex in level.vertices)
+    ids = {
+        vertex.name: int(vertex.name) if are_numbers else number
+        for number, vertex in enumerate(level.vertices)
+    }
+    at = {vertex.name: _pair(vertex.at) for vertex in level.vertices}
+    first = max([9_999, *ids.values()]) + 1
+    nodes = [
+        _feature({"id": ids[name], "frame": "map"}, "Point", point) for name, point in at.items()
+    ]
+    edges = [
+        _feature(
+            {
+                "id": number,
+                "startid": ids[edge.tail],
+                "endid": ids[edge.head],
+                **({"metadata": {"speed_limit": float(edge.max_speed)}} if edge.max_speed else {}),
+            },
+            "LineString",
+            [at[edge.tail], *map(_pair, edge.shape), at[edge.head]],
+        )
+        for number, edge in enumerate(level.edges, start=first)
+    ]
+    return (
+        _json({"type": "FeatureCollection", "name": "graph", "features": [*nodes, *edges]}) + "\n"
+    )
+
+
+def _feature(properties: dict[str, Any], kind: str, coordinates: Any) -> dict[str, Any]:
+    geometry = {"type": kind, "coordinates": coordinates}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def _pair(point: tuple[Fraction, Fraction]) -> list[float]:
+    return [float(point[0]), float(point[1])]
+
+
+def _open_rmf(layout: Layout) -> str:
+    import yaml
+
+    levels = {level.name or "L1": _rmf_level(level) for level in layout.levels}
+    return str(
+        yaml.safe_dump(
+            {"building_name": "site", "levels": levels},
+            default_flow_style=None,
+            sort_keys=False,
+            allow_unicode=True,
+        )
+    )
+
+
+def _rmf_level(level: Level) -> dict[str, Any]:
+    numbers = {vertex.name: number for number, vertex in enumerate(level.vertices)}
+    zones = level.zones[::-1]  # the first zone of a place stands
+    of_vertex = {name: zone.name for zone in zones for name in zone.vertices}
+    of_lane = {ends: zone.name for zone in zones for ends in zone.edges}
+    return {
+        "vertices": [
+            [
+                *_pair(vertex.at),
+                {
+                    "name": vertex.name,
+                    **({"is_charger": True} if vertex.is_charging else {}),
+                    **({"is_parking_spot": True} if vertex.is_parking else {}),
+                    **({"mutex": of_vertex[vertex.name]} if vertex.name in of_vertex else {}),
+                },
+            ]
+            for vertex in level.vertices
+        ],
+        "lanes": [
+            [
+                numbers[edge.tail],
+                numbers[edge.head],
+                {
+                    "speed_limit": float(edge.max_speed or 0),
+                    **(
+                        {"mutex": of_lane[edge.tail, edge.head]}
+                        if (edge.tail, edge.head) in of_lane
+                        else {}
+                    ),
+                },
+            ]
+            for edge in level.edges
+        ],
+    }
+
+
+NODE_KEYS = {"x": "double", "y": "double", "parking": "boolean", "charging": "boolean"}
+EDGE_KEYS = {"length": "double", "max_speed": "double"}
+
+
+def _graphml(layout: Layout) -> str:
+    level = layout.levels[0]
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>']
+    lines.append('<graphml xmlns="http://graphml.graphdrawing.org/xmlns">')
+    for kind, keys in (("node", NODE_KEYS), ("edge", EDGE_KEYS)):
+        lines += [
+            f'  <key id="{key}" for="{kind}" attr.name="{key}" attr.type="{type_}"/>'
+            for key, type_ in keys.items()
+        ]
+    lines.append('  <graph id="G" edgedefault="directed">')
+    for vertex in level.vertices:
+        x, y = _pair(vertex.at)
+        data = {"x": x, "y": y, "parking": vertex.is_parking, "charging": vertex.is_charging}
+        lines.append(f"    <node id={quoteattr(vertex.name)}>{_data(data)}</node>")
+    for edge in level.edges:
+        ends = f"source={quoteattr(edge.tail)} target={quoteattr(edge.head)}"
+        data = {"length": float(edge.length)}
+        if edge.max_speed is not None:
+            data["max_speed"] = float(edge.max_speed)
+        lines.append(f"    <edge {ends}>{_data(data)}</edge>")
+    return "\n".join([*lines, "  </graph>", "</graphml>", ""])
+
+
+def _data(values: dict[str, Any]) -> str:
+    return "".join(
+        f'<data key="{key}">{escape(json_line(value))}</data>'
+        for key, value in values.items()
+        if value is not False
+    )
+
+
+LAYOUT_WRITERS: dict[str, LayoutWriter] = {
+    "lif": LayoutWriter(
+        summary="LIF 1.0.0", write=_lif,
+        says=frozenset({"names of vertices", "levels", "stations", "charging places",
+                        "vehicle types"}),
+    ),
+    "nav2": LayoutWriter(
+        summary="route graph of Nav2, GeoJSON", write=_nav2, says=frozenset({"drawn curves"}),
+    ),
+    "open-rmf": LayoutWriter(
+        summary="navigation graph of Open-RMF", write=_open_rmf,
+        says=frozenset({"names of vertices", "levels", "parking places", "charging places",
+                        "zones"}),
+    ),
+    "graphml": LayoutWriter(
+        summary="GraphML, metres", write=_graphml,
+        says=frozenset({"names of vertices", "parking places", "charging places",
+                        "lengths of curves"}),
+    ),
+}  # fmt: skip
+"""The formats by name."""

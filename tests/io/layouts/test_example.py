@@ -1,0 +1,68 @@
+"""A first scenario for a layout: where robots start, where they drive, what it names."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rightofway.io import example_of_layout, load
+from rightofway.io.scenario.example import largest_part
+from rightofway.io.text import parse_yaml
+from rightofway.model import Edge, Roadmap, roadmap_of_edges
+from rightofway.solve import solve
+
+HERE = Path(__file__).parents[2] / "data" / "layouts"
+
+
+def example(file: str) -> dict[str, Any]:
+    document: dict[str, Any] = parse_yaml(example_of_layout(HERE / file, HERE / "scenario.yaml"))
+    return document
+
+
+def test_robots_start_from_parking_places_and_drive_to_stations() -> None:
+    robots = example("hall.lif.json")["robots"]
+    assert [robot["home"] for robot in robots] == ["P1", "A"]
+    assert robots[0]["target"] == "Press"
+    assert example("nodes.csv")["robots"][0]["home"] == "dock"
+
+
+def test_the_vehicle_type_and_the_level_with_the_most_lanes_are_taken() -> None:
+    assert example("hall.lif.json")["map"] == {"layout": "hall.lif.json", "vehicle_type": "tugger"}
+    assert example("hall.nav.yaml")["map"] == {"layout": "hall.nav.yaml", "level": "L1"}
+
+
+@pytest.mark.parametrize(
+    "file",
+    ["hall.lif.json", "route.geojson", "hall.graphml", "plant-5.xml", "hall.nav.yaml", "nodes.csv",
+     "room.yaml", "two-rooms.map"],
+)  # fmt: skip
+def test_the_example_can_be_planned(file: str, tmp_path: Path) -> None:
+    target = tmp_path / "scenario.yaml"
+    target.write_text(example_of_layout(HERE / file, target), encoding="utf-8")
+    scenario = load(target)
+    assert len({robot.home for robot in scenario.robots}) == len(scenario.robots)
+    assert solve(scenario, time_limit=5).flowtime > 0
+
+
+def roadmap(*edges: str) -> Roadmap:
+    positions = {name: (float(number), 0.0) for number, name in enumerate("ABCDEF")}
+    return roadmap_of_edges(
+        positions, [Edge(tail=edge[0], head=edge[1], length=Fraction(1)) for edge in edges]
+    )
+
+
+@pytest.mark.parametrize(
+    ("edges", "part"),
+    [
+        (["AB", "BA", "CD", "DE", "EC"], "CDE"),
+        (["AB", "BC", "CD", "DE", "EF"], "F"),  # any single vertex is as large as any other
+        (["AB", "BC", "CA", "CD", "DE", "ED"], "ABC"),
+        ([], "F"),
+    ],
+)
+def test_the_largest_part_holds_vertices_that_reach_each_other(edges: list[str], part: str) -> None:
+    found = roadmap(*edges)
+    names = "".join(found.name(vertex) for vertex in largest_part(found))
+    assert len(names) == len(part)
+    assert names == part or len(part) == 1
