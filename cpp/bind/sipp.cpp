@@ -21,6 +21,9 @@ constexpr auto table_doc = R"(Who has booked which vertex when.)";
 constexpr auto book_doc =
     R"(Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.)";
 
+constexpr auto mark_doc =
+    R"(Mark a row as excluded for ``[start, end)`` by a robot; marks of several robots may overlap.)";
+
 constexpr auto erase_doc =
     R"(Take back the booking of a robot that starts at this tick; nothing happens if there is none.)";
 
@@ -94,6 +97,13 @@ void bind_sipp(nb::module_& module) {
                 self.book(vertex, {start, end}, robot);
             },
             nb::arg("vertex"), nb::arg("start"), nb::arg("end"), nb::arg("robot"), book_doc)
+        .def(
+            "mark",
+            [](BookingTable& self, std::int32_t row, Tick start, Tick end, RobotId robot) {
+                require_vertex(self, row);
+                self.insert(row, {start, end}, robot);
+            },
+            nb::arg("row"), nb::arg("start"), nb::arg("end"), nb::arg("robot"), mark_doc)
         .def(
             "erase",
             [](BookingTable& self, VertexId vertex, Tick start, RobotId robot) {

@@ -660,6 +660,11 @@ class BookingTable:
         Book a vertex for ``[start, end)``; ValueError if that is empty or overlaps another robot's.
         """
 
+    def mark(self, row: int, start: int, end: int, robot: int) -> None:
+        """
+        Mark a row as excluded for ``[start, end)`` by a robot; marks of several robots may overlap.
+        """
+
     def erase(self, vertex: int, start: int, robot: int) -> None:
         """
         Take back the booking of a robot that starts at this tick; nothing happens if there is none.

@@ -170,6 +170,13 @@ class Resources:
         """Return the rows that a booking of a row excludes."""
         return self.excluded[self.first[row] : self.first[row + 1]]
 
+    def vertices_near(self, robot: int, vertex: int) -> NDArray[np.int32]:
+        """Return the vertices that robots of some size cannot book while a robot is at a vertex."""
+        resources = self.excluded_by(self.vertex_row(robot, vertex)) % (
+            self.n_vertices + self.n_edges
+        )
+        return resources[resources < self.n_vertices]
+
     def clashes(self, places: Sequence[int]) -> Iterator[tuple[int, int]]:
         """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
 

@@ -3,9 +3,9 @@
 A *rule* decides which of two robots waits; this module does the rest. The earliest conflict is
 resolved first. Where no waiting keeps two robots apart, one of them is deferred: it is rerouted
 when all others have their times (`reroute`). Where that fails, or takes more than its share of
-the time, the whole fleet is planned by `lacam`. Where robots have a size and one is deferred, the
-whole fleet is planned by `prioritized`. So a planner made of this is complete whatever its rule:
-given time it finds a plan or proves that none exists.
+the time, the whole fleet is planned by `lacam`, or by `prioritized` where robots have a size. So a
+planner made of this is complete whatever its rule: given time it finds a plan or proves that none
+exists.
 """
 
 from __future__ import annotations
@@ -185,8 +185,6 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
 def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
     """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
-    if plan.deferred and task.scenario.problem.resources is not None:
-        return _plan_together(task, next(iter(plan.deferred.values())))
     tracks = {r: t for r, t in enumerate(plan.graph.tracks()) if r not in plan.deferred}
     rerouted = reroute(task, distances, tracks, list(plan.deferred))
     if rerouted is None:
@@ -240,11 +238,12 @@ class _Reservations:
     def hold_home(self, robot: int) -> None:
         """Book the home of a robot without a track for a while, so that it can leave."""
         itinerary = self.itineraries[robot]
-        booked = self.bookings.at(itinerary.home)
+        row = self.bookings.vertex_row(robot, itinerary.home)
+        booked = [one for one in self.bookings.at(row) if one.robot != robot]
         hold = Tick(START_HOLD * max(itinerary.edge_ticks, default=0))
         end = min([hold, *(booking.start for booking in booked)])
         if end > 0:
-            self.bookings.book(itinerary.home, Booking(Tick(0), end, robot))
+            self.bookings.book(row, Booking(Tick(0), end, robot))
 
     def place(self, robot: int) -> bool:
         """Give a robot its earliest track among the others, if there is one."""

@@ -77,8 +77,12 @@ class Congestion:
         """Begin for one trip of each robot: who is in the way once is in the way."""
         robots, station = problem.itineraries, np.zeros(problem.roadmap.n_vertices, np.int64)
         cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in robots))
-        for one in robots:
-            station[[one.home, *(stage.vertex for stage in one.stages)]] = cost
+        for robot, one in enumerate(robots):
+            places = [one.home, *(stage.vertex for stage in one.stages)]
+            station[places] = cost
+            if problem.resources is not None:
+                for place in places:
+                    station[problem.resources.vertices_near(robot, place)] = cost
         oncoming = [int(ONCOMING * SHARES)] * len(robots)
         return cls(problem, distances, shares=SHARES, station=station, oncoming=oncoming)
 

@@ -31,6 +31,9 @@ class Booking(NamedTuple):
 class Bookings:
     """What robots with a track book; no two bookings of a vertex overlap.
 
+    Robots with a size book rows of `Resources`, a vertex or an edge; a booking marks all rows from
+    which it excludes other robots.
+
     Parameters
     ----------
     problem
@@ -39,27 +42,39 @@ class Bookings:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self.table = _core.BookingTable(problem.roadmap.n_vertices)
+        self.resources = problem.resources
+        n_vertices = problem.roadmap.n_vertices
+        n_rows = n_vertices if self.resources is None else len(self.resources.first) - 1
+        self.table = _core.BookingTable(n_rows)
         self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
 
-    def at(self, vertex: int) -> list[Booking]:
-        """Return the bookings of a vertex in order of time."""
-        return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(vertex)]
+    def at(self, row: int) -> list[Booking]:
+        """Return the bookings of a vertex in order of time; with sizes, the marks of a row."""
+        return [Booking(Tick(s), Tick(e), robot) for s, e, robot in self.table.at(row)]
+
+    def vertex_row(self, robot: int, vertex: int) -> int:
+        """Return the row that a robot books at a vertex: the vertex, or where it has a size."""
+        return vertex if self.resources is None else self.resources.vertex_row(robot, vertex)
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
-        for vertex, booking in self.of_track(robot, track):
-            self.book(vertex, booking)
+        for row, booking in self.of_track(robot, track):
+            self.book(row, booking)
 
-    def book(self, vertex: int, booking: Booking) -> None:
-        """Book one vertex."""
-        self.table.book(vertex, *booking)
-        self._of[booking.robot].append((vertex, booking.start))
+    def book(self, row: int, booking: Booking) -> None:
+        """Book one vertex, or mark what one row excludes."""
+        if self.resources is None:
+            self.table.book(row, *booking)
+            self._of[booking.robot].append((row, booking.start))
+            return
+        for mark in self.resources.excluded_by(row).tolist():
+            self.table.mark(mark, *booking)
+            self._of[booking.robot].append((mark, booking.start))
 
     def release(self, robot: int) -> None:
         """Take back all that a robot has booked."""
-        for vertex, start in self._of.pop(robot, ()):
-            self.table.erase(vertex, start, robot)
+        for row, start in self._of.pop(robot, ()):
+            self.table.erase(row, start, robot)
 
     def of_track(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
         """Yield what a track would book, visit by visit."""
@@ -70,14 +85,21 @@ class Bookings:
         for vertex, tick, approach, end in zip(
             vertices, enter, [0, *approaches], ends, strict=True
         ):
-            yield vertex, Booking(Tick(tick - approach), end, robot)
+            row = self.vertex_row(robot, vertex)
+            yield row, Booking(Tick(tick - approach), end, robot)
+        if self.resources is None:
+            return
+        edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
+        for edge, tick, drive, end in zip(edges, enter[1:], drives, ends[:-1], strict=True):
+            row = self.resources.edge_row(robot, edge)
+            yield row, Booking(Tick(tick - drive), end, robot)
 
     def in_the_way(self, robot: int, track: Track) -> set[int]:
         """Return the other robots whose bookings a track would overlap."""
         return {
             other.robot
-            for vertex, own in self.of_track(robot, track)
-            for other in self.at(vertex)
+            for row, own in self.of_track(robot, track)
+            for other in self.at(row)
             if other.robot != robot and other.start < own.end and own.start < other.end
         }
 
