@@ -21,6 +21,12 @@ def test_the_picture_holds_map_and_diagram_and_is_called_after_file_and_moment(
     assert download.value.suggested_filename == "door at 4.png"
     size = viewer.ask("(({width, height}) => [width, height])(share.picture())")
     heights = viewer.ask("[mapView.canvas.height, diagram.canvas.height]")
+    width = viewer.ask("mapView.canvas.width + diagram.canvas.width")
+    assert size == [width, 48 + max(heights)]  # side by side, as on the screen
+    viewer.page.set_viewport_size({"width": 1600, "height": 1000})
+    viewer.wait_for("diagram.canvas.getBoundingClientRect().left === 0 && !frames.asked")
+    size = viewer.ask("(({width, height}) => [width, height])(share.picture())")
+    heights = viewer.ask("[mapView.canvas.height, diagram.canvas.height]")
     assert size == [viewer.ask("mapView.canvas.width"), 48 + sum(heights)]
     assert (viewer.complaints, viewer.requests) == ([], [])
 

@@ -46,19 +46,23 @@ class Share {
     const [map] = maps;
     const ratio = map.width / map.clientWidth;
     const head = Math.round(48 * ratio);
-    const width = maps.reduce((sum, canvas) => sum + canvas.width, 0);
-    const made = element("canvas", { width, height: head + map.height + diagram.height });
+    const isBeside = diagram.getBoundingClientRect().left >= map.getBoundingClientRect().right;
+    const across = maps.reduce((sum, canvas) => sum + canvas.width, 0);
+    const [left, top] = isBeside ? [across, head] : [0, head + map.height];
+    const width = isBeside ? across + diagram.width : across;
+    const height = Math.max(head + map.height, top + diagram.height);
+    const made = element("canvas", { width, height });
     const context = made.getContext("2d");
     context.fillStyle = theme.paper;
     context.fillRect(0, 0, made.width, made.height);
     maps.forEach((canvas, place) => context.drawImage(canvas, place * map.width, head));
-    if (diagram.height) context.drawImage(diagram, 0, head + map.height);
+    if (diagram.height) context.drawImage(diagram, left, top);
     context.scale(ratio, ratio);
     context.fillStyle = theme.ink;
     context.font = theme.font(16, 600);
     context.fillText([this.#titles.join(" and "), words.moment(clock.tick)].filter(Boolean).join(": "), 28, 31);
-    const x = this.diagram.area.x(clock.tick);
-    if (diagram.height) context.fillRect(x - 0.75, 48 + map.clientHeight, 1.5, diagram.clientHeight - AXIS_HEIGHT);
+    const x = left / ratio + this.diagram.area.x(clock.tick);
+    if (diagram.height) context.fillRect(x - 0.75, top / ratio, 1.5, diagram.clientHeight - AXIS_HEIGHT);
     return made;
   }
 
