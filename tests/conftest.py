@@ -24,6 +24,7 @@ SLOW = (
     "laws/test_laps.py",
     "laws/test_optimum_with_sizes.py",
     "laws/test_precedence_graph.py",
+    "laws/test_space.py",
     "laws/test_monitor.py",
     "laws/test_workbook_fuzz.py",
     "viewer/",  # a browser
