@@ -258,3 +258,10 @@ def test_blocks_and_mutex_groups_are_zones_of_the_roadmap() -> None:
     assert len(zone.edges) == 2
     aisle = scenario_on("dock", "shelf", layout="hall.nav.yaml", level="L1").roadmap.zones[0]
     assert aisle.name == "aisle"
+
+
+def test_a_reference_level_that_is_no_name_counts_as_the_first_level(tmp_path: Path) -> None:
+    text = (HERE / "hall.building.yaml").read_text("utf-8")
+    path = tmp_path / "hall.yaml"
+    path.write_text(text.replace("reference_level_name: L1", "reference_level_name: [L2]"), "utf-8")
+    assert read_layout(path) == read_layout(HERE / "hall.building.yaml")
