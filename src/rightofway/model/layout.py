@@ -5,7 +5,7 @@ Lengths are metres, speeds metres per second, and y grows upwards, whatever the 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -210,17 +210,20 @@ def roadmap_of_level(
         edge = Edge(tail=lane.tail, head=lane.head, length=lane.length * metre, max_speed=limit)
         known = slowest.get((lane.tail, lane.head))
         slowest[lane.tail, lane.head] = _slower(known, edge) if known else edge
+    closed = _ends(level.edges) - _ends(lanes)  # only other vehicle types come there
     positions: dict[str, Point] = {
-        vertex.name: (vertex.at[0] * metre, vertex.at[1] * metre) for vertex in level.vertices
+        vertex.name: (vertex.at[0] * metre, vertex.at[1] * metre)
+        for vertex in level.vertices
+        if vertex.name not in closed
     }
-    edges, zones = list(slowest.values()), _zones(level, slowest)
+    edges, zones = list(slowest.values()), _zones(level, positions, slowest)
     if spacing is not None:
         if zones:
             raise InputError.at("spacing", "spacing does not know zones yet (take it out)")
         positions, edges = split_lanes(positions, edges, spacing)
     drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
     roadmap = roadmap_of_edges(drawn, edges, y_up=True, zones=zones)
-    return roadmap, tuple(_lacks(level, lanes, slowest))
+    return roadmap, tuple(_lacks(level, lanes, slowest, closed))
 
 
 def _slower(one: Edge, other: Edge) -> Edge:
@@ -231,8 +234,14 @@ def _slower(one: Edge, other: Edge) -> Edge:
 
 
 def _lacks(
-    level: Level, lanes: Sequence[LayoutEdge], kept: Iterable[tuple[str, str]]
-) -> Iterable[str]:
+    level: Level,
+    lanes: Sequence[LayoutEdge],
+    kept: Collection[tuple[str, str]],
+    closed: Collection[str],
+) -> Iterator[str]:
+    if closed:
+        count = f"{len(closed)} vertices" if len(closed) > 1 else "1 vertex"
+        yield f"{count} left out: only lanes of other vehicle types lead there"
     parallel = len(lanes) - len(set(kept))
     if parallel:
         yield f"{_counted(parallel, 'parallel lane')} left out: the slowest of each counts"
@@ -240,7 +249,13 @@ def _lacks(
         yield f"{_counted(level.links, 'lane')} to other levels left out: plans stay on one level"
 
 
-def _zones(level: Level, lanes: Collection[tuple[str, str]]) -> list[NamedZone]:
+def _ends(lanes: Sequence[LayoutEdge]) -> set[str]:
+    return {end for lane in lanes for end in (lane.tail, lane.head)}
+
+
+def _zones(
+    level: Level, vertices: Collection[str], lanes: Collection[tuple[str, str]]
+) -> list[NamedZone]:
     """Return the zones with what the roadmap has of them.
 
     A vertex that can be entered and left along lanes of a zone belongs to it.
@@ -249,9 +264,10 @@ def _zones(level: Level, lanes: Collection[tuple[str, str]]) -> list[NamedZone]:
     for zone in level.zones:
         edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
         passed = {head for _, head in edges} & {tail for tail, _ in edges}
-        vertices = tuple(dict.fromkeys((*zone.vertices, *sorted(passed))))
-        if vertices or edges:
-            found.append(NamedZone(name=zone.name, vertices=vertices, edges=edges))
+        inside = [name for name in zone.vertices if name in vertices]
+        names = tuple(dict.fromkeys((*inside, *sorted(passed))))
+        if names or edges:
+            found.append(NamedZone(name=zone.name, vertices=names, edges=edges))
     return found
 
 

@@ -69,7 +69,7 @@ def test_the_slower_of_two_parallel_lanes_counts_for_a_vehicle_type() -> None:
     edge = roadmap.edge(roadmap.vertex("A"), roadmap.vertex("B"))
     assert edge is not None
     assert roadmap.speed_limits[roadmap.length_class[edge]] == Fraction(1, 2)
-    assert roadmap.edge(roadmap.vertex("A"), roadmap.vertex("C")) is None  # for tuggers only
+    assert roadmap.labels == ("P1", "A", "B")  # only tuggers drive to C
 
 
 def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
@@ -258,3 +258,10 @@ def test_blocks_and_mutex_groups_are_zones_of_the_roadmap() -> None:
     assert len(zone.edges) == 2
     aisle = scenario_on("dock", "shelf", layout="hall.nav.yaml", level="L1").roadmap.zones[0]
     assert aisle.name == "aisle"
+
+
+def test_a_reference_level_that_is_no_name_counts_as_the_first_level(tmp_path: Path) -> None:
+    text = (HERE / "hall.building.yaml").read_text("utf-8")
+    path = tmp_path / "hall.yaml"
+    path.write_text(text.replace("reference_level_name: L1", "reference_level_name: [L2]"), "utf-8")
+    assert read_layout(path) == read_layout(HERE / "hall.building.yaml")

@@ -164,7 +164,7 @@ def _transforms(root: Part, draft: Draft) -> dict[str, Transform]:
         message = f"coordinates are {shown(system)} (give the building's navigation graph instead)"
         raise InputError.at("coordinate_system", message)
     named = root.value.get("reference_level_name")
-    reference = str(named) if named in levels else next(iter(levels), "")
+    reference = named if isinstance(named, str) and named in levels else next(iter(levels), "")
     scales = {name: draft.faults.attempt("", _scale, level) for name, level in levels.items()}
     draft.faults.stop()
     base, found = scales.get(reference), dict[str, Transform]()

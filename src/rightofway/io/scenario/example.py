@@ -13,7 +13,7 @@ import numpy as np
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.maps import LoadedMap, map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
 from rightofway.model import Roadmap, Units
@@ -77,13 +77,14 @@ def example_of_layout(path: Path | str, target: Path | str) -> str:
         "format": SCENARIO_FORMAT,
         "map": shape,
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
-        "robots": _dealt(loaded.roadmap, level),
+        "robots": _dealt(loaded, level),
     }
     return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
 
 
-def _dealt(roadmap: Roadmap, level: Level | None) -> list[dict[str, Any]]:
+def _dealt(loaded: LoadedMap, level: Level | None) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
+    roadmap = loaded.roadmap
     part = largest_part(roadmap)
     inside, stations, parking = set(part), dict[int, str](), list[int]()
     if level is not None:
@@ -94,7 +95,7 @@ def _dealt(roadmap: Roadmap, level: Level | None) -> list[dict[str, Any]]:
             if (each.is_parking or each.is_charging) and each.name in ids
         ]
         for station in level.stations:
-            vertex = ids.get(station.vertices[0])
+            vertex = ids.get(loaded.stations.get(station.name, ""))
             if vertex is not None and vertex not in parking:
                 stations.setdefault(vertex, station.name)
     count = min(ROBOTS, len(part) // 2)

@@ -44,7 +44,12 @@ def laid_out(
             second=1 / seconds,
             spacing=document.spacing,
         )
-        stations = {station.name: station.vertices[0] for station in level.stations}
+        known = set(roadmap.labels or ())
+        stations = {
+            station.name: next(name for name in station.vertices if name in known)
+            for station in level.stations
+            if not known.isdisjoint(station.vertices)
+        }
         notes = (*found.notes, *lacks)
         return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
