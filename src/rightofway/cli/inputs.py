@@ -33,11 +33,11 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     """
     from rightofway.io import load_with_notes
 
-    _point_to_examples(path)
+    point_to_examples(path)
     return _noted(load_with_notes(path, count=count), path)
 
 
-def _point_to_examples(path: str) -> None:
+def point_to_examples(path: str) -> None:
     """Refuse an example of help or documentation that is not in the user's folder yet."""
     if path.startswith("examples/") and not Path(path).exists():
         message = "there is no such file (rightofway examples --copy . writes the examples)"
@@ -78,7 +78,7 @@ def read_either(path: str, count: int | None = None) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
-    _point_to_examples(path)
+    point_to_examples(path)
     found = load_either(path, count=count, **_files())
     return _noted(found, path) if isinstance(found, Loaded) else found
 

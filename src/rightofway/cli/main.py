@@ -28,6 +28,7 @@ from rightofway.cli.bench import bench
 from rightofway.cli.collisions import collisions
 from rightofway.cli.examples import examples, new
 from rightofway.cli.formats import convert, schema
+from rightofway.cli.inspect import inspect
 from rightofway.cli.laps import laps
 from rightofway.cli.paper import paper
 from rightofway.cli.planning import bound, improve, plan
@@ -55,7 +56,7 @@ Start with:
 """
 
 GROUPS: dict[str, tuple[click.Command, ...]] = {
-    "Begin": (new, examples),
+    "Begin": (new, examples, inspect),
     "Plan": (plan, improve, bound),
     "Look at plans": (check, show, table, collisions),
     "Repeated work and delays": (laps, simulate),

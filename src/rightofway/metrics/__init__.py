@@ -1,4 +1,4 @@
-"""What a plan costs, what it must cost at least, what robots lose, where and to which robots."""
+"""What a plan costs and must cost at least, what robots lose and where, what hurts on a site."""
 
 from rightofway.metrics.alone import alone_completions
 from rightofway.metrics.collisions import (
@@ -11,6 +11,7 @@ from rightofway.metrics.collisions import (
     swaps,
 )
 from rightofway.metrics.events import Event, event_columns, events
+from rightofway.metrics.inspection import Finding, Inspection, Site, inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.waits import waits
@@ -18,14 +19,18 @@ from rightofway.metrics.waits import waits
 __all__ = [
     "Collision",
     "Event",
+    "Finding",
+    "Inspection",
     "Metrics",
     "NearMiss",
+    "Site",
     "Swap",
     "alone_completions",
     "collisions",
     "event_columns",
     "events",
     "free_running",
+    "inspect",
     "joined_waits",
     "lost_time",
     "measure",

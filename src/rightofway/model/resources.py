@@ -137,6 +137,38 @@ def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, floa
                 yield tail, head, length, sqrt(square)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosePairs:
+    """What a drawing brings close together; a lane is its two ends, whichever way it is driven.
+
+    Attributes
+    ----------
+    vertices
+        Pairs of vertices that are nearer than a distance.
+    beside
+        Vertices that lie nearer than that beside a lane, whose ends are not as near.
+    crossings
+        Pairs of lanes that cross in a point that is an end of neither.
+    """
+
+    vertices: list[tuple[int, int]]
+    beside: list[tuple[int, tuple[int, int]]]
+    crossings: list[tuple[tuple[int, int], tuple[int, int]]]
+
+
+def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
+    """Return the vertices and lanes that are nearer than a distance, and lanes that cross; exact.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and lanes.
+    distance
+        The distance [length unit], above 0.
+    """
+    return _Drawing(roadmap, [distance]).close_pairs(distance)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Resources:
     """Which bookings of a fleet exclude each other.
@@ -312,6 +344,28 @@ class _Drawing:
         crossing = self._crosses(one, other)
         lanes, edges = self._with_edges(one[crossing], other[crossing])
         yield self._with_edges(edges, lanes)
+
+    def close_pairs(self, distance: Fraction) -> ClosePairs:
+        """Return vertices and lanes nearer than a distance, and lanes that cross."""
+        (left, right), (vertex, lane), (one, other) = self.candidates(distance)
+        limit = int(distance * self.scale) ** 2
+        near = self._square(left, right) < limit
+        beside = self._passes(vertex, lane, limit)
+        crossing = self._crosses(one, other)
+        lanes = list(zip(self.a.tolist(), self.b.tolist(), strict=True))
+        return ClosePairs(
+            vertices=list(zip(left[near].tolist(), right[near].tolist(), strict=True)),
+            beside=[
+                (each, lanes[passed])
+                for each, passed in zip(vertex[beside].tolist(), lane[beside].tolist(), strict=True)
+            ],
+            crossings=[
+                (lanes[first], lanes[second])
+                for first, second in zip(
+                    one[crossing].tolist(), other[crossing].tolist(), strict=True
+                )
+            ],
+        )
 
     def in_zones(self, zones: Sequence[Zone]) -> Iterator[Pairs]:
         """Yield pairs of resources of one zone; an edge that ends at a vertex of it is left out."""

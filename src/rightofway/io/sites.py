@@ -1,0 +1,194 @@
+"""What `rightofway inspect` reads: layouts with all their levels, maps and scenarios, as sites."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError
+from rightofway.io.faults import checked
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.layouts import described, is_layout, read_layout
+from rightofway.io.marks import document_of
+from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.reader import load_with_notes, read_scenario
+from rightofway.io.text import read_text
+from rightofway.metrics.inspection import Site
+from rightofway.model import Scenario, Units
+from rightofway.model.layout import Layout, Level, roadmap_of_level
+from rightofway.model.occupancy import Occupancy
+
+CELL_SIZE = Fraction(1, 2)
+"""Side of the cells that a map in pixels is cut into where none is given [m]."""
+
+METRES = Units(length="m", time="s")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sites:
+    """The sites of a file.
+
+    Attributes
+    ----------
+    what
+        What the file is and how large, in words.
+    notes
+        What its reader mended or left out, a sentence each.
+    sites
+        The name of each level, empty where there is only one, and the site.
+    """
+
+    what: str
+    notes: tuple[str, ...]
+    sites: tuple[tuple[str, Site], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Choice:
+    """Which part of a layout is wanted: keys of a scenario's map; None for the usual one."""
+
+    level: str | None = None
+    vehicle_type: str | None = None
+    cell_size: Fraction | None = None
+
+    def keys(self) -> dict[str, Any]:
+        """Return the keys that are given."""
+        found = {
+            "level": self.level,
+            "vehicle_type": self.vehicle_type,
+            "cell_size": self.cell_size,
+        }
+        return {key: value for key, value in found.items() if value is not None}
+
+
+def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = None) -> Sites:
+    """Return the sites of a layout, a map or a scenario.
+
+    Parameters
+    ----------
+    path
+        The file.
+    choice
+        Which part of a layout is wanted; by default all levels, and of vehicle types the one that
+        has the most lanes.
+    robots
+        A file with the fleet for it, a scenario's robots or a CSV file; None for none.
+
+    Raises
+    ------
+    InputError
+        With every fault, its place, value and remedy.
+    """
+    path = Path(path)
+    if not is_layout(path):
+        if given := choice.keys():
+            message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
+            raise InputError.at("", message, str(path))
+        return _of_scenario(path, robots)
+    found = read_layout(path)
+    if robots is not None:
+        keys = choice.keys()
+        if isinstance(found, Occupancy):
+            keys.setdefault("cell_size", CELL_SIZE)
+        if isinstance(found, Layout):
+            level = found.level(choice.level)
+            if choice.vehicle_type is None and (name := _usual_type(level)):
+                keys["vehicle_type"] = name
+        loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
+        return Sites(what=described(found), notes=loaded.notes, sites=loaded.sites)
+    if isinstance(found, Layout):
+        return _of_layout(found, choice)
+    return _of_cells(path, found, choice)
+
+
+def _of_layout(found: Layout, choice: Choice) -> Sites:
+    levels = found.levels if choice.level is None else (found.level(choice.level),)
+    sites, notes = list[tuple[str, Site]](), list(found.notes)
+    for level in levels:
+        if not level.vertices:
+            notes.append(f"level {level.name} is empty")
+            continue
+        name = choice.vehicle_type or _usual_type(level)
+        roadmap, lacks = roadmap_of_level(level, vehicle_type=name)
+        if name and choice.vehicle_type is None:
+            others = len(level.vehicle_types) - 1
+            types = "1 other type" if others == 1 else f"{others} other types"
+            lacks = (f"lanes of vehicle type {name} inspected, which has most ({types})", *lacks)
+        notes += [f"level {level.name}: {each}" if len(levels) > 1 else each for each in lacks]
+        ids = {roadmap.name(vertex): vertex for vertex in range(roadmap.n_vertices)}
+        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
+        site = Site(
+            roadmap=roadmap,
+            units=METRES,
+            stations={each.name: ids[each.vertices[0]] for each in level.stations},
+            parking={each: ids[each] for each in parking},
+        )
+        sites.append((level.name if len(levels) > 1 else "", site))
+    return Sites(what=described(found), notes=tuple(notes), sites=tuple(sites))
+
+
+def _usual_type(level: Level) -> str | None:
+    """Return the vehicle type that most lanes are open to, or None where lanes do not differ."""
+    types = Counter(name for edge in level.edges for name in edge.types or ())
+    return min(types, key=lambda name: (-types[name], name)) if len(types) > 1 else None
+
+
+def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
+    from rightofway.io.scenario.shape import MapDocument
+
+    keys = choice.keys()
+    if isinstance(found, Occupancy):
+        keys.setdefault("cell_size", CELL_SIZE)
+    document = checked(MapDocument, {"layout": str(path.resolve()), **keys})
+    loaded = map_of(document, None, Path(), Units(), lambda: Fraction(0))
+    assert loaded, "only a floor needs speeds"
+    site = Site(roadmap=loaded.roadmap, units=loaded.units)
+    return Sites(what=described(found), notes=loaded.notes, sites=(("", site),))
+
+
+def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
+    if robots is None:
+        loaded = load_with_notes(path)
+        return _sites_of(loaded.scenario, loaded.notes)
+    with document_of(path) as document:
+        drawn = document.get("map") if isinstance(document, dict) else None
+        if drawn is None:
+            raise InputError.at("", "this is neither a layout nor a scenario with a map")
+    return _with_fleet(drawn, path.parent, Path(robots))
+
+
+def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
+    """Return the site of a map document with the fleet of another file."""
+    document: dict[str, Any] = {"format": SCENARIO_FORMAT, "map": drawn}
+    if robots.suffix.lower() == ".csv":
+        document["robots"] = {"table": str(robots.resolve())}
+        loaded = read_scenario(document, base)
+        return _sites_of(loaded.scenario, loaded.notes)
+    with document_of(robots, read_text(robots)) as found:
+        fleet = {"robots": found} if isinstance(found, list) else found
+        if not isinstance(fleet, dict) or "robots" not in fleet:
+            raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
+        parts = {key: fleet[key] for key in ("robots", "rules", "units") if key in fleet}
+        loaded = read_scenario({**document, **parts}, base)
+    return _sites_of(loaded.scenario, loaded.notes)
+
+
+def _sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
+    site = Site(
+        roadmap=scenario.roadmap,
+        units=scenario.units,
+        robots=scenario.robots,
+        rules=scenario.rules,
+    )
+    grid = scenario.roadmap.grid
+    ground = (
+        f"{grid.columns} x {grid.rows} cells"
+        if grid
+        else f"a roadmap of {scenario.roadmap.n_vertices} vertices"
+    )
+    count = len(scenario.robots)
+    what = f"a scenario of {count} robot{'s' * (count != 1)} on {ground}"
+    return Sites(what=what, notes=notes, sites=(("", site),))

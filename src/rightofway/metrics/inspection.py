@@ -1,0 +1,535 @@
+"""What will hurt on a site before anything is planned: places, facts, remedies.
+
+Everything is exact but the load of shortest routes, which is counted from some of the places where
+the site is large; `Inspection.sampled` says so.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from math import dist
+from typing import Literal
+
+from rightofway.errors import listed
+from rightofway.metrics.connectivity import (
+    Corridor,
+    Ways,
+    corridors,
+    distances_from,
+    grown_from,
+    route_load,
+    separations,
+    strong_parts,
+    ways_of,
+)
+from rightofway.model import Roadmap, Robot, Rules, Units, decimal
+from rightofway.model.resources import ClosePairs, close_pairs
+
+Severity = Literal["error", "warning", "note"]
+"""``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
+
+Kind = Literal[
+    "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
+    "bottleneck",
+]  # fmt: skip
+"""What a finding is about."""
+
+SEVERITIES = ("error", "warning", "note")
+
+TOUCHING = Fraction(1, 10**6)
+"""Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
+
+ROUNDED = 10**6
+"""Distances in sentences are rounded to this part of a length unit."""
+
+MOST_PLACES = 200
+"""Places between which separations are looked for; of more, so many spread over the list."""
+
+EFFORT = 2_000_000
+"""Vertices and edges that the search for shortest routes may visit, all sources together."""
+
+FEWEST_SOURCES = 4
+
+SPREAD = 16
+"""Vertices between which routes are counted where a site names no place."""
+
+BUSY = Fraction(3, 10)
+"""From this share of the shortest routes on, a vertex is a bottleneck."""
+
+LISTED_CORRIDORS = 10
+"""Corridors that are looked at in detail: those that most shortest routes use."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """One thing on a site that will hurt.
+
+    Attributes
+    ----------
+    kind
+        What it is about.
+    severity
+        How much it hurts.
+    fact
+        Where and what, as the beginning of a sentence.
+    remedy
+        What to do.
+    vertices
+        Names of the vertices that it concerns.
+    robots
+        Names of the robots that it concerns.
+    """
+
+    kind: Kind
+    severity: Severity
+    fact: str
+    remedy: str
+    vertices: tuple[str, ...] = ()
+    robots: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.fact} ({self.remedy})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inspection:
+    """How large a site is, and what will hurt on it.
+
+    Attributes
+    ----------
+    vertices, edges, one_way
+        Vertices, directed edges, and those of them without an edge back.
+    places
+        Stations, parking places, homes and stops.
+    parts
+        Sizes of the strongly connected parts, the largest first.
+    sampled
+        From how many of how many places shortest routes were counted; None for all.
+    findings
+        What will hurt, the worst first.
+    """
+
+    vertices: int
+    edges: int
+    one_way: int
+    places: int
+    parts: tuple[int, ...]
+    sampled: tuple[int, int] | None
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Site:
+    """What is inspected: a roadmap, its places, and the fleet if there is one.
+
+    Attributes
+    ----------
+    roadmap
+        The roadmap.
+    units
+        Units of its lengths.
+    stations, parking
+        Names of stations, and of parking or charging places, with the vertex of each.
+    robots
+        The fleet; if there is one, only its homes and stops count as places.
+    rules
+        The rules of the fleet.
+    """
+
+    roadmap: Roadmap
+    units: Units = field(default_factory=Units)
+    stations: Mapping[str, int] = field(default_factory=dict)
+    parking: Mapping[str, int] = field(default_factory=dict)
+    robots: Sequence[Robot] = ()
+    rules: Rules = field(default_factory=Rules)
+
+    @cached_property
+    def homes(self) -> dict[int, str]:
+        """Vertices that robots stand on without work, with what they are."""
+        if not self.robots:
+            return dict.fromkeys(self.parking.values(), "parking")
+        return {int(robot.home): f"home of {robot.name}" for robot in self.robots}
+
+    @cached_property
+    def places(self) -> dict[int, str]:
+        """Vertices that robots stay at, with what they are."""
+        if not self.robots:
+            stations = {
+                vertex: f"station {name}" if name != self.roadmap.name(vertex) else "station"
+                for name, vertex in self.stations.items()
+            }
+            return stations | self.homes
+        stops: dict[int, list[str]] = defaultdict(list)
+        for robot in self.robots:
+            for stop in robot.stops:
+                stops[int(stop.at)].append(robot.name)
+        names = {at: f"stop of {listed(sorted(set(of)))}" for at, of in stops.items()}
+        return names | self.homes
+
+    @cached_property
+    def trips(self) -> Counter[tuple[int, int]]:
+        """How many drives of the fleet lead from a place to another."""
+        found = Counter[tuple[int, int]]()
+        for robot in self.robots:
+            found.update(pairwise(trip_of(robot, self.rules)))
+        return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
+
+    @property
+    def room(self) -> Fraction:
+        """The distance that two robots of the largest radius need [length unit]."""
+        radius = max((robot.radius for robot in self.robots), default=Fraction(0))
+        return 2 * radius + self.rules.clearance if radius else Fraction(0)
+
+    def name(self, vertex: int) -> str:
+        """Return the name of a vertex with what it is: ``D1 (station Press)``."""
+        what = self.places.get(vertex)
+        return f"{self.roadmap.name(vertex)} ({what})" if what else self.roadmap.name(vertex)
+
+    def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
+        """Return the names of vertices."""
+        return tuple(map(self.roadmap.name, vertices))
+
+
+def trip_of(robot: Robot, rules: Rules) -> list[int]:
+    """Return home, stops and, if it returns, home of a robot."""
+    stops = [int(stop.at) for stop in robot.stops]
+    returns = (robot.ends or rules.ends) == "home"
+    return [int(robot.home), *stops, *([int(robot.home)] if returns else [])]
+
+
+def inspect(site: Site) -> Inspection:
+    """Return how large a site is, and what will hurt on it.
+
+    Parameters
+    ----------
+    site
+        The site.
+    """
+    roadmap, ways = site.roadmap, ways_of(site.roadmap)
+    parts = strong_parts(ways)
+    main = set(parts[0])
+    places = [vertex for vertex in sorted(site.places) if vertex in main]
+    step = max(1, -(-len(places) // MOST_PLACES))
+    apart = separations(ways, places[::step])
+    load, total, sampled = _load(site, ways, parts[0], places)
+    findings = [
+        *_impossible_trips(site, ways, parts),
+        *_outside(site, ways, parts),
+        *_near(site),
+        *_on_the_way(site, ways, main, apart, load),
+        *_corridors(site, ways, main, load, total),
+        *_bottlenecks(site, ways, load, total, named=len(places) > 1),
+    ]
+    pairs = {(tail, head) for tail, heads in enumerate(ways.along) for head in heads}
+    return Inspection(
+        vertices=roadmap.n_vertices,
+        edges=roadmap.n_edges,
+        one_way=sum((head, tail) not in pairs for tail, head in pairs),
+        places=len(site.places),
+        parts=tuple(map(len, parts)),
+        sampled=sampled,
+        findings=tuple(sorted(findings, key=lambda each: SEVERITIES.index(each.severity))),
+    )
+
+
+def _load(
+    site: Site, ways: Ways, part: Sequence[int], places: Sequence[int]
+) -> tuple[dict[int, float], float, tuple[int, int] | None]:
+    """Return the load of shortest routes, how many there are, and from how many sources of all."""
+    trips: dict[int, dict[int, float]] = defaultdict(dict)
+    if site.robots:
+        inside = set(part)
+        for (start, goal), count in site.trips.items():
+            if {start, goal} <= inside:
+                trips[start][goal] = count
+    else:
+        ends = places if len(places) > 1 else _spread(part, SPREAD)
+        trips.update({start: {goal: 1 for goal in ends if goal != start} for start in ends})
+    size = len(ways.along) + sum(map(len, ways.along))
+    most = max(FEWEST_SOURCES, EFFORT // max(size, 1))
+    chosen = _spread(sorted(trips), most)
+    taken = {start: trips[start] for start in chosen}
+    total = sum(sum(goals.values()) for goals in taken.values())
+    sources = len(trips) if site.robots or len(places) > 1 else len(part)
+    is_sampled = len(chosen) < sources
+    return route_load(ways, taken), total, (len(chosen), sources) if is_sampled else None
+
+
+def _spread(vertices: Sequence[int], most: int) -> list[int]:
+    """Return at most so many of some vertices, spread over them."""
+    count = min(most, len(vertices))
+    return [vertices[k * len(vertices) // count] for k in range(count)]
+
+
+def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
+    """Yield the drives that no way leads along."""
+    part_of = {vertex: number for number, part in enumerate(parts) for vertex in part}
+    for robot in site.robots:
+        for start, goal in pairwise(trip_of(robot, site.rules)):
+            if part_of[start] == part_of[goal]:
+                continue
+            if goal not in grown_from([start], ways.along, lambda _: True):
+                yield Finding(
+                    kind="trip",
+                    severity="error",
+                    fact=f"{robot.name} cannot drive from {site.name(start)} to {site.name(goal)}",
+                    remedy="add a lane, or give it another home or stop",
+                    vertices=site.names((start, goal)),
+                    robots=(robot.name,),
+                )
+
+
+def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
+    """Yield what cannot be reached or left from the largest part, in connected pieces."""
+    main = parts[0]
+    ahead = set(grown_from(main, ways.along, lambda _: True))
+    behind = set(grown_from(main, ways.against, lambda _: True))
+    rest = {vertex for part in parts[1:] for vertex in part}
+    kinds: tuple[tuple[Kind, set[int], str, str], ...] = (
+        ("trap", ahead & rest, "{} can be entered and not left again", "a lane back"),
+        ("unreachable", behind & rest, "{} can be left and not reached", "a lane to it"),
+        ("cut off", rest - ahead - behind, "No lane joins {} to the largest part", "lanes"),
+    )
+    is_grid = site.roadmap.grid is not None
+    for kind, found, fact, remedy in kinds:
+        pieces, seen = list[list[int]](), set[int]()
+        beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
+        for vertex in beside:
+            if vertex not in seen:
+                reached: list[int] = [vertex]
+                seen.add(vertex)
+                for one in reached:  # grows as it goes
+                    new = beside[one] - seen
+                    seen |= new
+                    reached += sorted(new)
+                pieces.append(sorted(reached))
+        for piece in sorted(pieces, key=lambda each: (-len(each), each[0])):
+            own = [vertex for vertex in piece if vertex in site.places]
+            what = listed([site.name(vertex) for vertex in own or piece])
+            others = len(piece) - len(own) if own else 0
+            more = f" and {_counted(others, 'vertex')} around" if others else ""
+            yield Finding(
+                kind=kind,
+                severity="error" if own else "note" if kind == "cut off" else "warning",
+                fact=fact.format(what + more),
+                remedy="make a way wide enough for a cell, or ignore it"
+                if is_grid
+                else f"add {remedy}, or take {'it' if len(piece) == 1 else 'them'} out",
+                vertices=site.names(piece),
+            )
+
+
+def _near(site: Site) -> Iterator[Finding]:
+    """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
+    roadmap, room = site.roadmap, site.room
+    length = site.units.written_length
+    need = ""
+    if room:
+        radius = max(robot.radius for robot in site.robots)
+        with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
+        need = f"robots of radius {length(radius)}{with_room} need {length(room)}"
+    if roadmap.grid is not None:
+        size = roadmap.grid.cell_size
+        if size < room:
+            yield Finding(
+                kind="too near",
+                severity="warning",
+                fact=f"The middles of cells are {length(size)} apart; {need}",
+                remedy="take larger cells, or smaller robots",
+            )
+        return
+    pairs = close_pairs(roadmap, room or TOUCHING)
+    yield from _near_vertices(site, pairs, need)
+    for vertex, (tail, head) in pairs.beside:
+        lane = f"the lane {roadmap.name(tail)} to {roadmap.name(head)}"
+        beside = (
+            f"{site.name(vertex)} is too near to {lane}; {need}"
+            if need
+            else f"{site.name(vertex)} lies on {lane} and is no end of it"
+        )
+        yield Finding(
+            kind="too near",
+            severity="warning",
+            fact=beside,
+            remedy="a robot on one blocks the other; move one" if need else "split the lane there",
+            vertices=site.names((vertex, tail, head)),
+        )
+    for lanes in pairs.crossings:
+        one, other = (" to ".join(site.names(lane)) for lane in lanes)
+        yield Finding(
+            kind="crossing",
+            severity="note" if need else "warning",
+            fact=f"The lanes {one} and {other} cross without a vertex",
+            remedy="robots wait for each other there; a vertex lets them wait nearer"
+            if need
+            else "draw a vertex there, or give robots a radius: without one they do not give way",
+            vertices=site.names(vertex for lane in lanes for vertex in lane),
+        )
+
+
+def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:
+    roadmap = site.roadmap
+    for one, other in pairs.vertices:
+        apart = site.units.written_length(_distance(roadmap, one, other))
+        both_homes = one in site.homes and other in site.homes and bool(site.robots)
+        is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
+        are_places = one in site.places and other in site.places
+        if need:
+            fact = f"{site.name(one)} and {site.name(other)} are {apart} apart; {need}"
+        else:
+            fact = f"{site.name(one)} and {site.name(other)} are the same point"
+        yield Finding(
+            kind="too near",
+            severity="error"
+            if both_homes
+            else "note"
+            if is_joined and not are_places
+            else "warning",
+            fact=fact,
+            remedy="move one, or use smaller robots" if need else "make them one vertex",
+            vertices=site.names((one, other)),
+        )
+
+
+def _on_the_way(
+    site: Site,
+    ways: Ways,
+    main: set[int],
+    apart: Mapping[int, set[int]],
+    load: Mapping[int, float],
+) -> Iterator[Finding]:
+    """Yield places that others have to pass, the worst first, each with a place to park instead."""
+    taken = set(site.places)
+
+    def is_aside(spot: int) -> bool:
+        """Whether no place is at a vertex, no two places need it, and no route passes it."""
+        return spot in main and spot not in taken and spot not in apart and not load.get(spot)
+
+    separated = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
+    inside = main.intersection(site.places)
+    for vertex, beyond in sorted(separated, key=lambda each: (-len(each[1]), each[0])):
+        rest = inside - beyond - {vertex}
+        few = sorted(beyond if len(beyond) <= len(rest) else rest)
+        is_home = vertex in site.homes
+        remedy = "let no other robot need the way while one stands there, or add a way round"
+        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
+        if spot is not None:
+            taken.add(spot)
+            away = _distance(site.roadmap, vertex, spot)
+            where = f"{site.roadmap.name(spot)}, {site.units.written_length(away)} away"
+            verb = "park" if is_home else "wait"
+            remedy = f"{verb} at {where}, which no route needs, or add a way round"
+        parted = listed([site.name(place) for place in few])
+        others = _counted(len(inside) - 1 - len(few), "other place")
+        yield Finding(
+            kind="through way",
+            severity="warning" if is_home else "note",
+            fact=f"{site.name(vertex)} lies on the only way between {parted} and {others}",
+            remedy=remedy,
+            vertices=site.names((vertex, *few)),
+        )
+
+
+def _distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
+    """Return the distance of two vertices, rounded for people [length unit]."""
+    away = dist(roadmap.positions[one].tolist(), roadmap.positions[other].tolist())
+    return Fraction(round(away * ROUNDED), ROUNDED)
+
+
+def _corridors(
+    site: Site, ways: Ways, main: set[int], load: Mapping[int, float], total: float
+) -> Iterator[Finding]:
+    """Yield the corridors without a passing place that most shortest routes use."""
+
+    def use(corridor: Corridor) -> float:
+        return max(load.get(vertex, 0) for vertex in corridor.inside)
+
+    found = [each for each in corridors(ways) if len(each.inside) > 1 and use(each)]
+    found = [each for each in found if main.issuperset(each.ends)]
+    scale = _length_of_a_step(site.roadmap, ways)
+    busiest = sorted(found, key=lambda each: (-use(each), -each.steps))
+    for corridor in busiest[:LISTED_CORRIDORS]:
+        ends, inside = corridor.ends, set(corridor.inside)
+        first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
+        names = site.names((corridor.inside[0], corridor.inside[-1]))
+        crossing = _crossing(site, first, inside)
+        is_only = ends[1] not in first
+        if site.robots and is_only:
+            users = f"{len(crossing)} of {_counted(len(site.robots), 'robot')} must pass it"
+        else:
+            users = f"{_percent(use(corridor) / total)} of the shortest routes use it"
+        yield Finding(
+            kind="corridor",
+            severity="warning" if is_only else "note",
+            fact=f"{names[0]} to {names[1]} is a corridor of"
+            f" {site.units.written_length(corridor.steps * scale)} without a passing place;"
+            f" {users}, and {'no way leads round it' if is_only else 'there is a way round'}",
+            remedy="add a passing place in the middle, or make it one-way with a way back",
+            vertices=site.names((ends[0], *corridor.inside, ends[1])),
+            robots=tuple(crossing) if is_only else (),
+        )
+
+
+def _outside_of(inside: set[int]) -> Callable[[int], bool]:
+    return lambda vertex: vertex not in inside
+
+
+def _crossing(site: Site, side: set[int], inside: set[int]) -> list[str]:
+    """Return the robots that have places on both sides of a corridor."""
+    return [
+        robot.name
+        for robot in site.robots
+        if len({place in side for place in trip_of(robot, site.rules) if place not in inside}) > 1
+    ]
+
+
+def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
+    tail = next((vertex for vertex, heads in enumerate(ways.along) if heads), 0)
+    if not ways.along[tail]:
+        return Fraction(1)
+    first = int(roadmap.indptr[tail])
+    return roadmap.lengths[int(roadmap.length_class[first])] / ways.steps[tail][0]
+
+
+def _bottlenecks(
+    site: Site, ways: Ways, load: Mapping[int, float], total: float, *, named: bool
+) -> Iterator[Finding]:
+    """Yield the busiest vertex of each connected set of vertices that many shortest routes pass."""
+    busy = {vertex for vertex, passing in load.items() if passing >= max(float(BUSY) * total, 2)}
+    beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
+    seen = set[int]()
+    ends = "places" if named else "vertices"
+    for vertex in sorted(busy, key=lambda each: (-load[each], each)):
+        if vertex in seen:
+            continue
+        around = {vertex}
+        front = [vertex]
+        for one in front:  # grows as it goes
+            new = beside[one] - around
+            around |= new
+            front += sorted(new)
+        seen |= around
+        more = len(around) - 1
+        with_it = f"; {_counted(more, 'vertex')} around it on {_percent(BUSY)} or more"
+        yield Finding(
+            kind="bottleneck",
+            severity="note",
+            fact=f"{site.name(vertex)} is on {_percent(load[vertex] / total)} of the shortest"
+            f" routes between {ends}{with_it if more else ''}",
+            remedy="add a second way, or spread the places",
+            vertices=site.names((vertex, *sorted(around - {vertex}))),
+        )
+
+
+def _percent(share: float | Fraction) -> str:
+    return f"{decimal(Fraction(round(100 * share)))} %"
+
+
+def _counted(number: int, noun: str) -> str:
+    plural = "vertices" if noun == "vertex" else f"{noun}s"
+    return f"{number} {noun if number == 1 else plural}"

@@ -1,0 +1,104 @@
+"""The report on a layout, a map or a scenario, before anything is planned."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import EXAMPLES, Cli
+
+LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
+
+FLEET = """robots:
+- {name: R1, home: dock, target: shelf, radius: 0.5}
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("hall.lif.json", "a LIF layout with 4 vertices, 8 lanes and 1 station"),
+        ("plant.xml", "an openTCS plant model with"),
+        ("room.yaml", "a ROS map of"),
+        ("two-rooms.map", "a MovingAI map of"),
+        ("nodes.csv", "a CSV pair with"),
+    ],
+)
+def test_every_format_is_inspected(cli: Cli, name: str, what: str) -> None:
+    ended = cli("inspect", LAYOUTS / name)
+    assert (ended.code, ended.err) == (0, "")
+    assert what in " ".join(ended.out.split())
+
+
+def test_all_examples_are_inspected(cli: Cli, door: Path) -> None:
+    for path in sorted(EXAMPLES.glob("*.yaml")):
+        assert cli("inspect", path).code == 0
+    assert "a scenario of 2 robots on 3 x 3 cells" in cli("inspect", door).out
+
+
+def test_findings_have_places_in_json(cli: Cli) -> None:
+    Path("nodes.csv").write_text("name,x,y\nA,0,0\nB,4,0\nC,4,4\n", encoding="utf-8")
+    Path("edges.csv").write_text("from,to\nA,B\nB,A\nB,C\n", encoding="utf-8")
+    data = json.loads(cli("inspect", "nodes.csv", "--json").out)
+    (level,) = data["levels"]
+    assert (level["vertices"], level["edges"], level["one_way"]) == (3, 3, 1)
+    assert (level["parts"], level["units"]["length"]) == ([2, 1], "m")
+    (finding,) = level["findings"]
+    assert (finding["kind"], finding["severity"]) == ("trap", "warning")
+    assert (finding["vertices"], finding["robots"]) == (["C"], [])
+    assert finding["sentence"].startswith("C can be entered and not left again (add")
+
+
+def test_a_site_without_findings_says_so(cli: Cli) -> None:
+    Path("open.map").write_text("type octile\nheight 2\nwidth 2\nmap\n..\n..\n", encoding="utf-8")
+    assert cli("inspect", "open.map").out.endswith("Nothing was found that will hurt.\n")
+
+
+@pytest.mark.parametrize("name", ["fleet.yaml", "fleet.csv"])
+def test_a_fleet_is_judged_on_a_layout(cli: Cli, name: str) -> None:
+    Path("fleet.yaml").write_text(FLEET, encoding="utf-8")
+    Path("fleet.csv").write_text("name,home,target,radius\nR1,dock,shelf,0.5\n", encoding="utf-8")
+    data = json.loads(cli("inspect", LAYOUTS / "nodes.csv", "--robots", name, "--json").out)
+    assert data["levels"][0]["places"] == 2
+
+
+def test_a_fleet_is_judged_on_the_map_of_a_scenario(cli: Cli, door: Path) -> None:
+    Path("fleet.yaml").write_text("- {name: R9, home: N0, target: N8}\n", encoding="utf-8")
+    ended = cli("inspect", door, "--robots", "fleet.yaml")
+    assert "a scenario of 1 robot on 3 x 3 cells" in ended.out
+
+
+def test_robots_at_unknown_places_are_named_with_their_line(cli: Cli) -> None:
+    Path("fleet.yaml").write_text(FLEET.replace("dock", "dokc"), encoding="utf-8")
+    ended = cli("inspect", LAYOUTS / "nodes.csv", "--robots", "fleet.yaml")
+    assert ended.code == 2
+    assert ended.err == (
+        "fleet.yaml:2: robots[0] (R1): home: no vertex is named 'dokc' (did you mean 'dock'?)\n"
+    )
+
+
+def test_long_lists_are_cut_and_counted(cli: Cli) -> None:
+    rows = ["".join(".@"[(row + column) % 2] for column in range(6)) for row in range(6)]
+    Path("dots.map").write_text(
+        "type octile\nheight 6\nwidth 6\nmap\n" + "\n".join(rows) + "\n", encoding="utf-8"
+    )
+    out = cli("inspect", "dots.map", "--limit", "2").out
+    assert "Notes: 17\n" in out
+    assert "  and 15 more: cut off (see --limit)\n" in out
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["nowhere.json"], "there is no such file"),
+        (["door", "--level", "0"], "level is for layouts, and this is none (leave it out)"),
+        (["door", "--cell-size", "0"], "'0' is no length (give metres, like 0.5)"),
+    ],
+)
+def test_wrong_input_is_refused_with_a_remedy(
+    cli: Cli, door: Path, args: list[str], message: str
+) -> None:
+    ended = cli("inspect", *(door if arg == "door" else arg for arg in args))
+    assert (ended.code, message in ended.err) == (2, True)

@@ -1,0 +1,223 @@
+"""What an inspection finds on small sites, each with a known fault."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+import pytest
+
+from rightofway.metrics.inspection import Finding, Site, inspect
+from rightofway.model import (
+    Edge,
+    Roadmap,
+    Robot,
+    Stop,
+    Units,
+    VertexId,
+    roadmap_of_edges,
+    roadmap_of_grid,
+)
+
+METRES = Units(length="m", time="s")
+
+
+def drawn(at: Mapping[str, tuple[float, float]], lanes: str) -> Roadmap:
+    """Return a roadmap of lanes like ``A-B`` (both ways) and ``A>B``, as long as they are drawn."""
+    edges = []
+    for lane in lanes.split():
+        tail, head = lane.replace(">", "-").split("-")
+        (x, y), (u, v) = at[tail], at[head]
+        length = Fraction(repr(((x - u) ** 2 + (y - v) ** 2) ** 0.5)).limit_denominator(1000)
+        edges.append(Edge(tail=tail, head=head, length=length))
+        if ">" not in lane:
+            edges.append(Edge(tail=head, head=tail, length=length))
+    return roadmap_of_edges(at, edges)
+
+
+def robot(name: str, home: int, stop: int, radius: str = "0", **more: str) -> Robot:
+    stops = (Stop(at=VertexId(stop)),)
+    return Robot(name=name, home=VertexId(home), stops=stops, radius=Fraction(radius), **more)  # type: ignore[arg-type]
+
+
+def found(site: Site, kind: str) -> list[Finding]:
+    return [each for each in inspect(site).findings if each.kind == kind]
+
+
+SQUARE = {"A": (0.0, 0.0), "B": (4.0, 0.0), "C": (4.0, 4.0), "D": (0.0, 4.0)}
+
+
+def test_a_site_without_faults_has_no_finding() -> None:
+    """A ring of four, driven both ways; two places at opposite corners."""
+    site = Site(roadmap=drawn(SQUARE, "A-B B-C C-D D-A"), parking={"A": 0}, stations={"C": 2})
+    result = inspect(site)
+    assert (result.findings, result.parts, result.one_way, result.places) == ((), (4,), 0, 2)
+
+
+@pytest.mark.parametrize(
+    ("lanes", "kind", "sentence"),
+    [
+        (
+            "A-B B-C C>D",
+            "trap",
+            "D (station Press) can be entered and not left again (add a lane back, or take it out)",
+        ),
+        (
+            "A-B B-C D>C",
+            "unreachable",
+            "D (station Press) can be left and not reached (add a lane to it, or take it out)",
+        ),
+        (
+            "A-B B-C",
+            "cut off",
+            "No lane joins D (station Press) to the largest part (add lanes, or take it out)",
+        ),
+    ],
+)
+def test_a_place_outside_of_the_largest_part_is_an_error(
+    lanes: str, kind: str, sentence: str
+) -> None:
+    site = Site(roadmap=drawn(SQUARE, lanes), stations={"Press": 3})
+    (finding,) = found(site, kind)
+    assert (str(finding), finding.severity, finding.vertices) == (sentence, "error", ("D",))
+    assert inspect(site).parts == (3, 1)
+
+
+def test_vertices_without_a_place_outside_of_the_largest_part_are_one_finding_each_piece() -> None:
+    at = SQUARE | {"E": (8.0, 0.0), "F": (8.0, 4.0)}
+    (finding,) = found(Site(roadmap=drawn(at, "A-B B-C C-D D-A C>F F>E")), "trap")
+    assert (finding.severity, finding.vertices) == ("warning", ("E", "F"))
+
+
+def test_lanes_that_cross_without_a_vertex_are_found() -> None:
+    site = Site(roadmap=drawn(SQUARE, "A-C B-D A-B"))
+    (finding,) = found(site, "crossing")
+    assert finding.fact == "The lanes A to C and B to D cross without a vertex"
+    assert finding.severity == "warning"
+
+
+def test_a_vertex_on_a_lane_that_does_not_end_there_is_found() -> None:
+    at = SQUARE | {"M": (2.0, 0.0)}
+    (finding,) = found(Site(roadmap=drawn(at, "A-B B-C C-D D-M")), "too near")
+    assert finding.fact == "M lies on the lane A to B and is no end of it"
+
+
+def test_vertices_nearer_than_the_robots_are_wide_are_found_exactly() -> None:
+    """0.9 m are enough for two robots of radius 0.45 m, 0.4 m are not."""
+    at = {"P1": (0.0, 0.0), "P2": (0.9, 0.0), "P3": (5.0, 0.0), "P4": (5.4, 0.0)}
+    roadmap = drawn(at, "P1-P2 P2-P3 P3-P4")
+    robots = (robot("R1", 0, 2, "0.45"), robot("R2", 1, 3, "0.45"))
+    (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "too near")
+    assert str(finding) == (
+        "P3 (stop of R1) and P4 (stop of R2) are 0.4 m apart; robots of radius 0.45 m need 0.9 m"
+        " (move one, or use smaller robots)"
+    )
+    assert finding.severity == "warning"
+
+
+def test_homes_that_are_too_near_are_an_error() -> None:
+    at = {"P1": (0.0, 0.0), "P2": (0.5, 0.0), "P3": (5.0, 0.0)}
+    robots = (robot("R1", 0, 2, "0.45"), robot("R2", 1, 2, "0.45"))
+    site = Site(roadmap=drawn(at, "P1-P2 P2-P3"), robots=robots)
+    (finding,) = found(site, "too near")
+    assert (finding.severity, finding.vertices) == ("error", ("P1", "P2"))
+
+
+def test_a_lane_beside_a_vertex_is_too_near() -> None:
+    at = SQUARE | {"M": (2.0, 0.3)}
+    site = Site(
+        roadmap=drawn(at, "A-B B-C C-D D-A D-M"), units=METRES, robots=(robot("R1", 3, 1, "0.2"),)
+    )
+    (finding,) = found(site, "too near")
+    assert finding.fact == ("M is too near to the lane A to B; robots of radius 0.2 m need 0.4 m")
+
+
+def test_cells_smaller_than_the_robots_are_one_finding() -> None:
+    site = Site(roadmap=roadmap_of_grid(["....."]), robots=(robot("R1", 0, 4, "0.6"),))
+    (finding,) = found(site, "too near")
+    assert finding.fact.startswith("The middles of cells are 1 length unit apart; robots of")
+
+
+def test_a_home_on_the_only_way_gets_a_parking_place_that_no_route_needs() -> None:
+    """A row of four cells with a bay below the second; R2 lives in the row, the bay is free."""
+    roadmap = roadmap_of_grid([".....", "@@.@@"])
+    robots = (robot("R1", 0, 4), robot("R2", 1, 3))
+    (home,) = [
+        each
+        for each in found(Site(roadmap=roadmap, robots=robots), "through way")
+        if each.severity == "warning"
+    ]
+    assert str(home) == (
+        "N1 (home of R2) lies on the only way between N0 (home of R1) and 2 other places"
+        " (park at N7, 1.41 length units away, which no route needs, or add a way round)"
+    )
+
+
+def test_a_home_beside_the_way_is_not_on_it() -> None:
+    roadmap = roadmap_of_grid([".....", "@@.@@"])
+    site = Site(roadmap=roadmap, robots=(robot("R1", 0, 4), robot("R2", 5, 4)))
+    assert [each.vertices[0] for each in found(site, "through way")] == []
+
+
+def test_a_one_way_ring_makes_every_place_a_through_way() -> None:
+    """No articulation point, but each vertex has to be passed all the same."""
+    site = Site(roadmap=drawn(SQUARE, "A>B B>C C>D D>A"), stations={"A": 0, "B": 1, "C": 2, "D": 3})
+    assert {each.vertices[0] for each in found(site, "through way")} == {"A", "B", "C", "D"}
+
+
+def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
+    """Two halls joined by three cells: R1 and R2 cross, R3 stays in its hall."""
+    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    robots = (robot("R1", 0, 3), robot("R2", 2, 1), robot("R3", 4, 1))
+    (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "corridor")
+    assert str(finding) == (
+        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must pass it, and no"
+        " way leads round it (add a passing place in the middle, or make it one-way with a way"
+        " back)"
+    )
+    assert (finding.severity, finding.robots) == ("warning", ("R1", "R2"))
+
+
+def test_a_corridor_with_a_way_round_is_a_note() -> None:
+    roadmap = roadmap_of_grid(["..@@@..", ".......", "..@@@..", "......."])
+    site = Site(roadmap=roadmap, robots=(robot("R1", 4, 10),))
+    assert {each.severity for each in found(site, "corridor")} == {"note"}
+
+
+def test_a_corridor_that_nobody_uses_is_no_finding() -> None:
+    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    assert found(Site(roadmap=roadmap, robots=(robot("R1", 0, 1),)), "corridor") == []
+
+
+def test_the_busiest_vertex_is_a_bottleneck_with_its_share() -> None:
+    """A star: all six routes between its three ends lead through the middle."""
+    at = {"M": (0.0, 0.0), "A": (4.0, 0.0), "B": (0.0, 4.0), "C": (-4.0, 0.0)}
+    site = Site(roadmap=drawn(at, "M-A M-B M-C"), stations={"A": 1, "B": 2, "C": 3})
+    (finding,) = found(site, "bottleneck")
+    assert finding.fact == "M is on 100 % of the shortest routes between places"
+    assert inspect(site).sampled is None
+
+
+def test_a_stop_that_cannot_be_reached_is_an_error_of_its_robot() -> None:
+    robots = (robot("R1", 0, 1), robot("R2", 2, 3))
+    site = Site(roadmap=drawn(SQUARE, "A-B B-C C>D"), robots=robots)
+    (finding,) = found(site, "trip")
+    assert (finding.fact, finding.robots) == (
+        "R2 cannot drive from D (stop of R2) to C (home of R2)",
+        ("R2",),
+    )
+    one_way = (robots[0], robot("R2", 2, 3, ends="none"))
+    assert found(Site(roadmap=site.roadmap, robots=one_way), "trip") == []
+
+
+def test_errors_come_before_warnings_and_notes() -> None:
+    at = SQUARE | {"E": (8.0, 8.0)}
+    site = Site(roadmap=drawn(at, "A-C B-D A-B"), stations={"Press": 4, "Oven": 0})
+    severities = [each.severity for each in inspect(site).findings]
+    assert severities == sorted(severities, key=["error", "warning", "note"].index)
+    assert severities[0] == "error"
+
+
+def test_a_large_site_without_places_says_how_it_was_sampled() -> None:
+    result = inspect(Site(roadmap=roadmap_of_grid(["." * 20] * 20)))
+    assert result.sampled == (16, 400)
