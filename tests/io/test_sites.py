@@ -69,6 +69,12 @@ def test_names_of_obstacles_stay_with_the_grid_that_a_floor_is_cut_into() -> Non
     assert "obstacles" not in dump_scenario(without)["map"]
 
 
+def test_the_document_of_a_floor_without_units_is_the_one_of_its_grid() -> None:
+    trip = {"name": "R1", "home": "N0", "target": "N2", "speed": 1}
+    document = {"format": "rightofway-scenario/1", "map": floor(), "robots": [trip]}
+    assert set(dump_scenario(scenario_of(document))["map"]) == {"grid", "cell_size"}
+
+
 @pytest.mark.parametrize("beside", ["floor", "roadmap"])
 def test_only_a_grid_has_obstacles_beside_it(beside: str) -> None:
     shape = {"floor": {"size": [3, 2]}, "roadmap": {"vertices": {"A": [0, 0]}, "edges": []}}

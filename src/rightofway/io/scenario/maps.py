@@ -109,7 +109,7 @@ def map_of(
         with under("roadmap"):
             return _drawn(document.roadmap, document.spacing, y_up=document.y_up)
     if document.floor is not None:
-        return _clustered(document, speeds)
+        return _clustered(document, speeds, keeps_names=units != Units())
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     frame = {
         "y_up": document.y_up,
@@ -150,10 +150,13 @@ def file_beside(base: Path | None, name: str) -> Path:
     return base / name
 
 
-def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> LoadedMap | None:
+def _clustered(
+    document: MapDocument, speeds: Sequence[Fraction] | None, *, keeps_names: bool
+) -> LoadedMap | None:
     """Cut a floor into cells, from its upper left corner on; where y grows upwards, the lower one.
 
-    What is left at the other borders is not used.
+    What is left at the other borders is not used. The names of obstacles stay with the grid where
+    the scenario names its units; plan files of floors without units are as they have always been.
     """
     with under("floor"):
         floor = _floor(document.floor, document)
@@ -176,7 +179,8 @@ def _clustered(document: MapDocument, speeds: Sequence[Fraction] | None) -> Load
             origin=origin,
             yaw=document.yaw or Fraction(0),
         )
-        roadmap = replace(roadmap, obstacles=_named(document.floor.obstacles))
+        if keeps_names:
+            roadmap = replace(roadmap, obstacles=_named(document.floor.obstacles))
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
