@@ -4,7 +4,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from rightofway.io import example_of_layout, load
 from rightofway.io.scenario.example import largest_part
@@ -30,6 +32,18 @@ def test_robots_start_from_parking_places_and_drive_to_stations() -> None:
 def test_the_vehicle_type_and_the_level_with_the_most_lanes_are_taken() -> None:
     assert example("hall.lif.json")["map"] == {"layout": "hall.lif.json", "vehicle_type": "tugger"}
     assert example("hall.nav.yaml")["map"] == {"layout": "hall.nav.yaml", "level": "L1"}
+
+
+def test_cells_of_a_map_in_pixels_are_small_enough_to_get_through(tmp_path: Path) -> None:
+    """Corridors of 0.4 m between walls of 0.1 m: a row of cells of 1/8 m fits into each."""
+    picture = np.full((50, 200), 254, np.uint8)
+    picture[::5] = 0
+    picture[:, ::40] = 254  # a door in each wall
+    Image.fromarray(picture).save(tmp_path / "a.png")
+    yaml = (HERE / "room.yaml").read_text("utf-8").replace("room.pgm", "a.png")
+    (tmp_path / "a.yaml").write_text(yaml.replace("0.5\n", "0.1\n"), "utf-8")
+    document = parse_yaml(example_of_layout(tmp_path / "a.yaml", tmp_path / "scenario.yaml"))
+    assert document["map"]["cell_size"] == "1/8"
 
 
 @pytest.mark.parametrize(

@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.maps import LoadedMap, map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
-from rightofway.model import Roadmap, Units
+from rightofway.model import Roadmap, Units, roadmap_of_grid
 from rightofway.model.layout import Layout, Level
 from rightofway.model.occupancy import Occupancy
 
@@ -26,8 +27,11 @@ ROBOTS = 6
 SHIFT = 7
 """By how many halves of the distance between homes the first target is away from the first home."""
 
-CELL_SIZE = "1/2"
-"""Side of the cells that a map in pixels is cut into [m]."""
+CELL_SIZES = ("1/2", "1/4", "1/8")
+"""Sides of the cells that a map in pixels is cut into [m]: the first that gives a large part."""
+
+LARGE = 100
+"""Cells of a large part."""
 
 WORK = 10
 """Work time of the example's robots [time unit]."""
@@ -68,7 +72,7 @@ def example_of_layout(path: Path | str, target: Path | str) -> str:
         if len(types) > 1:
             shape["vehicle_type"] = max(types, key=lambda name: len(level.lanes_of(name)))
     elif isinstance(found, Occupancy):
-        shape["cell_size"] = CELL_SIZE
+        shape["cell_size"] = _cell_size(found)
     from rightofway.io.scenario.shape import MapDocument
 
     loaded = map_of(checked(MapDocument, shape), None, beside, Units(), lambda: Fraction(0))
@@ -80,6 +84,20 @@ def example_of_layout(path: Path | str, target: Path | str) -> str:
         "robots": _dealt(loaded, level),
     }
     return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
+
+
+def _cell_size(found: Occupancy) -> str:
+    """Return the largest side of cells with which robots get far, else the largest that fits."""
+    fitting = list[str]()
+    for size in CELL_SIZES:
+        try:
+            roadmap = roadmap_of_grid(found.cells(Fraction(size)))
+        except InputError:  # no whole cell, none that is free, or cells below a pixel
+            continue
+        fitting.append(size)
+        if len(largest_part(roadmap)) >= LARGE:
+            return size
+    return fitting[0] if fitting else CELL_SIZES[0]
 
 
 def _dealt(loaded: LoadedMap, level: Level | None) -> list[dict[str, Any]]:
