@@ -218,7 +218,11 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
             {static_cast<DelayKind>(view(delay_kind)[k]), view(delay_a)[k], view(delay_b)[k]});
     }
     const auto first = view(first_stoppage);
-    new (self) BoundAdg({view(first_visit), view(vertex), view(planned), view(dwell), view(drive),
+    new (self) BoundAdg({view(first_visit),
+                         view(vertex),
+                         view(planned),
+                         view(dwell),
+                         view(drive),
                          view(before),
                          headway,
                          books_ahead,

@@ -90,16 +90,15 @@ void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
           const std::optional<ArrayIn<std::int32_t>>& edge_row,
           const std::optional<ArrayIn<std::int32_t>>& first,
           const std::optional<ArrayIn<std::int32_t>>& excluded) {
-    const RouteArrays arrays{
-        view(first_visit),
-        view(vertex),
-        view(least),
-        view(approach),
-        headway,
-        swaps_conflict,
-        view(active),
-        {view_or_empty(vertex_row), view_or_empty(edge_row), view_or_empty(first),
-         view_or_empty(excluded)}};
+    const RouteArrays arrays{view(first_visit),
+                             view(vertex),
+                             view(least),
+                             view(approach),
+                             headway,
+                             swaps_conflict,
+                             view(active),
+                             {view_or_empty(vertex_row), view_or_empty(edge_row),
+                              view_or_empty(first), view_or_empty(excluded)}};
     const nb::gil_scoped_release released;
     new (self) PrecedenceGraph(arrays);
 }

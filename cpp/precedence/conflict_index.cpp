@@ -66,7 +66,8 @@ ConflictIndex::ConflictIndex(const Routes& routes)
           routes, visits_where(routes, [&](VisitId) { return !routes.has_sizes(); }),
           [&](VisitId x) { return routes.vertex(x); }, [&](VisitId x) { return routes.vertex(x); }),
       enters_(
-          routes, visits_where(routes,
+          routes,
+          visits_where(routes,
                        [&](VisitId x) { return !routes.has_sizes() && routes.may_swap(x); }),
           [&](VisitId x) { return std::pair(routes.vertex(x - 1), routes.vertex(x)); },
           [&](VisitId x) { return std::pair(routes.vertex(x), routes.vertex(x - 1)); }),

@@ -22,3 +22,17 @@ def test_auto_finds_the_optimum_or_proves_that_there_is_no_plan(seed: int) -> No
         return
     assert check(plan).ok
     assert plan.flowtime == least
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_two_level_never_beats_the_optimum_and_proves_the_same(seed: int) -> None:
+    scenario = tiny(seed)
+    least = least_flowtime(scenario)
+    try:
+        plan = solve(scenario, "two-level")
+    except NoPlanExists:
+        assert least is None
+        return
+    assert check(plan).ok
+    assert least is not None
+    assert plan.flowtime >= least

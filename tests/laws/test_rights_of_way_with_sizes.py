@@ -10,7 +10,7 @@ import pytest
 
 from rightofway import solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.execution import delay_model_of, read_delays
+from rightofway.execution import delay_model_of, read_delays, simulate
 from rightofway.model import NEVER, Plan, Scenario
 from rightofway.planners.routing import shortest_routes
 from rightofway.precedence import (
@@ -193,6 +193,20 @@ def test_robots_that_break_down_are_waited_for(seed: int) -> None:
     assert not batch.by_right_of_way[:, :3].any()
     stuck = (batch.completion >= NEVER).any(axis=1)
     assert batch.is_broken[stuck].any(axis=1).all()
+
+
+@pytest.mark.parametrize("seed", seeds(20, 4))
+def test_rights_of_way_are_switched_without_collision_and_deadlock(seed: int) -> None:
+    outcome = simulate(some_plan(seed), "chance:0.4x9", runs=10, seed=seed, switch=True)
+    assert (outcome.collisions, outcome.deadlocks, outcome.stranded) == (0, 0, 0)
+
+
+def test_switching_pays_where_a_robot_with_the_right_of_way_is_slow() -> None:
+    """Four robots on a grid, of which R1 takes three times as long as planned."""
+    outcome = simulate(solve(sized(4), "two-level"), "slow:R1x3", runs=1, switch=True)
+    assert outcome.switches >= 1
+    assert outcome.gain is not None
+    assert (outcome.gain.earlier, outcome.collisions) == (1, 0)
 
 
 def test_a_robot_waits_before_the_crossing_until_the_late_one_has_left() -> None:
