@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.metrics.inspection import Finding, Site, inspect
+from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import (
     Edge,
     Roadmap,

@@ -16,7 +16,7 @@ from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import load_with_notes, read_scenario
 from rightofway.io.text import read_text
-from rightofway.metrics.inspection import Site
+from rightofway.metrics import Site
 from rightofway.model import Scenario, Units
 from rightofway.model.layout import Layout, Level, roadmap_of_level
 from rightofway.model.occupancy import Occupancy
