@@ -171,11 +171,20 @@ def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
     robots = (robot("R1", 0, 3), robot("R2", 2, 1), robot("R3", 4, 1))
     (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "corridor")
     assert str(finding) == (
-        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must pass it, and no"
+        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must use it, and no"
         " way leads round it (add a passing place in the middle, or make it one-way with a way"
         " back)"
     )
     assert (finding.severity, finding.robots) == ("warning", ("R1", "R2"))
+
+
+def test_a_corridor_that_one_robot_uses_is_no_finding() -> None:
+    """R2 works in the corridor, so that it counts; alone, R1 meets nobody there."""
+    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    alone = (robot("R1", 0, 3), robot("R2", 1, 4))
+    assert found(Site(roadmap=roadmap, robots=alone), "corridor") == []
+    (finding,) = found(Site(roadmap=roadmap, robots=(alone[0], robot("R2", 1, 7))), "corridor")
+    assert finding.robots == ("R1", "R2")
 
 
 def test_a_corridor_with_a_way_round_is_a_note() -> None:

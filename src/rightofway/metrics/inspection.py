@@ -307,10 +307,12 @@ def _corridors(
         ends, inside = corridor.ends, set(corridor.inside)
         first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
         names = site.names((corridor.inside[0], corridor.inside[-1]))
-        crossing = _crossing(site, first, inside)
+        using = _using(site, first, inside)
         is_only = ends[1] not in first
         if site.robots and is_only:
-            users = f"{len(crossing)} of {_counted(len(site.robots), 'robot')} must pass it"
+            if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
+                continue
+            users = f"{len(using)} of {_counted(len(site.robots), 'robot')} must use it"
         else:
             users = f"{_percent(use(corridor) / total)} of the shortest routes use it"
         yield Finding(
@@ -321,7 +323,7 @@ def _corridors(
             f" {users}, and {'no way leads round it' if is_only else 'there is a way round'}",
             remedy="add a passing place in the middle, or make it one-way with a way back",
             vertices=site.names((ends[0], *corridor.inside, ends[1])),
-            robots=tuple(crossing) if is_only else (),
+            robots=tuple(using) if is_only else (),
         )
 
 
@@ -329,13 +331,14 @@ def _outside_of(inside: set[int]) -> Callable[[int], bool]:
     return lambda vertex: vertex not in inside
 
 
-def _crossing(site: Site, side: set[int], inside: set[int]) -> list[str]:
-    """Return the robots that have places on both sides of a corridor."""
-    return [
-        robot.name
-        for robot in site.robots
-        if len({place in side for place in trip_of(robot, site.rules) if place not in inside}) > 1
-    ]
+def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
+    """Return the robots that have places in a corridor, or on both sides of it."""
+    found = []
+    for robot in site.robots:
+        trip = set(trip_of(robot, site.rules))
+        if trip & inside or len({place in side for place in trip}) > 1:
+            found.append(robot.name)
+    return found
 
 
 def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
