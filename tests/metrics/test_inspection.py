@@ -153,6 +153,16 @@ def test_a_home_on_the_only_way_gets_a_parking_place_that_no_route_needs() -> No
     )
 
 
+def test_a_home_that_shortest_routes_pass_gets_a_parking_place_too() -> None:
+    """R2 lives in the middle of the direct way; the way round is longer, and the bay is free."""
+    at = SQUARE | {"M": (2.0, 0.0), "Bay": (4.0, -1.0)}
+    roadmap = drawn(at, "A-M M-B B-C C-D D-A B-Bay")
+    site = Site(roadmap=roadmap, units=METRES, robots=(robot("R1", 0, 1), robot("R2", 4, 2)))
+    (finding,) = [each for each in found(site, "through way") if each.severity == "warning"]
+    assert finding.fact.startswith("M (home of R2) is on 50 % of the shortest routes, and")
+    assert finding.remedy.startswith("park at Bay, 2.24 m away, which no route needs")
+
+
 def test_a_home_beside_the_way_is_not_on_it() -> None:
     roadmap = roadmap_of_grid([".....", "@@.@@"])
     site = Site(roadmap=roadmap, robots=(robot("R1", 0, 4), robot("R2", 5, 4)))

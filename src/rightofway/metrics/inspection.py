@@ -71,7 +71,7 @@ def inspect(site: Site) -> Inspection:
         *_impossible_trips(site, ways, parts),
         *_outside(site, ways, parts),
         *_near(site),
-        *_on_the_way(site, ways, main, apart, load),
+        *_on_the_way(site, ways, main, apart, load=load, total=total),
         *_corridors(site, ways, main, load, total),
         *_bottlenecks(site, ways, load, total, named=len(places) > 1),
     ]
@@ -251,38 +251,57 @@ def _on_the_way(
     ways: Ways,
     main: set[int],
     apart: Mapping[int, set[int]],
+    *,
     load: Mapping[int, float],
+    total: float,
 ) -> Iterator[Finding]:
-    """Yield places that others have to pass, the worst first, each with a place to park instead."""
+    """Yield places that others have to pass, the worst first, and homes that many routes pass."""
     taken = set(site.places)
 
     def is_aside(spot: int) -> bool:
         """Whether no place is at a vertex, no two places need it, and no route passes it."""
         return spot in main and spot not in taken and spot not in apart and not load.get(spot)
 
-    separated = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
+    def remedy(vertex: int) -> str:
+        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
+        if spot is None:
+            return "let no other robot need the way while one stands there, or add a way round"
+        taken.add(spot)
+        away = site.units.written_length(_distance(site.roadmap, vertex, spot))
+        verb = "park" if vertex in site.homes else "wait"
+        place = f"{site.roadmap.name(spot)}, {away} away"
+        return f"{verb} at {place}, which no route needs, or add a way round"
+
+    separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)
-    for vertex, beyond in sorted(separated, key=lambda each: (-len(each[1]), each[0])):
+    for vertex, beyond in sorted(separating, key=lambda each: (-len(each[1]), each[0])):
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
-        is_home = vertex in site.homes
-        remedy = "let no other robot need the way while one stands there, or add a way round"
-        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
-        if spot is not None:
-            taken.add(spot)
-            away = _distance(site.roadmap, vertex, spot)
-            where = f"{site.roadmap.name(spot)}, {site.units.written_length(away)} away"
-            verb = "park" if is_home else "wait"
-            remedy = f"{verb} at {where}, which no route needs, or add a way round"
         parted = listed([site.name(place) for place in few])
         others = _counted(len(inside) - 1 - len(few), "other place")
         yield Finding(
             kind="through way",
-            severity="warning" if is_home else "note",
+            severity="warning" if vertex in site.homes else "note",
             fact=f"{site.name(vertex)} lies on the only way between {parted} and {others}",
-            remedy=remedy,
+            remedy=remedy(vertex),
             vertices=site.names((vertex, *few)),
         )
+    busy = [vertex for vertex in inside if vertex in site.homes and _is_busy(load, total, vertex)]
+    for vertex in sorted(busy, key=lambda each: (-load[each], each)):
+        if vertex not in apart:
+            yield Finding(
+                kind="through way",
+                severity="warning",
+                fact=f"{site.name(vertex)} is on {_percent(load[vertex] / total)} of the shortest"
+                " routes, and robots drive round it while one stands there",
+                remedy=remedy(vertex),
+                vertices=site.names((vertex,)),
+            )
+
+
+def _is_busy(load: Mapping[int, float], total: float, vertex: int) -> bool:
+    """Whether many shortest routes pass a vertex, two at least."""
+    return load.get(vertex, 0) >= max(float(BUSY) * total, 2)
 
 
 def _distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
@@ -353,7 +372,7 @@ def _bottlenecks(
     site: Site, ways: Ways, load: Mapping[int, float], total: float, *, named: bool
 ) -> Iterator[Finding]:
     """Yield the busiest vertex of each connected set of vertices that many shortest routes pass."""
-    busy = {vertex for vertex, passing in load.items() if passing >= max(float(BUSY) * total, 2)}
+    busy = {vertex for vertex in load if _is_busy(load, total, vertex)}
     beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
     seen = set[int]()
     ends = "places" if named else "vertices"
