@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
@@ -56,6 +57,20 @@ def test_a_site_without_findings_says_so(cli: Cli) -> None:
     assert cli("inspect", "open.map").out.endswith("Nothing was found that will hurt.\n")
 
 
+def test_a_scenario_may_come_from_standard_input(
+    cli: Cli, door: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = io.TextIOWrapper(io.BytesIO(door.read_bytes()), encoding="utf-8")
+    monkeypatch.setattr("sys.stdin", text)
+    assert "a scenario of 2 robots on 3 x 3 cells" in cli("inspect", "-").out
+
+
+def test_a_workbook_has_robots_of_its_own(cli: Cli) -> None:
+    cli("new", "hall.xlsx")
+    ended = cli("inspect", "hall.xlsx", "--robots", "fleet.csv")
+    assert (ended.code, "hall.xlsx: has robots of its own (give" in ended.err) == (2, True)
+
+
 @pytest.mark.parametrize("name", ["fleet.yaml", "fleet.csv"])
 def test_a_fleet_is_judged_on_a_layout(cli: Cli, name: str) -> None:
     Path("fleet.yaml").write_text(FLEET, encoding="utf-8")
@@ -92,13 +107,18 @@ def test_long_lists_are_cut_and_counted(cli: Cli) -> None:
 @pytest.mark.parametrize(
     ("args", "message"),
     [
+        (
+            [LAYOUTS / "hall.lif.json", "--level", "9"],
+            "hall.lif.json: level: no level is named '9'",
+        ),
+        ([LAYOUTS / "hall.lif.json", "--cell-size", "1"], "a layout of lanes, which has no cells"),
         (["nowhere.json"], "there is no such file"),
         (["door", "--level", "0"], "level is for layouts, and this is none (leave it out)"),
         (["door", "--cell-size", "0"], "'0' is no length (give metres, like 0.5)"),
     ],
 )
 def test_wrong_input_is_refused_with_a_remedy(
-    cli: Cli, door: Path, args: list[str], message: str
+    cli: Cli, door: Path, args: list[str | Path], message: str
 ) -> None:
     ended = cli("inspect", *(door if arg == "door" else arg for arg in args))
     assert (ended.code, message in ended.err) == (2, True)

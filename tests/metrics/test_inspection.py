@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.metrics.inspection import Finding, Site, inspect
+from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import (
     Edge,
     Roadmap,
@@ -153,6 +153,16 @@ def test_a_home_on_the_only_way_gets_a_parking_place_that_no_route_needs() -> No
     )
 
 
+def test_a_home_that_shortest_routes_pass_gets_a_parking_place_too() -> None:
+    """R2 lives in the middle of the direct way; the way round is longer, and the bay is free."""
+    at = SQUARE | {"M": (2.0, 0.0), "Bay": (4.0, -1.0)}
+    roadmap = drawn(at, "A-M M-B B-C C-D D-A B-Bay")
+    site = Site(roadmap=roadmap, units=METRES, robots=(robot("R1", 0, 1), robot("R2", 4, 2)))
+    (finding,) = [each for each in found(site, "through way") if each.severity == "warning"]
+    assert finding.fact.startswith("M (home of R2) is on 50 % of the shortest routes, and")
+    assert finding.remedy.startswith("park at Bay, 2.24 m away, which no route needs")
+
+
 def test_a_home_beside_the_way_is_not_on_it() -> None:
     roadmap = roadmap_of_grid([".....", "@@.@@"])
     site = Site(roadmap=roadmap, robots=(robot("R1", 0, 4), robot("R2", 5, 4)))
@@ -171,11 +181,20 @@ def test_a_corridor_counts_the_robots_that_must_pass_it() -> None:
     robots = (robot("R1", 0, 3), robot("R2", 2, 1), robot("R3", 4, 1))
     (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=robots), "corridor")
     assert str(finding) == (
-        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must pass it, and no"
+        "N9 to N11 is a corridor of 4 m without a passing place; 2 of 3 robots must use it, and no"
         " way leads round it (add a passing place in the middle, or make it one-way with a way"
         " back)"
     )
     assert (finding.severity, finding.robots) == ("warning", ("R1", "R2"))
+
+
+def test_a_corridor_that_one_robot_uses_is_no_finding() -> None:
+    """R2 works in the corridor, so that it counts; alone, R1 meets nobody there."""
+    roadmap = roadmap_of_grid(["..@@@..", "......."])
+    alone = (robot("R1", 0, 3), robot("R2", 1, 4))
+    assert found(Site(roadmap=roadmap, robots=alone), "corridor") == []
+    (finding,) = found(Site(roadmap=roadmap, robots=(alone[0], robot("R2", 1, 7))), "corridor")
+    assert finding.robots == ("R1", "R2")
 
 
 def test_a_corridor_with_a_way_round_is_a_note() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Edge, Resources, Roadmap, Rules, roadmap_of_edges, roadmap_of_grid
-from rightofway.model.resources import circle_around, resources_of
+from rightofway.model.resources import circle_around, close_pairs, resources_of
 from tests.builders.fleets import grid_fleet
 from tests.builders.seeds import seeds
 from tests.builders.sizes import crossing, sized_on_lanes
@@ -136,3 +136,16 @@ def test_an_edge_shorter_than_straight_is_refused() -> None:
     roadmap = replace(scenario.roadmap, lengths=(Fraction("3.9"),))
     with pytest.raises(InputError, match=r"edge from A to B is 3.9 long, but its ends are 4 apart"):
         replace(scenario, roadmap=roadmap)
+
+
+def test_close_pairs_are_decided_exactly_and_lanes_that_meet_do_not_cross() -> None:
+    """0.3 apart is not nearer than 0.3; A-C and B-D cross, A-C and C-B meet at C."""
+    at = {"A": (0.0, 0.0), "B": (4.0, 0.0), "C": (4.0, 4.0), "D": (0.0, 4.0), "M": (0.3, 0.0)}
+    lanes = [("A", "C"), ("C", "A"), ("B", "D"), ("C", "B"), ("A", "B")]
+    edges = [Edge(tail=tail, head=head, length=Fraction(6)) for tail, head in lanes]
+    roadmap = roadmap_of_edges(at, edges)
+    found = close_pairs(roadmap, Fraction("0.3"))
+    assert (found.vertices, found.crossings) == ([], [((0, 2), (1, 3))])
+    assert found.beside == [(4, (0, 1)), (4, (0, 2))]  # M lies on A-B, and 0.21 from A-C
+    nearer = close_pairs(roadmap, Fraction("0.300001"))
+    assert (nearer.vertices, nearer.beside) == ([(0, 4)], [])  # A, an end of both, is as near

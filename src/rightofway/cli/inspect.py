@@ -18,7 +18,7 @@ from rightofway.model.quantities import decimal
 
 if TYPE_CHECKING:
     from rightofway.io.sites import Sites
-    from rightofway.metrics.inspection import Inspection, Site
+    from rightofway.metrics import Inspection, Site
 
 EXAMPLES = """\b
 Examples:
@@ -87,7 +87,7 @@ def inspect(
     others, corridors without a passing place, and bottlenecks. Nothing is planned.
     """
     from rightofway.io.sites import Choice, read_sites
-    from rightofway.metrics.inspection import inspect as inspected
+    from rightofway.metrics import inspect as inspected
 
     point_to_examples(source)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)

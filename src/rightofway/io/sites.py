@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.faults import checked
+from rightofway.io.faults import blaming, checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import described, is_layout, read_layout
 from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import load_with_notes, read_scenario
 from rightofway.io.text import read_text
-from rightofway.metrics.inspection import Site
+from rightofway.metrics import Site
 from rightofway.model import Scenario, Units
 from rightofway.model.layout import Layout, Level, roadmap_of_level
 from rightofway.model.occupancy import Occupancy
@@ -83,7 +83,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
         With every fault, its place, value and remedy.
     """
     path = Path(path)
-    if not is_layout(path):
+    if str(path) == "-" or not is_layout(path):
         if given := choice.keys():
             message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
             raise InputError.at("", message, str(path))
@@ -94,18 +94,30 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
         if isinstance(found, Occupancy):
             keys.setdefault("cell_size", CELL_SIZE)
         if isinstance(found, Layout):
-            level = found.level(choice.level)
+            level = _level(path, found, choice)
             if choice.vehicle_type is None and (name := _usual_type(level)):
                 keys["vehicle_type"] = name
         loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
         return Sites(what=described(found), notes=loaded.notes, sites=loaded.sites)
     if isinstance(found, Layout):
-        return _of_layout(found, choice)
+        return _of_layout(path, found, choice)
     return _of_cells(path, found, choice)
 
 
-def _of_layout(found: Layout, choice: Choice) -> Sites:
-    levels = found.levels if choice.level is None else (found.level(choice.level),)
+def _level(path: Path, found: Layout, choice: Choice) -> Level:
+    """Return the level that is wanted, with lanes of the vehicle type that is wanted."""
+    with blaming(str(path)):
+        if choice.cell_size is not None:
+            message = "is given with a layout of lanes, which has no cells (take it out)"
+            raise InputError.at("cell_size", message)
+        level = found.level(choice.level)
+        if choice.vehicle_type is not None:
+            level.lanes_of(choice.vehicle_type)
+    return level
+
+
+def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
+    levels = found.levels if choice == Choice() else (_level(path, found, choice),)
     sites, notes = list[tuple[str, Site]](), list(found.notes)
     for level in levels:
         if not level.vertices:
@@ -153,6 +165,11 @@ def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
     if robots is None:
         loaded = load_with_notes(path)
         return _sites_of(loaded.scenario, loaded.notes)
+    if path.suffix.lower() in {".xlsx", ".xlsm", ".scen"}:
+        message = (
+            "has robots of its own (give --robots with a layout, or a scenario as YAML or JSON)"
+        )
+        raise InputError.at("", message, str(path))
     with document_of(path) as document:
         drawn = document.get("map") if isinstance(document, dict) else None
         if drawn is None:

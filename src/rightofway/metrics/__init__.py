@@ -11,9 +11,10 @@ from rightofway.metrics.collisions import (
     swaps,
 )
 from rightofway.metrics.events import Event, event_columns, events
-from rightofway.metrics.inspection import Finding, Inspection, Site, inspect
+from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
+from rightofway.metrics.site import Finding, Inspection, Site
 from rightofway.metrics.waits import waits
 
 __all__ = [

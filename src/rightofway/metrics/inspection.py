@@ -6,14 +6,11 @@ the site is large; `Inspection.sampled` says so.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import cached_property
 from itertools import pairwise
 from math import dist
-from typing import Literal
 
 from rightofway.errors import listed
 from rightofway.metrics.connectivity import (
@@ -27,19 +24,9 @@ from rightofway.metrics.connectivity import (
     strong_parts,
     ways_of,
 )
-from rightofway.model import Roadmap, Robot, Rules, Units, decimal
+from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
+from rightofway.model import Roadmap, decimal
 from rightofway.model.resources import ClosePairs, close_pairs
-
-Severity = Literal["error", "warning", "note"]
-"""``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
-
-Kind = Literal[
-    "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
-    "bottleneck",
-]  # fmt: skip
-"""What a finding is about."""
-
-SEVERITIES = ("error", "warning", "note")
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
@@ -65,143 +52,6 @@ LISTED_CORRIDORS = 10
 """Corridors that are looked at in detail: those that most shortest routes use."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Finding:
-    """One thing on a site that will hurt.
-
-    Attributes
-    ----------
-    kind
-        What it is about.
-    severity
-        How much it hurts.
-    fact
-        Where and what, as the beginning of a sentence.
-    remedy
-        What to do.
-    vertices
-        Names of the vertices that it concerns.
-    robots
-        Names of the robots that it concerns.
-    """
-
-    kind: Kind
-    severity: Severity
-    fact: str
-    remedy: str
-    vertices: tuple[str, ...] = ()
-    robots: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        return f"{self.fact} ({self.remedy})"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Inspection:
-    """How large a site is, and what will hurt on it.
-
-    Attributes
-    ----------
-    vertices, edges, one_way
-        Vertices, directed edges, and those of them without an edge back.
-    places
-        Stations, parking places, homes and stops.
-    parts
-        Sizes of the strongly connected parts, the largest first.
-    sampled
-        From how many of how many places shortest routes were counted; None for all.
-    findings
-        What will hurt, the worst first.
-    """
-
-    vertices: int
-    edges: int
-    one_way: int
-    places: int
-    parts: tuple[int, ...]
-    sampled: tuple[int, int] | None
-    findings: tuple[Finding, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Site:
-    """What is inspected: a roadmap, its places, and the fleet if there is one.
-
-    Attributes
-    ----------
-    roadmap
-        The roadmap.
-    units
-        Units of its lengths.
-    stations, parking
-        Names of stations, and of parking or charging places, with the vertex of each.
-    robots
-        The fleet; if there is one, only its homes and stops count as places.
-    rules
-        The rules of the fleet.
-    """
-
-    roadmap: Roadmap
-    units: Units = field(default_factory=Units)
-    stations: Mapping[str, int] = field(default_factory=dict)
-    parking: Mapping[str, int] = field(default_factory=dict)
-    robots: Sequence[Robot] = ()
-    rules: Rules = field(default_factory=Rules)
-
-    @cached_property
-    def homes(self) -> dict[int, str]:
-        """Vertices that robots stand on without work, with what they are."""
-        if not self.robots:
-            return dict.fromkeys(self.parking.values(), "parking")
-        return {int(robot.home): f"home of {robot.name}" for robot in self.robots}
-
-    @cached_property
-    def places(self) -> dict[int, str]:
-        """Vertices that robots stay at, with what they are."""
-        if not self.robots:
-            stations = {
-                vertex: f"station {name}" if name != self.roadmap.name(vertex) else "station"
-                for name, vertex in self.stations.items()
-            }
-            return stations | self.homes
-        stops: dict[int, list[str]] = defaultdict(list)
-        for robot in self.robots:
-            for stop in robot.stops:
-                stops[int(stop.at)].append(robot.name)
-        names = {at: f"stop of {listed(sorted(set(of)))}" for at, of in stops.items()}
-        return names | self.homes
-
-    @cached_property
-    def trips(self) -> Counter[tuple[int, int]]:
-        """How many drives of the fleet lead from a place to another."""
-        found = Counter[tuple[int, int]]()
-        for robot in self.robots:
-            found.update(pairwise(trip_of(robot, self.rules)))
-        return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
-
-    @property
-    def room(self) -> Fraction:
-        """The distance that two robots of the largest radius need [length unit]."""
-        radius = max((robot.radius for robot in self.robots), default=Fraction(0))
-        return 2 * radius + self.rules.clearance if radius else Fraction(0)
-
-    def name(self, vertex: int) -> str:
-        """Return the name of a vertex with what it is: ``D1 (station Press)``."""
-        what = self.places.get(vertex)
-        return f"{self.roadmap.name(vertex)} ({what})" if what else self.roadmap.name(vertex)
-
-    def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
-        """Return the names of vertices."""
-        return tuple(map(self.roadmap.name, vertices))
-
-
-def trip_of(robot: Robot, rules: Rules) -> list[int]:
-    """Return home, stops and, if it returns, home of a robot."""
-    stops = [int(stop.at) for stop in robot.stops]
-    returns = (robot.ends or rules.ends) == "home"
-    return [int(robot.home), *stops, *([int(robot.home)] if returns else [])]
-
-
 def inspect(site: Site) -> Inspection:
     """Return how large a site is, and what will hurt on it.
 
@@ -221,7 +71,7 @@ def inspect(site: Site) -> Inspection:
         *_impossible_trips(site, ways, parts),
         *_outside(site, ways, parts),
         *_near(site),
-        *_on_the_way(site, ways, main, apart, load),
+        *_on_the_way(site, ways, main, apart, load=load, total=total),
         *_corridors(site, ways, main, load, total),
         *_bottlenecks(site, ways, load, total, named=len(places) > 1),
     ]
@@ -401,38 +251,57 @@ def _on_the_way(
     ways: Ways,
     main: set[int],
     apart: Mapping[int, set[int]],
+    *,
     load: Mapping[int, float],
+    total: float,
 ) -> Iterator[Finding]:
-    """Yield places that others have to pass, the worst first, each with a place to park instead."""
+    """Yield places that others have to pass, the worst first, and homes that many routes pass."""
     taken = set(site.places)
 
     def is_aside(spot: int) -> bool:
         """Whether no place is at a vertex, no two places need it, and no route passes it."""
         return spot in main and spot not in taken and spot not in apart and not load.get(spot)
 
-    separated = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
+    def remedy(vertex: int) -> str:
+        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
+        if spot is None:
+            return "let no other robot need the way while one stands there, or add a way round"
+        taken.add(spot)
+        away = site.units.written_length(_distance(site.roadmap, vertex, spot))
+        verb = "park" if vertex in site.homes else "wait"
+        place = f"{site.roadmap.name(spot)}, {away} away"
+        return f"{verb} at {place}, which no route needs, or add a way round"
+
+    separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)
-    for vertex, beyond in sorted(separated, key=lambda each: (-len(each[1]), each[0])):
+    for vertex, beyond in sorted(separating, key=lambda each: (-len(each[1]), each[0])):
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
-        is_home = vertex in site.homes
-        remedy = "let no other robot need the way while one stands there, or add a way round"
-        spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
-        if spot is not None:
-            taken.add(spot)
-            away = _distance(site.roadmap, vertex, spot)
-            where = f"{site.roadmap.name(spot)}, {site.units.written_length(away)} away"
-            verb = "park" if is_home else "wait"
-            remedy = f"{verb} at {where}, which no route needs, or add a way round"
         parted = listed([site.name(place) for place in few])
         others = _counted(len(inside) - 1 - len(few), "other place")
         yield Finding(
             kind="through way",
-            severity="warning" if is_home else "note",
+            severity="warning" if vertex in site.homes else "note",
             fact=f"{site.name(vertex)} lies on the only way between {parted} and {others}",
-            remedy=remedy,
+            remedy=remedy(vertex),
             vertices=site.names((vertex, *few)),
         )
+    busy = [vertex for vertex in inside if vertex in site.homes and _is_busy(load, total, vertex)]
+    for vertex in sorted(busy, key=lambda each: (-load[each], each)):
+        if vertex not in apart:
+            yield Finding(
+                kind="through way",
+                severity="warning",
+                fact=f"{site.name(vertex)} is on {_percent(load[vertex] / total)} of the shortest"
+                " routes, and robots drive round it while one stands there",
+                remedy=remedy(vertex),
+                vertices=site.names((vertex,)),
+            )
+
+
+def _is_busy(load: Mapping[int, float], total: float, vertex: int) -> bool:
+    """Whether many shortest routes pass a vertex, two at least."""
+    return load.get(vertex, 0) >= max(float(BUSY) * total, 2)
 
 
 def _distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
@@ -457,10 +326,12 @@ def _corridors(
         ends, inside = corridor.ends, set(corridor.inside)
         first = set(grown_from(ends[:1], ways.along, _outside_of(inside)))
         names = site.names((corridor.inside[0], corridor.inside[-1]))
-        crossing = _crossing(site, first, inside)
+        using = _using(site, first, inside)
         is_only = ends[1] not in first
         if site.robots and is_only:
-            users = f"{len(crossing)} of {_counted(len(site.robots), 'robot')} must pass it"
+            if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
+                continue
+            users = f"{len(using)} of {_counted(len(site.robots), 'robot')} must use it"
         else:
             users = f"{_percent(use(corridor) / total)} of the shortest routes use it"
         yield Finding(
@@ -471,7 +342,7 @@ def _corridors(
             f" {users}, and {'no way leads round it' if is_only else 'there is a way round'}",
             remedy="add a passing place in the middle, or make it one-way with a way back",
             vertices=site.names((ends[0], *corridor.inside, ends[1])),
-            robots=tuple(crossing) if is_only else (),
+            robots=tuple(using) if is_only else (),
         )
 
 
@@ -479,13 +350,14 @@ def _outside_of(inside: set[int]) -> Callable[[int], bool]:
     return lambda vertex: vertex not in inside
 
 
-def _crossing(site: Site, side: set[int], inside: set[int]) -> list[str]:
-    """Return the robots that have places on both sides of a corridor."""
-    return [
-        robot.name
-        for robot in site.robots
-        if len({place in side for place in trip_of(robot, site.rules) if place not in inside}) > 1
-    ]
+def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
+    """Return the robots that have places in a corridor, or on both sides of it."""
+    found = []
+    for robot in site.robots:
+        trip = set(trip_of(robot, site.rules))
+        if trip & inside or len({place in side for place in trip}) > 1:
+            found.append(robot.name)
+    return found
 
 
 def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
@@ -500,7 +372,7 @@ def _bottlenecks(
     site: Site, ways: Ways, load: Mapping[int, float], total: float, *, named: bool
 ) -> Iterator[Finding]:
     """Yield the busiest vertex of each connected set of vertices that many shortest routes pass."""
-    busy = {vertex for vertex, passing in load.items() if passing >= max(float(BUSY) * total, 2)}
+    busy = {vertex for vertex in load if _is_busy(load, total, vertex)}
     beside = {vertex: ways.beside(vertex) & busy for vertex in busy}
     seen = set[int]()
     ends = "places" if named else "vertices"

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 from rightofway.io import example_of_layout, load
-from rightofway.io.scenario.example import largest_part
 from rightofway.io.text import parse_yaml
+from rightofway.metrics.connectivity import strong_parts, ways_of
 from rightofway.model import Edge, Roadmap, roadmap_of_edges
 from rightofway.solve import solve
 
@@ -77,6 +77,6 @@ def roadmap(*edges: str) -> Roadmap:
 )
 def test_the_largest_part_holds_vertices_that_reach_each_other(edges: list[str], part: str) -> None:
     found = roadmap(*edges)
-    names = "".join(found.name(vertex) for vertex in largest_part(found))
+    names = "".join(found.name(vertex) for vertex in strong_parts(ways_of(found))[0])
     assert len(names) == len(part)
     assert names == part or len(part) == 1

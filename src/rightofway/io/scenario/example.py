@@ -8,8 +8,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -17,7 +15,8 @@ from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.maps import LoadedMap, map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
-from rightofway.model import Roadmap, Units, roadmap_of_grid
+from rightofway.metrics.connectivity import strong_parts, ways_of
+from rightofway.model import Units, roadmap_of_grid
 from rightofway.model.layout import Layout, Level
 from rightofway.model.occupancy import Occupancy
 
@@ -95,7 +94,7 @@ def _cell_size(found: Occupancy) -> str:
         except InputError:  # no whole cell, none that is free, or cells below a pixel
             continue
         fitting.append(size)
-        if len(largest_part(roadmap)) >= LARGE:
+        if len(strong_parts(ways_of(roadmap))[0]) >= LARGE:
             return size
     return fitting[0] if fitting else CELL_SIZES[0]
 
@@ -103,7 +102,7 @@ def _cell_size(found: Occupancy) -> str:
 def _dealt(loaded: LoadedMap, level: Level | None) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
-    part = largest_part(roadmap)
+    part = strong_parts(ways_of(roadmap))[0]
     inside, stations, parking = set(part), dict[int, str](), list[int]()
     if level is not None:
         ids = {roadmap.name(vertex): vertex for vertex in part}
@@ -142,50 +141,3 @@ def _chosen(wanted: list[int], part: list[int], count: int, taken: Iterable[int]
     rest = [vertex for vertex in part if vertex not in {*wanted, *taken}] or part
     missing = max(count - len(wanted), 0)
     return [*wanted[:count], *(rest[k * len(rest) // missing] for k in range(missing))]
-
-
-def largest_part(roadmap: Roadmap) -> list[int]:
-    """Return the largest set of vertices that all reach each other, in order.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-
-    References
-    ----------
-    Sharir, *A strong-connectivity algorithm and its applications in data flow analysis*, 1981: a
-    search along the edges gives the order of a second search against them.
-    """
-    count = roadmap.n_vertices
-    tails = np.repeat(np.arange(count), np.diff(roadmap.indptr)).tolist()
-    along: list[list[int]] = [[] for _ in range(count)]
-    against: list[list[int]] = [[] for _ in range(count)]
-    for tail, head in zip(tails, roadmap.heads.tolist(), strict=True):
-        along[tail].append(head)
-        against[head].append(tail)
-    order, seen = list[int](), [False] * count
-    for root in range(count):
-        stack = [] if seen[root] else [(root, iter(along[root]))]
-        seen[root] = True
-        while stack:
-            vertex, heads = stack[-1]
-            following = next((head for head in heads if not seen[head]), None)
-            if following is None:
-                order.append(vertex)
-                stack.pop()
-            else:
-                seen[following] = True
-                stack.append((following, iter(along[following])))
-    largest, found = list[int](), [False] * count
-    for root in reversed(order):
-        if found[root]:
-            continue
-        found[root], part = True, [root]
-        for vertex in part:  # grows as it goes
-            for tail in against[vertex]:
-                if not found[tail]:
-                    found[tail] = True
-                    part.append(tail)
-        largest = max(largest, part, key=len)
-    return sorted(largest)

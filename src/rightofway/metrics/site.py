@@ -1,0 +1,162 @@
+"""A site as it is inspected, and what an inspection finds: facts with places and remedies."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from typing import Literal
+
+from rightofway.errors import listed
+from rightofway.model import Roadmap, Robot, Rules, Units
+
+Severity = Literal["error", "warning", "note"]
+"""``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
+
+Kind = Literal[
+    "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
+    "bottleneck",
+]  # fmt: skip
+"""What a finding is about."""
+
+SEVERITIES = ("error", "warning", "note")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """One thing on a site that will hurt.
+
+    Attributes
+    ----------
+    kind
+        What it is about.
+    severity
+        How much it hurts.
+    fact
+        Where and what, as the beginning of a sentence.
+    remedy
+        What to do.
+    vertices
+        Names of the vertices that it concerns.
+    robots
+        Names of the robots that it concerns.
+    """
+
+    kind: Kind
+    severity: Severity
+    fact: str
+    remedy: str
+    vertices: tuple[str, ...] = ()
+    robots: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.fact} ({self.remedy})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inspection:
+    """How large a site is, and what will hurt on it.
+
+    Attributes
+    ----------
+    vertices, edges, one_way
+        Vertices, directed edges, and those of them without an edge back.
+    places
+        Stations, parking places, homes and stops.
+    parts
+        Sizes of the strongly connected parts, the largest first.
+    sampled
+        From how many of how many places shortest routes were counted; None for all.
+    findings
+        What will hurt, the worst first.
+    """
+
+    vertices: int
+    edges: int
+    one_way: int
+    places: int
+    parts: tuple[int, ...]
+    sampled: tuple[int, int] | None
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Site:
+    """What is inspected: a roadmap, its places, and the fleet if there is one.
+
+    Attributes
+    ----------
+    roadmap
+        The roadmap.
+    units
+        Units of its lengths.
+    stations, parking
+        Names of stations, and of parking or charging places, with the vertex of each.
+    robots
+        The fleet; if there is one, only its homes and stops count as places.
+    rules
+        The rules of the fleet.
+    """
+
+    roadmap: Roadmap
+    units: Units = field(default_factory=Units)
+    stations: Mapping[str, int] = field(default_factory=dict)
+    parking: Mapping[str, int] = field(default_factory=dict)
+    robots: Sequence[Robot] = ()
+    rules: Rules = field(default_factory=Rules)
+
+    @cached_property
+    def homes(self) -> dict[int, str]:
+        """Vertices that robots stand on without work, with what they are."""
+        if not self.robots:
+            return dict.fromkeys(self.parking.values(), "parking")
+        return {int(robot.home): f"home of {robot.name}" for robot in self.robots}
+
+    @cached_property
+    def places(self) -> dict[int, str]:
+        """Vertices that robots stay at, with what they are."""
+        if not self.robots:
+            stations = {
+                vertex: f"station {name}" if name != self.roadmap.name(vertex) else "station"
+                for name, vertex in self.stations.items()
+            }
+            return stations | self.homes
+        stops: dict[int, list[str]] = defaultdict(list)
+        for robot in self.robots:
+            for stop in robot.stops:
+                stops[int(stop.at)].append(robot.name)
+        names = {at: f"stop of {listed(sorted(set(of)))}" for at, of in stops.items()}
+        return names | self.homes
+
+    @cached_property
+    def trips(self) -> Counter[tuple[int, int]]:
+        """How many drives of the fleet lead from a place to another."""
+        found = Counter[tuple[int, int]]()
+        for robot in self.robots:
+            found.update(pairwise(trip_of(robot, self.rules)))
+        return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
+
+    @property
+    def room(self) -> Fraction:
+        """The distance that two robots of the largest radius need [length unit]."""
+        radius = max((robot.radius for robot in self.robots), default=Fraction(0))
+        return 2 * radius + self.rules.clearance if radius else Fraction(0)
+
+    def name(self, vertex: int) -> str:
+        """Return the name of a vertex with what it is: ``D1 (station Press)``."""
+        what = self.places.get(vertex)
+        return f"{self.roadmap.name(vertex)} ({what})" if what else self.roadmap.name(vertex)
+
+    def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
+        """Return the names of vertices."""
+        return tuple(map(self.roadmap.name, vertices))
+
+
+def trip_of(robot: Robot, rules: Rules) -> list[int]:
+    """Return home, stops and, if it returns, home of a robot."""
+    stops = [int(stop.at) for stop in robot.stops]
+    returns = (robot.ends or rules.ends) == "home"
+    return [int(robot.home), *stops, *([int(robot.home)] if returns else [])]
