@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageColor
 
 from rightofway.errors import InputError
 from rightofway.model import Plan
@@ -18,7 +18,7 @@ from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.map import draw_robots, to_the_right
 from rightofway.viz.raster.names import Names
 from rightofway.viz.raster.sizes import sizes_of
-from tests.builders.plans import crowd, door, hostile, loop, yard
+from tests.builders.plans import crowd, door, door_shifted, hostile, loop, yard
 
 BLUE, CORAL = robot_colours(2)
 MARGIN = 24
@@ -153,6 +153,20 @@ def test_a_film_ends_with_the_robots_at_home(tmp_path: Path) -> None:
 def test_a_film_of_one_picture_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"max_frames: 1 is less than a film \(give 2 or more\)"):
         write_gif(door(), tmp_path / "a.gif", max_frames=1)
+
+
+def test_the_picture_of_a_faulty_plan_rings_its_robots_and_lists_its_faults(
+    tmp_path: Path,
+) -> None:
+    """R1 drives a tick too early: lines stand below the map, red rings are round robots."""
+    write_png(door(), tmp_path / "sound.png", scale=40)
+    write_png(door_shifted(-1), tmp_path / "faulty.png", scale=40)
+    with Image.open(tmp_path / "sound.png") as sound, Image.open(tmp_path / "faulty.png") as faulty:
+        assert faulty.width == sound.width
+        assert faulty.height > sound.height
+        red = ImageColor.getrgb(LIGHT.held)
+        assert (np.asarray(faulty.convert("RGB")) == red).all(axis=2).any()
+        assert not (np.asarray(sound.convert("RGB")) == red).all(axis=2).any()
 
 
 def test_any_name_can_be_drawn(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check import Report, check
+from rightofway.check import Report
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.metrics import Metrics, joined_waits, lost_time, measure
 from rightofway.model import (
@@ -37,6 +37,7 @@ from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background, background_data
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import Plane, edge_length, plane_of, vertices_in_line
+from rightofway.viz.verdict import LISTED_FAULTS, verdict_on
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
@@ -46,9 +47,6 @@ DECIMALS = 3
 
 LOSSES = ("waits", "follows", "makes room")
 """Kinds of lost time; the page is given their places in this list."""
-
-LISTED_FAULTS = 1000
-"""Faults that the page lists; all are counted."""
 
 
 def payload_of(
@@ -87,7 +85,7 @@ def payload_of(
         "line": _line(scenario.roadmap, trips, trips_of(other[0]) if other else ()),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
-        "faults": _faults(plan, _judged(plan)),
+        "faults": _faults(plan, verdict_on(plan)),
         "planner": {"name": run.name, "status": run.status, **_improvement(run)},
         "decisions": [_decision(decision) for decision in run.decisions],
         "reroutes": [{"robot": one.robot, "because": one.because} for one in run.reroutes],
@@ -362,16 +360,6 @@ def _loss(loss: Loss) -> list[int | None]:
     places = (loss.vertex, loss.until_vertex, loss.towards, loss.freed)
     times = (loss.tick, loss.end, loss.ticks)
     return [LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times]
-
-
-def _judged(plan: Plan) -> Report:
-    """Return the faults of a plan; none of an excerpt of laps, which no floor is to carry out.
-
-    In an excerpt, robots may stand still for ever, and others stay at home in their way at its end.
-    """
-    if plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule"):
-        return Report(faults=(), counts={})
-    return check(plan, limit=LISTED_FAULTS)
 
 
 def _faults(plan: Plan, report: Report) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from rightofway.model import Plan
 from rightofway.viz.motion import end_of, trips_of
 from rightofway.viz.palette import Theme, mix, robot_colours
 from rightofway.viz.placement import plane_of
+from rightofway.viz.verdict import verdict_on
 
 Point = tuple[float, float]
 
@@ -34,6 +35,8 @@ class Scene:
         self.trips = trips_of(plan)
         self.colours = robot_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)
+        self.verdict = verdict_on(plan)
+        self.faulty = sorted({robot for fault in self.verdict.faults for robot in fault.robots})
         self.plane = plane_of(self.roadmap)
         self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]
         tails = np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))

@@ -23,6 +23,9 @@ TURNS_BACK = -0.5
 WHOLE = (0, 1)
 """A circle [turns]."""
 
+FAULT_RING = 1.7
+"""Radius of the ring round a robot that has part in a fault, in radii of the robot."""
+
 
 def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
@@ -146,12 +149,16 @@ def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
 def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: Names, tick: float) -> list[Label]:
     """Draw every robot where it is at an instant [ticks]; return the names that have room.
 
-    A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done.
+    A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done. A wide
+    ring in red is round each robot that has part in a fault.
     """
     moments = [trip.at(tick) for trip in scene.trips]
     middles = [_middle(scene, moment) for moment in moments]
     for robot, (moment, middle) in enumerate(zip(moments, middles, strict=True)):
         _robot(pen, scene, moment, Disc(middle, sizes.robot * pen.hairline, scene.colours[robot]))
+    for robot in scene.faulty:
+        radius = sizes.robot * FAULT_RING * pen.hairline
+        pen.ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
     return names.draw(pen, moments, middles)
 
 

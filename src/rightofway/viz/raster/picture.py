@@ -16,6 +16,7 @@ from rightofway.model import Plan
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram
+from rightofway.viz.raster.faults import FaultList
 from rightofway.viz.raster.map import draw_ground, draw_robots
 from rightofway.viz.raster.names import Box, Names
 from rightofway.viz.raster.sizes import sizes_of
@@ -41,6 +42,8 @@ def png_of(
     theme: Theme = LIGHT,
 ) -> bytes:
     """Return a picture of a plan as PNG: the map with homes, stops, faint routes and the robots.
+
+    Below the map of a faulty plan stand its faults, and their robots have a red ring.
 
     Parameters
     ----------
@@ -68,7 +71,10 @@ def png_of(
     map_width, map_height = _map_size(scene, scale)
     width = max(map_width, LEAST_DIAGRAM_WIDTH if diagram else 0)
     below = Diagram(scene, width) if diagram else None
-    image = _blank(scene, (width, map_height + (round(below.height) if below else 0)), fineness)
+    diagram_height = round(below.height) if below else 0
+    faults = FaultList(scene, width)
+    height = map_height + diagram_height + round(faults.height)
+    image = _blank(scene, (width, height), fineness)
     left = (width - map_width) / 2 + MARGIN + scale / 2
     pen = Pen(image, origin=(left, MARGIN + scale / 2), scale=scale, fineness=fineness)
     sizes = sizes_of(scene, scale)
@@ -77,6 +83,7 @@ def png_of(
     draw_robots(pen, scene, sizes, Names(scene, sizes, scale, bounds), tick or 0)
     if below:
         below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
+    faults.draw(Pen(image, origin=(0, map_height + diagram_height), scale=1, fineness=fineness))
     content = io.BytesIO()
     image.reduce(fineness).save(content, "png", optimize=True)
     return content.getvalue()
