@@ -123,6 +123,16 @@ def test_homes_that_are_too_near_are_an_error() -> None:
     assert (finding.severity, finding.vertices) == ("error", ("P1", "P2"))
 
 
+def test_homes_are_judged_by_the_robots_that_live_there() -> None:
+    """The homes are 0.5 m apart: enough for 0.1 and 0.4 m; a larger robot lives elsewhere."""
+    at = {"P1": (0.0, 0.0), "P2": (0.5, 0.0), "P3": (5.0, 0.0), "P4": (9.0, 0.0)}
+    robots = (robot("R1", 0, 2, "0.1"), robot("R2", 1, 2, "0.4"), robot("R3", 3, 2, "0.45"))
+    site = Site(roadmap=drawn(at, "P1-P2 P2-P3 P3-P4"), units=METRES, robots=robots)
+    (finding,) = found(site, "too near")
+    assert finding.severity == "warning"
+    assert "robots of radius 0.45 m and 0.4 m need 0.85 m" in finding.fact
+
+
 def test_a_lane_beside_a_vertex_is_too_near() -> None:
     at = SQUARE | {"M": (2.0, 0.3)}
     site = Site(

@@ -26,6 +26,7 @@ from rightofway.metrics.connectivity import (
 )
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
 from rightofway.model import Roadmap, decimal
+from rightofway.model.geometry import squared_distance
 from rightofway.model.resources import ClosePairs, close_pairs
 
 TOUCHING = Fraction(1, 10**6)
@@ -180,9 +181,9 @@ def _near(site: Site) -> Iterator[Finding]:
     length = site.units.written_length
     need = ""
     if room:
-        radius = max(robot.radius for robot in site.robots)
+        sizes = " and ".join(length(each) for each in dict.fromkeys(site.radii))
         with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
-        need = f"robots of radius {length(radius)}{with_room} need {length(room)}"
+        need = f"robots of radius {sizes}{with_room} need {length(room)}"
     if roadmap.grid is not None:
         size = roadmap.grid.cell_size
         if size < room:
@@ -226,7 +227,7 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding
     roadmap = site.roadmap
     for one, other in pairs.vertices:
         apart = site.units.written_length(_distance(roadmap, one, other))
-        both_homes = one in site.homes and other in site.homes and bool(site.robots)
+        both_homes = _homes_clash(site, one, other)
         is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
         are_places = one in site.places and other in site.places
         if need:
@@ -246,6 +247,15 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding
         )
 
 
+def _homes_clash(site: Site, one: int, other: int) -> bool:
+    """Whether robots live at two vertices that are nearer than just these robots need."""
+    radius = {int(robot.home): robot.radius for robot in site.robots}
+    if not {one, other} <= radius.keys() or not radius[one] + radius[other]:
+        return False
+    at = site.roadmap.point(one), site.roadmap.point(other)
+    return squared_distance(*at) < (radius[one] + radius[other] + site.rules.clearance) ** 2
+
+
 def _on_the_way(
     site: Site,
     ways: Ways,
@@ -263,14 +273,15 @@ def _on_the_way(
         return spot in main and spot not in taken and spot not in apart and not load.get(spot)
 
     def remedy(vertex: int) -> str:
+        if vertex not in site.homes:
+            return "move it into a bay, or add a way round"
         spot = next(filter(is_aside, distances_from(ways, vertex)[0]), None)
         if spot is None:
             return "let no other robot need the way while one stands there, or add a way round"
         taken.add(spot)
         away = site.units.written_length(_distance(site.roadmap, vertex, spot))
-        verb = "park" if vertex in site.homes else "wait"
         place = f"{site.roadmap.name(spot)}, {away} away"
-        return f"{verb} at {place}, which no route needs, or add a way round"
+        return f"park at {place}, which no route needs, or add a way round"
 
     separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)

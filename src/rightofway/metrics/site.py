@@ -140,10 +140,15 @@ class Site:
         return Counter({ends: count for ends, count in found.items() if ends[0] != ends[1]})
 
     @property
+    def radii(self) -> tuple[Fraction, Fraction]:
+        """The radii of the two largest robots, the larger first [length unit]."""
+        found = sorted((robot.radius for robot in self.robots), reverse=True) or [Fraction(0)]
+        return found[0], found[min(1, len(found) - 1)]
+
+    @property
     def room(self) -> Fraction:
-        """The distance that two robots of the largest radius need [length unit]."""
-        radius = max((robot.radius for robot in self.robots), default=Fraction(0))
-        return 2 * radius + self.rules.clearance if radius else Fraction(0)
+        """The distance that the two largest robots need; 0 for points [length unit]."""
+        return sum(self.radii) + self.rules.clearance if self.radii[0] else Fraction(0)
 
     def name(self, vertex: int) -> str:
         """Return the name of a vertex with what it is: ``D1 (station Press)``."""
