@@ -33,6 +33,8 @@ def test_the_window_is_given_in_time_or_in_ticks(cli: Cli) -> None:
 @pytest.mark.parametrize(
     ("args", "message"),
     [
+        (["--step", "0"], "--step: 0 is not positive (give the time of a column)"),
+        (["--from", "1e99999999"], "'1e99999999' is out of range"),
         (["--from", "40"], "--from: 40 is too late: everything has ended at time 22 (give less)"),
         (["--from", "4", "--to", "3"], "--to: 3 is before --from, 4 (give 4 or more)"),
         (["--to", "3 s"], "'3 s' is not a number (write it like 3, 0.5 or 1/3)"),

@@ -29,7 +29,7 @@ def heedless(scenario: Scenario) -> Plan:
     return Plan(scenario=scenario, tracks=tuple(graph.tracks()), run=run)
 
 
-@pytest.mark.parametrize("seed", seeds(60, 10))
+@pytest.mark.parametrize("seed", seeds(60, 6))
 def test_the_judge_finds_the_pairs_that_the_oracle_finds(seed: int) -> None:
     """Same-vertex conflicts are kinds of their own; the oracle has all bookings in one."""
     scenario = (sized if seed % 2 else sized_on_lanes)(seed)
@@ -51,7 +51,7 @@ def test_the_judge_finds_the_pairs_that_the_oracle_finds(seed: int) -> None:
 
 
 @pytest.mark.parametrize("planner", KNOW_SIZES)
-@pytest.mark.parametrize("seed", seeds(30, 5))
+@pytest.mark.parametrize("seed", seeds(30, 2))
 def test_plans_of_robots_with_sizes_keep_them_apart(planner: str, seed: int) -> None:
     scenario = (sized if seed % 2 else sized_on_lanes)(seed + 100)
     try:

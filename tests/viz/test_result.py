@@ -69,6 +69,7 @@ def test_the_diagram_has_a_line_for_each_robot_and_a_label_for_each_place(door: 
     assert len(chart.series) == 2 + 7
 
 
+@pytest.mark.slow
 def test_a_table_that_is_too_wide_has_longer_columns(tmp_path: Path) -> None:
     """20 002 ticks do not fit into the 16 384 columns of a sheet."""
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"), work=[20_000])

@@ -79,10 +79,12 @@ class Time(NumberType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Fraction:
         """Return the number, exactly."""
+        from rightofway.model.values import exact
+
         try:
-            number = Fraction(value)
-        except (ValueError, ZeroDivisionError):
-            self.fail(f"{value!r} is not a number (write it like 3, 0.5 or 1/3)", param, ctx)
+            number = exact(value)
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
         if number < 0:
             self.fail(f"{value} is negative (give 0 or more)", param, ctx)
         return number

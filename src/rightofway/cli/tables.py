@@ -69,17 +69,22 @@ def _shown(
     step: Fraction | None,
     in_ticks: bool,
 ) -> _Shown:
+    from rightofway.model import decimal
     from rightofway.viz.table import end_of
 
+    if step == 0:
+        raise InputError.at("--step", "0 is not positive (give the time of a column)")
     quantities = quantities_of(plan.scenario, in_ticks=in_ticks)
     names = [name.strip() for name in robots.split(",")] if robots else None
     tick = Fraction(1) if in_ticks else quantities.tick
     end = end_of(plan, names)
     if first > end * tick:
         message = f"everything has ended at {quantities.moment(end)} (give less)"
-        raise InputError.at("--from", f"{first} is too late: {message}")
+        raise InputError.at("--from", f"{decimal(first)} is too late: {message}")
     if last is not None and last < first:
-        raise InputError.at("--to", f"{last} is before --from, {first} (give {first} or more)")
+        begin = decimal(first)
+        message = f"{decimal(last)} is before --from, {begin} (give {begin} or more)"
+        raise InputError.at("--to", message)
     return _Shown(
         first_tick=math.ceil(first / tick),
         last_tick=None if last is None else max(math.floor(last / tick), math.ceil(first / tick)),
