@@ -21,16 +21,20 @@ SLOW = (
     "laws/test_fixed_routes.py",
     "laws/test_io_fuzz.py",
     "laws/test_io_round_trip.py",
+    "laws/test_lacam_plans.py",
     "laws/test_laps.py",
     "laws/test_optimum_with_sizes.py",
     "laws/test_precedence_graph.py",
     "laws/test_space.py",
     "laws/test_monitor.py",
+    "laws/test_replan.py",
+    "laws/test_timed_event_graph.py",
+    "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )
-"""Files and folders of the slow lane: what takes more than about four seconds."""
+"""Files and folders of the slow lane: what takes more than about two seconds."""
 
 
 def slow_files() -> set[Path]:
