@@ -137,7 +137,7 @@ class Blockage:
     Attributes
     ----------
     reason
-        Who is blocked, where and why, with a remedy in brackets.
+        Which robots are blocked, where and why, with a remedy in brackets.
     robots
         Names of the robots that it concerns.
     vertices

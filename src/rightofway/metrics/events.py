@@ -1,4 +1,4 @@
-"""The visits of a plan as a list for people and for other programs: who is where, when, what for.
+"""The visits of a plan as a list for people and programs: robot, place, time, purpose.
 
 A visit is one row: a robot enters a place, does there what it came for, perhaps waits for another
 robot, and leaves. `event_columns` is the one table of which `Plan.to_dataframe`, files and reports

@@ -36,7 +36,7 @@ ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
 MOST_PLACES = 200
-"""Places between which separations are looked for; of more, so many spread over the list."""
+"""The most places that are compared; of a longer list, this number spread over it."""
 
 EFFORT = 2_000_000
 """Vertices and edges that the search for shortest routes may visit, all sources together."""

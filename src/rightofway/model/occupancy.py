@@ -22,7 +22,7 @@ FREE, UNKNOWN, OCCUPIED = 0, 1, 2
 """What a pixel shows."""
 
 FAR = 60_000
-"""Pixels from which on distances need not be told apart."""
+"""Distances beyond this are treated as equal [pixels]."""
 
 STRIP = 256
 """Rows that are worked on at once."""

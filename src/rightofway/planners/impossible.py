@@ -1,4 +1,4 @@
-"""Proofs that a fleet has no plan: who is blocked, where and why.
+"""Proofs that a fleet has no plan: which robots are blocked, where and why.
 
 A robot may have no way to a place; two may have to stay at one vertex for ever; or robots block
 each other whatever they do. The last is proven by the search of LaCAM for an order of moves, and a

@@ -74,7 +74,7 @@ class Congestion:
 
     @classmethod
     def of_trips(cls, problem: Problem, distances: Distances) -> Self:
-        """Begin for one trip of each robot: who is in the way once is in the way."""
+        """Begin for one trip of each robot: a robot that is in the way once is in the way."""
         robots, station = problem.itineraries, np.zeros(problem.roadmap.n_vertices, np.int64)
         cost = int(STATION * SHARES * mean(_edges_of_trip(distances, one) for one in robots))
         for robot, one in enumerate(robots):

@@ -1,4 +1,4 @@
-"""Plans that other programs write and read: one module a format, told apart by their content.
+"""Plans that other programs write and read: one module a format, recognised by content.
 
 ==========  ========================================================================
 name        programs

@@ -27,7 +27,7 @@ GROUP = "rightofway.layouts"
 """Entry points of this group are further formats."""
 
 NO_LAYOUTS = (".map", ".scen", ".toml", ".xlsx", ".xlsm")
-"""Endings of files that are told apart by their names."""
+"""Endings of files whose format is recognised by the name."""
 
 OURS = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
 """The key that all documents of ours have."""

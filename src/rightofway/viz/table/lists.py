@@ -247,7 +247,7 @@ def conflicts_left(decision: Decision) -> int | None:
 
 
 def decision_list(plan: Plan, quantities: Quantities | None = None) -> Listing:
-    """Return the decisions of a plan as a list: who waits, and the conflicts before and after.
+    """Return the decisions of a plan as a list: which robot waits, conflicts before and after.
 
     Parameters
     ----------

@@ -154,7 +154,7 @@ class TimeSpaceTable:
         return ticks if ticks[-1] == self.last_tick else (*ticks, self.last_tick)
 
     def with_fewer(self, columns: int, longest: Fraction | None = None) -> TimeSpaceTable:
-        """Return the table with at most so many columns, each longer by a round step.
+        """Return the table with at most that number of columns, each a round step long.
 
         Parameters
         ----------

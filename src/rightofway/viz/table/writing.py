@@ -89,7 +89,7 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
 
 
 def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
-    """Return a table of so many columns, or as few as are possible without hiding much."""
+    """Return a table of at most that number of columns, or the fewest that hide little."""
     if len(table.ticks) <= columns:
         return table
     has_short_ticks = table.quantities.tick < 1 and not table.quantities.in_ticks

@@ -6,7 +6,7 @@ const SQUARE = 48; // pixels; side of the squares that taken places are sorted i
 class LabelBoard {
   #squares = new Map();
 
-  /** Begin anew, on a canvas of a size; nothing is free beyond its borders. */
+  /** Start again on a canvas of a given size; nothing is free beyond its borders. */
   clear(width, height) {
     this.#squares.clear();
     Object.assign(this, { width, height });

@@ -21,7 +21,7 @@ class Summary {
     document.getElementById("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
-  /** What cannot be told in figures: faults, robots that are stuck, what repeats itself. */
+  /** What figures cannot say: faults, robots that are stuck, what repeats itself. */
   #outcome() {
     const { faultCount, noPlan, other, happened, steady, robots } = this.plan;
     if (noPlan) return "no plan exists";
