@@ -329,3 +329,11 @@ def test_a_plan_is_not_replaced_by_its_improvement(cli: Cli, door: Path) -> None
     cli("plan", door, "-o", "plan.json")
     ended = cli("improve", "plan.json", "-o", "plan.json")
     assert (ended.code, "would replace plan.json" in ended.err) == (2, True)
+
+
+def test_a_workbook_of_a_floor_says_that_names_of_obstacles_are_left_out(cli: Cli) -> None:
+    cli("examples", "floor", "-o", "floor.yaml")
+    ended = cli("convert", "floor.yaml", "-o", "floor.xlsx")
+    assert ended.code == 0
+    assert "floor.xlsx: the names of obstacles are left out" in ended.err
+    assert "names of obstacles" not in cli("convert", "floor.yaml", "-o", "floor.json").err

@@ -184,6 +184,8 @@ def _write_scenario(scenario: Scenario, path: str) -> None:
         _write_pair(scenario, Path(path))
     else:
         write_scenario(scenario, path)
+        if path.lower().endswith(".xlsx") and scenario.roadmap.obstacles:
+            say(f"{path}: the names of obstacles are left out (a map sheet has no place for them)")
         say(f"wrote {path}")
 
 
