@@ -13,8 +13,9 @@ from rightofway.io.faults import blaming, checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import described, is_layout, read_layout
 from rightofway.io.marks import document_of
+from rightofway.io.opening import load_with_notes
 from rightofway.io.scenario.maps import map_of
-from rightofway.io.scenario.reader import load_with_notes, read_scenario
+from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario, Units

@@ -5,24 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
-from rightofway.io.foreign import read_foreign
 from rightofway.io.formats import PLAN_FORMAT, checked_format
-from rightofway.io.layouts import refuse_layout
-from rightofway.io.marks import document_of
 from rightofway.io.scenario.maps import LoadedMap
 from rightofway.io.scenario.reader import (
-    WORKBOOKS,
-    Loaded,
-    load_with_notes,
     read_scenario,
-    refuse_count,
 )
-from rightofway.io.text import read_text
 from rightofway.model import (
     Decision,
     Plan,
@@ -46,92 +37,6 @@ if TYPE_CHECKING:
 
 D = TypeVar("D", bound="BaseModel")
 T = TypeVar("T")
-
-
-def load_plan(
-    path: Path | str, map_file: Path | str | None = None, scen: Path | str | None = None
-) -> Plan:
-    """Return the plan of a file.
-
-    Parameters
-    ----------
-    path
-        A plan as JSON or YAML, or in a format of `FOREIGN_FORMATS`; ``-`` is standard input.
-    map_file
-        The ``.map`` of a plan of another program. By default the map that the plan or the ``.scen``
-        file names is looked for beside it.
-    scen
-        A ``.scen`` file with the starts and goals of a plan of another program.
-
-    Raises
-    ------
-    InputError
-        With every independent fault, its place, value and remedy. A plan that breaks rules is not
-        at fault here: `rightofway.check` judges it.
-    """
-    path = Path(path)
-    kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
-    kind = kinds.get(path.suffix.lower())
-    if kind:
-        raise InputError.at("", f"{kind} holds a scenario, not a plan (plan it first)", str(path))
-    text, foreign = _foreign(path, map_file, scen)
-    if foreign is not None:
-        return foreign
-    with document_of(path, text) as document:
-        return plan_of(document)
-
-
-def load_either(
-    path: Path | str,
-    count: int | None = None,
-    map_file: Path | str | None = None,
-    scen: Path | str | None = None,
-) -> Plan | Loaded:
-    """Return the plan of a file, or the scenario if its ``format`` says that it is one.
-
-    Parameters
-    ----------
-    path
-        A plan or scenario as JSON, or a scenario as YAML, workbook or `.scen`.
-    count
-        As for `load`.
-    map_file, scen
-        As for `load_plan`.
-
-    Raises
-    ------
-    InputError
-        As `load_plan` and `load` do.
-    """
-    path = Path(path)
-    if path.suffix.lower() in {".scen", *WORKBOOKS}:
-        return load_with_notes(path, count)
-    with blaming(str(path)):
-        refuse_count(count)
-    text, foreign = _foreign(path, map_file, scen)
-    if foreign is not None:
-        return foreign
-    with document_of(path, text) as document:
-        kind = document.get("format") if isinstance(document, dict) else None
-        is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
-        return plan_of(document) if is_plan else read_scenario(document, path.parent)
-
-
-def _foreign(
-    path: Path, map_file: Path | str | None, scen: Path | str | None
-) -> tuple[str, Plan | None]:
-    """Return the text of a file, and its plan if it is one of another program."""
-    with blaming(str(path)):
-        refuse_layout(path)
-        text = read_text(path)
-        files = [None if given is None else Path(given) for given in (map_file, scen)]
-        found = read_foreign(text, path, *files)
-        if found is None and any(files):
-            message = "the file has its own map and robots in it (leave out --map and --scen)"
-            raise InputError.at("", message)
-        if found is None:
-            refuse_layout(path, text)
-    return text, found
 
 
 def plan_of(document: Any, source: str = "") -> Plan:

@@ -17,13 +17,10 @@ from typing import TYPE_CHECKING, Any
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
-from rightofway.io.layouts import refuse_layout
-from rightofway.io.marks import document_of
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
-from rightofway.io.text import read_text
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
@@ -37,9 +34,6 @@ MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
 
 DEFAULT_SPEED = Fraction(1)
-
-WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
-"""How the names of workbooks end; the last two are refused with what to do."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -59,70 +53,6 @@ class Loaded:
 
     scenario: Scenario
     notes: tuple[str, ...] = ()
-
-
-def load(path: Path | str, count: int | None = None) -> Scenario:
-    """Return the scenario of a file.
-
-    Parameters
-    ----------
-    path
-        A scenario as YAML or JSON; a workbook (`.xlsx`); or a `.scen` file, which is classic MAPF:
-        unit speeds, no work, no turning, no way back, the map beside it or in ``../maps``.
-    count
-        Number of robots: the first rows of a `.scen` file; None for all. Other files say
-        themselves how many robots they have.
-
-    Raises
-    ------
-    InputError
-        With every independent fault, its place, value and remedy.
-    """
-    return load_with_notes(path, count).scenario
-
-
-def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
-    """Return the scenario of a file with the notes of its reader; otherwise as `load`.
-
-    Parameters
-    ----------
-    path
-        A scenario as YAML or JSON, a workbook or a `.scen` file.
-    count
-        As for `load`.
-    """
-    path = Path(path)
-    if path.suffix.lower() == ".scen":
-        with blaming(str(path)):
-            return _classic(path, count)
-    if path.suffix.lower() in WORKBOOKS:
-        from rightofway.io.workbook import load_workbook_scenario
-
-        refuse_count(count)
-        return load_workbook_scenario(path)
-    with blaming(str(path)):
-        refuse_count(count)
-        refuse_layout(path)
-        text = read_text(path)
-        _refuse_foreign(text)
-        refuse_layout(path, text)
-    with document_of(path, text) as document:
-        return read_scenario(document, path.parent)
-
-
-def _refuse_foreign(text: str) -> None:
-    from rightofway.io.foreign import recognized  # reads scenarios itself
-
-    if recognized(text):
-        message = "is a plan of another program, not a scenario (check, show or improve it)"
-        raise InputError.at("", message)
-
-
-def refuse_count(count: int | None) -> None:
-    """Refuse a number of robots for a file that is no list of starts and goals."""
-    if count is not None:
-        message = f"the count {count} is for a .scen file, and this is none (leave it out)"
-        raise InputError.at("", message)
 
 
 def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
@@ -210,31 +140,6 @@ def _robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
         with under("table"):
             known = [field.alias or key for key, field in RobotDocument.model_fields.items()]
             return robots_of_csv(file_beside(base, name), known)
-
-
-def _classic(path: Path, count: int | None) -> Loaded:
-    """Return the scenario of the first rows of a `.scen` file, or of all."""
-    map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
-    beside = [Path(map_name), Path("..", "maps", map_name)]
-    found = next((each for each in beside if (path.parent / each).is_file()), None)
-    if found is None:
-        message = f"its map {map_name!r} is neither beside it nor in ../maps (put it there)"
-        raise InputError.at("", message)
-    document = {
-        "format": SCENARIO_FORMAT,
-        "map": {"file": str(found)},
-        "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
-        "rules": "classic",
-    }
-    try:
-        return read_scenario(document, path.parent)
-    except InputError as error:  # places in the document mean nothing to the user of the file
-        raise InputError(
-            InputFault("", fault.message.removeprefix(f"{path}: "))
-            if fault.place == "robots.scen"
-            else replace(fault, place=fault.place.removeprefix("robots."))
-            for fault in error.faults
-        ) from None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, place_of
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.robot_table import NOTES, Located, heading_key, robots_of_rows, value_of
+from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
-
-if TYPE_CHECKING:
-    from rightofway.io.scenario.reader import Loaded
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges")
 """Sheets that are read, by lower-case name."""
@@ -40,8 +38,6 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
     InputError
         With every independent fault, its sheet and cell, its value and the remedy.
     """
-    from rightofway.io.scenario.reader import Loaded, read_scenario
-
     path = Path(path)
     with blaming(str(path)):
         faults, notes = Faults(), list[str]()

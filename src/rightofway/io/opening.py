@@ -1,0 +1,194 @@
+"""Files opened by what is in them: scenarios, plans, workbooks, files of other programs."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+from rightofway.errors import InputError, InputFault
+from rightofway.io.faults import blaming
+from rightofway.io.foreign import read_foreign, recognized
+from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.layouts import refuse_layout
+from rightofway.io.marks import document_of
+from rightofway.io.movingai import load_scen
+from rightofway.io.plan.reader import plan_of
+from rightofway.io.scenario.reader import Loaded, read_scenario
+from rightofway.io.text import read_text
+from rightofway.io.workbook import load_workbook_scenario
+from rightofway.model import Plan, Scenario
+
+WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
+"""How the names of workbooks end; the last two are refused with what to do."""
+
+
+def load(path: Path | str, count: int | None = None) -> Scenario:
+    """Return the scenario of a file.
+
+    Parameters
+    ----------
+    path
+        A scenario as YAML or JSON; a workbook (`.xlsx`); or a `.scen` file, which is classic MAPF:
+        unit speeds, no work, no turning, no way back, the map beside it or in ``../maps``.
+    count
+        Number of robots: the first rows of a `.scen` file; None for all. Other files say
+        themselves how many robots they have.
+
+    Raises
+    ------
+    InputError
+        With every independent fault, its place, value and remedy.
+    """
+    return load_with_notes(path, count).scenario
+
+
+def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
+    """Return the scenario of a file with the notes of its reader; otherwise as `load`.
+
+    Parameters
+    ----------
+    path
+        A scenario as YAML or JSON, a workbook or a `.scen` file.
+    count
+        As for `load`.
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".scen":
+        with blaming(str(path)):
+            return _classic(path, count)
+    if path.suffix.lower() in WORKBOOKS:
+        _refuse_count(count)
+        return load_workbook_scenario(path)
+    with blaming(str(path)):
+        _refuse_count(count)
+        refuse_layout(path)
+        text = read_text(path)
+        _refuse_foreign(text)
+        refuse_layout(path, text)
+    with document_of(path, text) as document:
+        return read_scenario(document, path.parent)
+
+
+def load_plan(
+    path: Path | str, map_file: Path | str | None = None, scen: Path | str | None = None
+) -> Plan:
+    """Return the plan of a file.
+
+    Parameters
+    ----------
+    path
+        A plan as JSON or YAML, or in a format of `FOREIGN_FORMATS`; ``-`` is standard input.
+    map_file
+        The ``.map`` of a plan of another program. By default the map that the plan or the ``.scen``
+        file names is looked for beside it.
+    scen
+        A ``.scen`` file with the starts and goals of a plan of another program.
+
+    Raises
+    ------
+    InputError
+        With every independent fault, its place, value and remedy. A plan that breaks rules is not
+        at fault here: `rightofway.check` judges it.
+    """
+    path = Path(path)
+    kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
+    kind = kinds.get(path.suffix.lower())
+    if kind:
+        raise InputError.at("", f"{kind} holds a scenario, not a plan (plan it first)", str(path))
+    text, foreign = _foreign(path, map_file, scen)
+    if foreign is not None:
+        return foreign
+    with document_of(path, text) as document:
+        return plan_of(document)
+
+
+def load_either(
+    path: Path | str,
+    count: int | None = None,
+    map_file: Path | str | None = None,
+    scen: Path | str | None = None,
+) -> Plan | Loaded:
+    """Return the plan of a file, or the scenario if its ``format`` says that it is one.
+
+    Parameters
+    ----------
+    path
+        A plan or scenario as JSON, or a scenario as YAML, workbook or `.scen`.
+    count
+        As for `load`.
+    map_file, scen
+        As for `load_plan`.
+
+    Raises
+    ------
+    InputError
+        As `load_plan` and `load` do.
+    """
+    path = Path(path)
+    if path.suffix.lower() in {".scen", *WORKBOOKS}:
+        return load_with_notes(path, count)
+    with blaming(str(path)):
+        _refuse_count(count)
+    text, foreign = _foreign(path, map_file, scen)
+    if foreign is not None:
+        return foreign
+    with document_of(path, text) as document:
+        kind = document.get("format") if isinstance(document, dict) else None
+        is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
+        return plan_of(document) if is_plan else read_scenario(document, path.parent)
+
+
+def _classic(path: Path, count: int | None) -> Loaded:
+    """Return the scenario of the first rows of a `.scen` file, or of all."""
+    map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
+    beside = [Path(map_name), Path("..", "maps", map_name)]
+    found = next((each for each in beside if (path.parent / each).is_file()), None)
+    if found is None:
+        message = f"its map {map_name!r} is neither beside it nor in ../maps (put it there)"
+        raise InputError.at("", message)
+    document = {
+        "format": SCENARIO_FORMAT,
+        "map": {"file": str(found)},
+        "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
+        "rules": "classic",
+    }
+    try:
+        return read_scenario(document, path.parent)
+    except InputError as error:  # places in the document mean nothing to the user of the file
+        raise InputError(
+            InputFault("", fault.message.removeprefix(f"{path}: "))
+            if fault.place == "robots.scen"
+            else replace(fault, place=fault.place.removeprefix("robots."))
+            for fault in error.faults
+        ) from None
+
+
+def _refuse_foreign(text: str) -> None:
+    if recognized(text):
+        message = "is a plan of another program, not a scenario (check, show or improve it)"
+        raise InputError.at("", message)
+
+
+def _refuse_count(count: int | None) -> None:
+    """Refuse a number of robots for a file that is no list of starts and goals."""
+    if count is not None:
+        message = f"the count {count} is for a .scen file, and this is none (leave it out)"
+        raise InputError.at("", message)
+
+
+def _foreign(
+    path: Path, map_file: Path | str | None, scen: Path | str | None
+) -> tuple[str, Plan | None]:
+    """Return the text of a file, and its plan if it is one of another program."""
+    with blaming(str(path)):
+        refuse_layout(path)
+        text = read_text(path)
+        files = [None if given is None else Path(given) for given in (map_file, scen)]
+        found = read_foreign(text, path, *files)
+        if found is None and any(files):
+            message = "the file has its own map and robots in it (leave out --map and --scen)"
+            raise InputError.at("", message)
+        if found is None:
+            refuse_layout(path, text)
+    return text, found
