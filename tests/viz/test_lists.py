@@ -11,21 +11,19 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.metrics import free_running
+from rightofway.metrics import NamedCollision, free_running, named_collisions
 from rightofway.model import Plan, Tick, completions_of
 from rightofway.model.quantities import Units
 from rightofway.planners.routing import free_running_tracks
 from rightofway.viz.table import (
     Column,
     Listing,
-    Meeting,
     chosen_events,
     collision_list,
     collision_ticks,
     conflicts_before,
     decision_list,
     event_list,
-    meetings,
 )
 from rightofway.viz.table.workbook import sheets_of
 from tests.builders.fleets import PAPER, paper_scenario, random_fleet
@@ -72,7 +70,7 @@ def test_a_window_keeps_the_visits_that_have_a_part_in_it() -> None:
 
 def test_collisions_of_free_running_robots_are_the_marked_cells_of_table_4() -> None:
     scenario = paper_scenario(CASES["door-1"])
-    found = meetings(scenario, free_running_tracks(scenario))
+    found = named_collisions(scenario, free_running_tracks(scenario))
     assert [(each.start, each.places) for each in found] == [
         (1, ("N1",)), (2, ("N4",)), (3, ("N7",)), (6, ("N7",)), (7, ("N4",)), (8, ("N1",)),
     ]  # fmt: skip
@@ -81,9 +79,9 @@ def test_collisions_of_free_running_robots_are_the_marked_cells_of_table_4() -> 
 def test_the_paper_lists_a_collision_for_each_tick() -> None:
     """Collision(R1, R2, t) = N7 for t = 3, 4; one that never ends is listed until tick 6."""
     found = [
-        Meeting("R1", "R2", Tick(3), Tick(5), ("N7",), "collision"),
-        Meeting("R1", "R3", Tick(5), None, ("N4",), "collision"),
-        Meeting("R2", "R3", Tick(5), Tick(5), ("N1", "N4"), "swap"),
+        NamedCollision("R1", "R2", Tick(3), Tick(5), ("N7",), "collision"),
+        NamedCollision("R1", "R3", Tick(5), None, ("N4",), "collision"),
+        NamedCollision("R2", "R3", Tick(5), Tick(5), ("N1", "N4"), "swap"),
     ]
     quantities = paper_scenario(CASES["door-1"]).quantities
     assert list(collision_ticks(found, quantities, Tick(6)).rows()) == [
@@ -98,8 +96,8 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
 
 def test_the_swap_that_the_published_method_leaves_is_listed() -> None:
     plan = published("door-5")
-    assert meetings(plan.scenario, plan.tracks) == (
-        Meeting("R1", "R2", Tick(7), Tick(7), ("N7", "N4"), "swap"),
+    assert named_collisions(plan.scenario, plan.tracks) == (
+        NamedCollision("R1", "R2", Tick(7), Tick(7), ("N7", "N4"), "swap"),
     )
 
 
@@ -108,20 +106,20 @@ def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict
     plan = published(case["name"])
     scenario, tracks = plan.scenario, free_running_tracks(plan.scenario)
     end = max(completions_of(scenario, tracks))
-    listed = collision_ticks(meetings(scenario, tracks), scenario.quantities, end)
+    listed = collision_ticks(named_collisions(scenario, tracks), scenario.quantities, end)
     assert conflicts_before(plan)[0] == [row[4] for row in listed.rows()].count("collision")
 
 
 def test_the_published_method_does_not_count_the_swaps_that_it_does_not_see() -> None:
     plan = rightofway.solve(random_fleet(7, robots=10), "paper")
-    found = meetings(plan.scenario, free_running(plan))
+    found = named_collisions(plan.scenario, free_running(plan))
     assert "swap" in [each.kind for each in found]
     ticks = [each.until - each.start for each in found if each.until is not None]
     assert conflicts_before(plan)[0] == sum(ticks)
 
 
 def test_a_list_of_too_many_ticks_is_refused() -> None:
-    found = [Meeting("R1", "R2", Tick(0), Tick(10**9), ("N7",), "collision")]
+    found = [NamedCollision("R1", "R2", Tick(0), Tick(10**9), ("N7",), "collision")]
     with pytest.raises(
         InputError, match=r"--each-tick: the collisions last 1000000000 ticks, more"
     ):

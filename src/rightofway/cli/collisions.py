@@ -14,9 +14,10 @@ from rightofway.cli.tables import clock_data, put_lists
 from rightofway.cli.terminal import progress, put_json
 
 if TYPE_CHECKING:
+    from rightofway.metrics import NamedCollision
     from rightofway.model import Plan
     from rightofway.model.quantities import Quantities
-    from rightofway.viz.table import Listing, Meeting
+    from rightofway.viz.table import Listing
 
 EXAMPLES = """\b
 Examples:
@@ -60,11 +61,11 @@ def collisions(
     shortest routes. Those of a plan drive the routes of the plan; the decisions of its planner
     follow, with the conflicts before and after each. A file of - is standard input.
     """
-    from rightofway.metrics import free_running
+    from rightofway.metrics import free_running, named_collisions
     from rightofway.model import Scenario, completions_of
     from rightofway.planners.routing import free_running_tracks
     from rightofway.solve import solve
-    from rightofway.viz.table import collision_list, collision_ticks, decision_list, meetings
+    from rightofway.viz.table import collision_list, collision_ticks, decision_list
 
     found = read_either(source, count)
     if isinstance(found, Scenario) and planner:
@@ -74,7 +75,7 @@ def collisions(
     scenario = found if isinstance(found, Scenario) else found.scenario
     tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
     quantities = quantities_of(scenario, in_ticks=in_ticks)
-    listed = meetings(scenario, tracks)
+    listed = named_collisions(scenario, tracks)
     if each_tick:
         end = max(completions_of(scenario, tracks))
         lists = [collision_ticks(listed, quantities, end)]
@@ -92,7 +93,7 @@ def collisions(
         if len(lists) > 1:
             parts[-1] += f"\n\n{LEGEND}"
         if plan is not None:
-            left = meetings(scenario, plan.tracks)
+            left = named_collisions(scenario, plan.tracks)
             parts.append(f"Left in the plan: {_counted(left)}.")
             parts += _texts([collision_list(left, quantities)])
         click.echo("\n\n".join(parts))
@@ -102,7 +103,7 @@ def _texts(lists: Sequence[Listing]) -> list[str]:
     return [each.as_text() for each in lists if len(each)]
 
 
-def _counted(listed: Sequence[Meeting]) -> str:
+def _counted(listed: Sequence[NamedCollision]) -> str:
     kinds = [each.kind for each in listed]
     collisions, swaps, near = map(kinds.count, ("collision", "swap", "too near"))
     words = f"{collisions} collision{'s' * (collisions != 1)} and {swaps} swap{'s' * (swaps != 1)}"
@@ -110,12 +111,13 @@ def _counted(listed: Sequence[Meeting]) -> str:
 
 
 def _collision_data(
-    listed: Sequence[Meeting], plan: Plan | None, quantities: Quantities
+    listed: Sequence[NamedCollision], plan: Plan | None, quantities: Quantities
 ) -> dict[str, Any]:
     """Return collisions and decisions for programs; times in ticks."""
-    from rightofway.viz.table import conflicts_before, meetings
+    from rightofway.metrics import named_collisions
+    from rightofway.viz.table import conflicts_before
 
-    data = {**clock_data(quantities), "collisions": [_meeting_data(each) for each in listed]}
+    data = {**clock_data(quantities), "collisions": [_pair_data(each) for each in listed]}
     if plan is not None:
         names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
         data["decisions"] = [
@@ -132,11 +134,12 @@ def _collision_data(
             }
             for each, before in zip(plan.run.decisions, conflicts_before(plan), strict=True)
         ]
-        data["left"] = [_meeting_data(each) for each in meetings(plan.scenario, plan.tracks)]
+        left = named_collisions(plan.scenario, plan.tracks)
+        data["left"] = [_pair_data(each) for each in left]
     return data
 
 
-def _meeting_data(each: Meeting) -> dict[str, Any]:
+def _pair_data(each: NamedCollision) -> dict[str, Any]:
     return {
         "robots": [each.i, each.j],
         "vertices": each.places,

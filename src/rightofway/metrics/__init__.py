@@ -3,10 +3,12 @@
 from rightofway.metrics.alone import alone_completions
 from rightofway.metrics.collisions import (
     Collision,
+    NamedCollision,
     NearMiss,
     Swap,
     collisions,
     free_running,
+    named_collisions,
     near_misses,
     swaps,
 )
@@ -23,6 +25,7 @@ __all__ = [
     "Finding",
     "Inspection",
     "Metrics",
+    "NamedCollision",
     "NearMiss",
     "Site",
     "Swap",
@@ -35,6 +38,7 @@ __all__ = [
     "joined_waits",
     "lost_time",
     "measure",
+    "named_collisions",
     "near_misses",
     "swaps",
     "waits",

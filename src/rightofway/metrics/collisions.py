@@ -208,14 +208,14 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
     for robot, (track, stay) in enumerate(zip(tracks, stays_of(scenario, tracks), strict=True)):
         for row, booking in _places_booked(scenario, resources, robot, track, stay):
             of_row[row].append(booking)
-    meetings: defaultdict[tuple[int, int], list[_Meeting]] = defaultdict(list)
+    overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
     for row, bookings in of_row.items():
         others = chain.from_iterable(of_row.get(each, ()) for each in resources.excluded_by(row))
         for one, other in product(bookings, list(others)):
             start, end = max(one.start, other.start), min(one.end, other.end)
             if one.robot < other.robot and start < end and one.place != other.place:
-                meeting = start, end, (one.place, other.place)
-                meetings[one.robot, other.robot].append(meeting)
+                overlap = start, end, (one.place, other.place)
+                overlaps[one.robot, other.robot].append(overlap)
     found = [
         NearMiss(
             robots=robots,
@@ -223,10 +223,49 @@ def near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, 
             start=Tick(start),
             end=None if end == NEVER else Tick(end),
         )
-        for robots, times in meetings.items()
+        for robots, times in overlaps.items()
         for start, end, places in _joined(times)
     ]
     return tuple(sorted(found, key=lambda each: (each.start, each.robots)))
+
+
+class NamedCollision(NamedTuple):
+    """A collision, a swap or a near miss of robots i and j, with the names of robots and places."""
+
+    i: str
+    j: str
+    start: Tick
+    until: Tick | None
+    places: tuple[str, ...]
+    kind: str
+
+
+def named_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedCollision, ...]:
+    """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
+    found: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
+    found += near_misses(scenario, tracks)
+    rows = []
+    for each in found:
+        i, j = (name[robot] for robot in each.robots)
+        if isinstance(each, Collision):
+            row = NamedCollision(i, j, each.start, each.end, (place(each.vertex),), "collision")
+        elif isinstance(each, NearMiss):
+            near = tuple("-".join(map(place, vertices)) for vertices in each.places)
+            row = NamedCollision(i, j, each.start, each.end, near, "too near")
+        else:
+            places = tuple(map(place, each.vertices))
+            row = NamedCollision(i, j, each.tick, each.tick, places, "swap")
+        rows.append(row)
+    return tuple(sorted(rows, key=lambda row: row.start))
 
 
 class _Booking(NamedTuple):
@@ -236,7 +275,7 @@ class _Booking(NamedTuple):
     place: tuple[VertexId, ...]
 
 
-_Meeting = tuple[int, int, tuple[tuple[VertexId, ...], tuple[VertexId, ...]]]
+_Overlap = tuple[int, int, tuple[tuple[VertexId, ...], tuple[VertexId, ...]]]
 
 
 def _places_booked(
@@ -256,9 +295,9 @@ def _places_booked(
             yield resources.edge_row(robot, edge), _Booking(start, end, robot, ends_of_edge)
 
 
-def _joined(times: Iterable[_Meeting]) -> list[_Meeting]:
+def _joined(times: Iterable[_Overlap]) -> list[_Overlap]:
     """Join what follows without a gap; the places are those of the first."""
-    joined: list[_Meeting] = []
+    joined: list[_Overlap] = []
     for start, end, places in sorted(times):
         if joined and start <= joined[-1][1]:
             joined[-1] = joined[-1][0], max(joined[-1][1], end), joined[-1][2]

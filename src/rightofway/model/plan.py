@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import Any, Literal, TypeVar
 
 from rightofway.errors import InputError, nearest, shown
+from rightofway.model.above import from_above
 from rightofway.model.lost_time import LostTime
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track, completions_of
@@ -251,12 +252,12 @@ class Plan:
 
     def _repr_html_(self) -> str:
         """Return the page of the plan in a frame, for notebooks."""
-        page: str = _from_above("frame_of")(self)
+        page: str = from_above("frame_of")(self)
         return page
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
         """Return the page of the plan as a live part of a notebook that has anywidget."""
-        bundle: dict[str, Any] = _from_above("bundle_of")(self)
+        bundle: dict[str, Any] = from_above("bundle_of")(self)
         return bundle
 
     def once(self, figure: str, compute: Callable[[], T]) -> T:
@@ -290,13 +291,13 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        alone = self.run.alone or _from_above("alone_completions")(self.scenario)
+        alone = self.run.alone or from_above("alone_completions")(self.scenario)
         return Tick(sum(alone))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        return self.once("waits", lambda: _from_above("waits")(self))
+        return self.once("waits", lambda: from_above("waits")(self))
 
     @property
     def lost_time(self) -> tuple[LostTime, ...]:
@@ -307,7 +308,7 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        return self.once("lost time", lambda: _from_above("lost_time")(self))
+        return self.once("lost time", lambda: from_above("lost_time")(self))
 
     def __getitem__(self, name: str) -> RobotPlan:
         """Return the part of one robot.
@@ -363,7 +364,7 @@ class Plan:
                 module = import_module(name)
             except ImportError:
                 continue
-            columns = _from_above("event_columns")(self)
+            columns = from_above("event_columns")(self)
             return getattr(module, "table" if name == "pyarrow" else "DataFrame")(columns)
         which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")
@@ -371,19 +372,3 @@ class Plan:
 
 FRAME_LIBRARIES = ("pandas", "polars", "pyarrow")
 """Packages that a table can be made with, the first choice first."""
-
-ROOMS_ABOVE = {
-    "alone_completions": "rightofway.metrics",
-    "bundle_of": "rightofway.viz",
-    "event_columns": "rightofway.metrics",
-    "frame_of": "rightofway.viz",
-    "lost_time": "rightofway.metrics",
-    "waits": "rightofway.metrics",
-}
-"""Functions that answer for a plan, by name: the model imports no room above, and works without."""
-
-
-def _from_above(function: str) -> Callable[..., Any]:
-    """Return a function of a room above, imported when a plan is asked for it."""
-    found: Callable[..., Any] = getattr(import_module(ROOMS_ABOVE[function]), function)
-    return found

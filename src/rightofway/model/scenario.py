@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from importlib import import_module
 
 from rightofway.errors import InputError, InputFault, shown
+from rightofway.model.above import from_above
 from rightofway.model.problem import Problem, problem_of
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import too_short_edges
@@ -65,8 +65,8 @@ class Scenario:
         return f"Scenario({fleet} on {self.roadmap!r}, tick {self.problem.clock.tick})"
 
     def _repr_html_(self) -> str:
-        """Return the map and the robots, for notebooks; made by a room above, when asked for."""
-        made: str = import_module("rightofway.viz.scenario_html").scenario_html(self)
+        """Return the map and the robots, for notebooks."""
+        made: str = from_above("scenario_html")(self)
         return made
 
     @property

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rightofway.viz.page.payload import payload_of
     from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
+    from rightofway.viz.scenario_html import scenario_html
 
 _MODULES = {
     "page.background": ("Background",),
@@ -22,6 +23,7 @@ _MODULES = {
     "page.payload": ("payload_of",),
     "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
+    "scenario_html": ("scenario_html",),
 }
 
 __all__ = [
@@ -32,6 +34,7 @@ __all__ = [
     "page_of",
     "payload_of",
     "png_of",
+    "scenario_html",
     "write_gif",
     "write_page",
     "write_png",

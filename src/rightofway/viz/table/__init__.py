@@ -1,15 +1,13 @@
-"""The paper's table, a row for a robot and a column for a tick; lists of events and meetings."""
+"""The paper's table, a row for a robot and a column for a tick; lists of events and collisions."""
 
 from rightofway.viz.table.listing import Column, Listing, parquet_of
 from rightofway.viz.table.lists import (
-    Meeting,
     chosen_events,
     collision_list,
     collision_ticks,
     conflicts_before,
     decision_list,
     event_list,
-    meetings,
 )
 from rightofway.viz.table.timespace import (
     Cell,
@@ -27,7 +25,6 @@ __all__ = [
     "Cell",
     "Column",
     "Listing",
-    "Meeting",
     "Row",
     "Run",
     "TimeSpaceTable",
@@ -41,7 +38,6 @@ __all__ = [
     "decision_list",
     "end_of",
     "event_list",
-    "meetings",
     "parquet_of",
     "table_of",
     "table_of_groups",

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from rightofway.errors import InputError
 from rightofway.model.quantities import Quantities
-from rightofway.viz.table.writing import MAX_LINES, text_width
+from rightofway.viz.table.terminal import MAX_LINES, text_width
 
 MAX_CELL = 40
 """Columns of a terminal that a cell of text may take."""

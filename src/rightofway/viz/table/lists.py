@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from rightofway.errors import InputError
 from rightofway.metrics import (
-    Collision,
     Event,
-    NearMiss,
-    Swap,
+    NamedCollision,
     collisions,
     event_columns,
     events,
     free_running,
-    near_misses,
     swaps,
 )
-from rightofway.model import Decision, Plan, Scenario, Tick, Track
+from rightofway.model import Decision, Plan, Tick
 from rightofway.model.quantities import Quantities
 from rightofway.viz.table.listing import Column, Listing
 from rightofway.viz.table.timespace import chosen_robots
@@ -103,54 +99,15 @@ def event_list(
     )
 
 
-class Meeting(NamedTuple):
-    """A collision, a swap or a near miss of two robots i and j."""
-
-    i: str
-    j: str
-    start: Tick
-    until: Tick | None
-    places: tuple[str, ...]
-    kind: str
-
-
-def meetings(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Meeting, ...]:
-    """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
-    name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
-    found: list[Collision | Swap | NearMiss] = [*collisions(scenario, tracks), *swaps(tracks)]
-    found += near_misses(scenario, tracks)
-    rows = []
-    for each in found:
-        i, j = (name[robot] for robot in each.robots)
-        if isinstance(each, Collision):
-            row = Meeting(i, j, each.start, each.end, (place(each.vertex),), "collision")
-        elif isinstance(each, NearMiss):
-            near = tuple("-".join(map(place, vertices)) for vertices in each.places)
-            row = Meeting(i, j, each.start, each.end, near, "too near")
-        else:
-            places = tuple(map(place, each.vertices))
-            row = Meeting(i, j, each.tick, each.tick, places, "swap")
-        rows.append(row)
-    return tuple(sorted(rows, key=lambda row: row.start))
-
-
 def collision_list(
-    found: Sequence[Meeting], quantities: Quantities, title: str = "collisions"
+    found: Sequence[NamedCollision], quantities: Quantities, title: str = "collisions"
 ) -> Listing:
     """Return collisions and swaps as a list of intervals.
 
     Parameters
     ----------
     found
-        The rows of `meetings`.
+        The rows of `named_collisions`.
     quantities
         How times are written.
     title
@@ -171,13 +128,13 @@ def collision_list(
     )
 
 
-def collision_ticks(found: Sequence[Meeting], quantities: Quantities, end: Tick) -> Listing:
+def collision_ticks(found: Sequence[NamedCollision], quantities: Quantities, end: Tick) -> Listing:
     """Return the paper's list, Collision(i, j, t) = n: a row for each tick of each collision.
 
     Parameters
     ----------
     found
-        The rows of `meetings`.
+        The rows of `named_collisions`.
     quantities
         How times are written.
     end

@@ -18,13 +18,13 @@ from openpyxl.worksheet.properties import PageSetupProperties  # type: ignore[im
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import archive_of, write_whole
-from rightofway.metrics import free_running, lost_time, measure
+from rightofway.metrics import free_running, lost_time, measure, named_collisions
 from rightofway.model import Plan
 from rightofway.viz.motion import Activity, trips_of
 from rightofway.viz.palette import robot_colours
 from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.table.listing import Column, Listing
-from rightofway.viz.table.lists import collision_list, decision_list, event_list, meetings
+from rightofway.viz.table.lists import collision_list, decision_list, event_list
 from rightofway.viz.table.timespace import MAX_CELLS, table_of
 from rightofway.viz.table.workbook import (
     BOLD,
@@ -86,11 +86,12 @@ def result_of(plan: Plan) -> bytes:
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
     quantities = plan.scenario.quantities
-    free = meetings(plan.scenario, free_running(plan))
+    free = named_collisions(plan.scenario, free_running(plan))
+    left = named_collisions(plan.scenario, plan.tracks)
     for listing in (
         event_list(plan),
         collision_list(free, quantities),
-        collision_list(meetings(plan.scenario, plan.tracks), quantities, "left in the plan"),
+        collision_list(left, quantities, "left in the plan"),
         decision_list(plan),
     ):
         try:

@@ -8,16 +8,13 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from unicodedata import combining, east_asian_width
 
 from rightofway.files import write_whole
+from rightofway.viz.table.terminal import MAX_LINES, text_width
 from rightofway.viz.table.timespace import MAX_CELLS, Cell, Mark, TimeSpaceTable
 
 MAX_TICKS_OF_SHEET = 16_384 - 2
 """A sheet has 16384 columns; the first two are robot and kind of row."""
-
-MAX_LINES = 120
-"""Lines of a text that people read; a longer one ends with how to see the rest."""
 
 LONGEST_STEP = Fraction(10)
 """Where a tick is below one time unit, a long text has columns up to this [time unit]."""
@@ -152,14 +149,6 @@ def _hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator
             "\n  (choose with --from, --to, --step and --robots; -o FILE.txt writes all;"
             "\n  --events lists each visit in one line)"
         )
-
-
-def text_width(text: str) -> int:
-    """Return how many columns of a terminal a text takes."""
-    return sum(
-        0 if combining(character) else 2 if east_asian_width(character) in "WF" else 1
-        for character in text
-    )
 
 
 def as_csv(table: TimeSpaceTable) -> str:
