@@ -10,12 +10,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from rightofway.viz.notebook import scenario_html
     from rightofway.viz.page.background import Background
     from rightofway.viz.page.document import frame_of, page_of, write_page
     from rightofway.viz.page.payload import payload_of
     from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
-    from rightofway.viz.scenario_html import scenario_html
 
 _MODULES = {
     "page.background": ("Background",),
@@ -23,7 +23,7 @@ _MODULES = {
     "page.payload": ("payload_of",),
     "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
-    "scenario_html": ("scenario_html",),
+    "notebook": ("scenario_html",),
 }
 
 __all__ = [
