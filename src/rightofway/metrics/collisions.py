@@ -154,16 +154,15 @@ def swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
         [np.diff(column[order]) == 0 for column in (low, high, tick)]
     )
     order = order[as_before[:-1] | as_before[1:]]
-    moves = sorted(zip(*(each[order].tolist() for each in (tick, robot, tail, head)), strict=True))
+    columns = (low, high, tick, robot, tail, head)
+    moves = zip(*(each[order].tolist() for each in columns), strict=True)
     found = [
         Swap(robots=(one, other), vertices=(VertexId(start), VertexId(end)), tick=Tick(when))
-        for when, together in groupby(moves, key=itemgetter(0))
-        for (_, one, start, end), (_, other, tail_of_other, head_of_other) in combinations(
-            together, 2
-        )
-        if one != other and (start, end) == (head_of_other, tail_of_other) and start != end
+        for (_, _, when), together in groupby(moves, key=itemgetter(0, 1, 2))
+        for (*_, one, start, end), (*_, other, start_of_other, _) in combinations(together, 2)
+        if one != other and start not in (end, start_of_other)
     ]
-    return tuple(found)
+    return tuple(sorted(found, key=lambda each: (each.tick, each.robots, each.vertices)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
