@@ -127,7 +127,7 @@ def pieces_of(roadmap: Roadmap, lane: Lane) -> tuple[VertexId, ...]:
     if roadmap.labels is None:
         return ()
     for begin, end in ((tail, head), (head, tail)):
-        inside = []
+        inside: list[VertexId] = []
         try:
             while True:
                 name = f"{roadmap.name(begin)}-{roadmap.name(end)}/{len(inside) + 1}"

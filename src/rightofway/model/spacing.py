@@ -69,7 +69,13 @@ def split_lanes(
                 found[name] = (x, y)
         way = stations[lane] if stations[lane][0] == edge.tail else stations[lane][::-1]
         pieces += [
-            replace(edge, tail=tail, head=head, length=edge.length / count)
+            replace(
+                edge,
+                tail=tail,
+                head=head,
+                length=edge.length / count,
+                surcharge=edge.surcharge / count,
+            )
             for tail, head in pairwise(way)
         ]
     return found, pieces
