@@ -327,7 +327,7 @@ class Problem:
     length_class : int32[E]
         The length class of each edge.
     paces : int32[P * C]
-        Ticks for an edge of each of the C length classes, one row for each pace.
+        Ticks for an edge of each of the C length classes, one row for each pace; -1 where it is barred.
     pace_of : int32[R]
         The pace of each robot.
     home : int32[R]
@@ -349,6 +349,11 @@ class Problem:
         Size class of each robot, and for each row the rows from which a booking of it excludes other
         robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
         edge as robots of one size class book it; the vertices come first.
+    surcharges : int64[C]
+        What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
+    closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
+        Rows of the booking table that are closed, and when; None without closures. Where no robot has
+        a size, row ``V + e`` is edge ``e``. [ticks]
 
     Raises
     ------
@@ -356,7 +361,7 @@ class Problem:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, rotations: bool, size_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], heads: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], length_class: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], paces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], pace_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], home: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stage_turn: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_classes: int, headway: int, books_ahead: bool, rotations: bool, size_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, surcharges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_from: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closed_until: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     @property
     def n_robots(self) -> int:
@@ -423,8 +428,8 @@ class FleetSearch:
         """
 
     @property
-    def flowtime(self) -> int:
-        """The sum of completions. [ticks]"""
+    def cost(self) -> int:
+        """The sum of completions and surcharges. [ticks]"""
 
     @property
     def n_idle(self) -> int:

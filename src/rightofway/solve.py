@@ -221,5 +221,5 @@ def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:
     visits = 0
     for itinerary, ticks in zip(scenario.problem.itineraries, alone, strict=True):
         dwell = sum(stage.work + stage.turn for stage in itinerary.stages)
-        visits += max(ticks - dwell, 0) // min(itinerary.edge_ticks, default=1)
+        visits += max(ticks - dwell, 0) // itinerary.quickest_edge
     return visits

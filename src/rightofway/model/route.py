@@ -407,6 +407,25 @@ def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     return Tick(sum(completions_of(scenario, tracks)))
 
 
+def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return what planners minimize: the flowtime and the surcharges of all edges driven [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
+    if roadmap.surcharges:
+        for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
+            edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
+            by_class = np.array(itinerary.surcharges, np.int64)
+            cost = Tick(cost + int(by_class[roadmap.length_class[edges]].sum()))
+    return cost
+
+
 def _drives_of_fleet(
     scenario: Scenario, tracks: Sequence[Track], ends: NDArray[np.int64]
 ) -> NDArray[np.int64]:

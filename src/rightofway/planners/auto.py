@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.model import flowtime_of
+from rightofway.model import cost_of
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
@@ -45,7 +45,7 @@ def auto(task: Task) -> Draft:
         return lns(task)
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
     better = improved(task, fleet_search(task), first=first)
-    before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
+    before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better
     return replace(explained, status=better.status, improvement=better.improvement)

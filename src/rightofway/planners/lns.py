@@ -21,7 +21,7 @@ from dataclasses import replace
 from functools import partial
 
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Tick, Track, flowtime_of
+from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.moves import plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
@@ -65,7 +65,7 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     plans = [plan for plan in found if plan is not None]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
-    best = min(plans, key=lambda plan: flowtime_of(task.scenario, plan.tracks))
+    best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
     return _improve(task, search, best)
 
 
@@ -87,12 +87,12 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
     deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
-    bound, before = int(search.alone().sum()), search.flowtime
+    bound, before = int(search.alone().sum()), search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     done, ended = 0, ""
     try:
-        while search.flowtime != bound and done < iterations:
+        while search.cost != bound and done < iterations:
             began, done_before = time.perf_counter(), done
             done += search.improve(
                 iterations - done,
@@ -101,29 +101,30 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            reached = task.scenario.quantities.duration(search.flowtime)
-            gap = f", {search.flowtime / bound - 1:.1%} above the bound" if bound else ""
-            task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per s")
+            reached = task.scenario.quantities.duration(search.cost)
+            gap = f", {search.cost / bound - 1:.1%} above the bound" if bound else ""
+            what = "flowtime and surcharges" if task.scenario.roadmap.surcharges else "flowtime"
+            task.report(f"{what} {reached}{gap}, {rate:.0f} attempts per s")
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.flowtime < before:
+    if search.cost < before:
         # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
         # order at each vertex.
         search.retime()
-    if search.flowtime == bound:
+    if search.cost == bound:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
-    elif search.flowtime == before:
+    elif search.cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    found, flowtime = search.tracks(), partial(flowtime_of, task.scenario)
-    if spaced is not first.tracks and flowtime(found) > flowtime(first.tracks):
+    found, cost = search.tracks(), partial(cost_of, task.scenario)
+    if spaced is not first.tracks and cost(found) > cost(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
-    saved = flowtime(first.tracks) - flowtime(found)
+    saved = cost(first.tracks) - cost(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
     return Draft(tracks=found, status=status, improvement=made)
 
