@@ -65,7 +65,7 @@ void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t 
     const auto here = plan_.bookings().at(problem_.vertex_row(chosen_.front(), vertex));
     for (std::int32_t k = BookingTable::started(here, end - 1);
          k > 0 && here[k - 1].reach > start && chosen_.size() < size; --k) {
-        if (here[k - 1].time.end > start) {
+        if (here[k - 1].time.end > start && here[k - 1].robot != nobody) {
             add(here[k - 1].robot);
         }
     }
@@ -226,7 +226,7 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
         const std::int32_t to = std::min(now + 8, static_cast<std::int32_t>(here.size()));
         for (std::int32_t j = from; j < to; ++j) {
             const BookedBy& one = here[j];
-            if (one.robot == robot) {
+            if (one.robot == robot || one.robot == nobody) {
                 continue;
             }
             // The robot that was at the next vertex just before.

@@ -86,7 +86,7 @@ def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) ->
     if one.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
         other.start(one.tracks())
         assert other.tracks() == one.tracks()
-        assert other.flowtime == one.flowtime
+        assert other.cost == one.cost
 
 
 @law

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.model.problem import refuse_closures
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners import planning_headway
 from rightofway.planners.impossible import reaches_its_places
@@ -191,6 +192,8 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
+    remedy = "take them out: what is closed once would be closed in every lap"
+    refuse_closures(scenario.problem, "repeated work", remedy)
     refuse_sizes(scenario.problem.resources, "repeated work", "give robots no radius, and no zones")
     if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
         raise InputError.at("rules.return", NOTHING_REPEATS)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 
+from rightofway.errors import InputError
 from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, resources_of
 from rightofway.model.roadmap import Roadmap
@@ -117,6 +118,27 @@ class Problem:
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
+
+
+def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
+    """Refuse a fleet for which something is closed for a while.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    what
+        What does not know closures.
+    remedy
+        What to do instead.
+
+    Raises
+    ------
+    InputError
+        If there is a closure.
+    """
+    if problem.closures is not None:
+        raise InputError.at("", f"{what} does not know closures ({remedy})")
 
 
 def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:

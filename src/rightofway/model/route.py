@@ -443,4 +443,4 @@ def _drives_of_fleet(
         [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
     )
     drives: NDArray[np.int64] = by_class[rows, length_class[edges]]
-    return drives
+    return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred

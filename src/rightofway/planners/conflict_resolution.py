@@ -21,7 +21,7 @@ import numpy as np
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
 from rightofway.planners.lacam import plan_fleet
-from rightofway.planners.prioritized import fleet_search, plan_in_turn
+from rightofway.planners.prioritized import fleet_search, plan_in_turn, refuse_or_give_up
 from rightofway.planners.routing import shortest_route
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import (
@@ -211,10 +211,13 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 
 def _plan_together(task: Task, because: str) -> Draft:
-    robots = range(len(task.scenario.robots))
-    has_sizes = task.scenario.problem.resources is not None
-    found = plan_in_turn(task, fleet_search(task), "shortest") if has_sizes else plan_fleet(task)
-    assert found is not None, "robots with a size get a plan, or an error"
+    robots, problem = range(len(task.scenario.robots)), task.scenario.problem
+    found = None
+    if problem.resources is not None or problem.closures is not None or problem.is_barred:
+        found = plan_in_turn(task, fleet_search(task), "shortest")
+    if found is None:
+        refuse_or_give_up(task)
+        found = plan_fleet(task)
     return replace(
         found,
         status="re-routed all robots together",

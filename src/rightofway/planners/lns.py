@@ -58,7 +58,10 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     For a few robots with a size it begins with their best order of moves instead.
     """
     found: tuple[Draft | None, ...]
-    if task.scenario.problem.resources is None:
+    problem = task.scenario.problem
+    if problem.closures is not None or (problem.is_barred and problem.resources is None):
+        found = (first, plan_in_turn(task, search, "shortest"))
+    elif problem.resources is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     else:
         found = (first, plan_few(task, search) or plan_in_turn(task, search, "shortest"))
@@ -111,7 +114,10 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.cost < before:
+    if search.cost < before and task.scenario.problem.closures is not None:
+        graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
+        search.start(graph.tracks())
+    elif search.cost < before:
         # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
         # order at each vertex.
         search.retime()

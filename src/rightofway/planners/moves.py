@@ -75,11 +75,16 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     NoPlanExists
         If no order of moves exists.
     GaveUp
-        After too many states, or when time ran out.
+        After too many states, or when time ran out. With closures the moves are a proof only,
+        because they have no times.
     """
     resources = task.scenario.problem.resources
     assert resources is not None, "this is for robots with a size"
-    search.start(_in_sequence(task, _moves(task, resources)))
+    moves = _moves(task, resources)
+    if task.scenario.problem.closures is not None:
+        message = "robots one after another find no plan that keeps clear of closures"
+        raise GaveUp(f"{message} (give a longer time limit, or fewer closures)")
+    search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
     return Draft(tracks=search.tracks(), status="order of moves first")
@@ -285,7 +290,9 @@ class _Floor:
                 head = int(self._roadmap.heads[edge])
                 needed = 1 << self.resources.vertex_row(robot, head)
                 needed |= 1 << self.resources.edge_row(robot, edge)
-                if needed & by_others or self._ways[robot][state.stages[robot]][head] < 0:
+                ticks = self.itineraries[robot].edge_ticks[self._roadmap.length_class[edge]]
+                is_useless = ticks < 0 or self._ways[robot][state.stages[robot]][head] < 0
+                if needed & by_others or is_useless:
                     continue
                 places = (*state.places[:robot], head, *state.places[robot + 1 :])
                 after_move = self.served(_State(places, state.stages))

@@ -19,12 +19,13 @@ from fractions import Fraction
 
 import numpy as np
 
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Stop, cost_of
-from rightofway.planners.impossible import refuse_stranded
+from rightofway.planners.impossible import blocking_set, refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
-from rightofway.search import FleetSearch
+from rightofway.search import FleetSearch, untimed_lacam
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
@@ -55,6 +56,7 @@ def prioritized(task: Task) -> Draft:
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
+    refuse_or_give_up(task)
     status = "all together, because robots one after another found no way"
     return replace(plan_fleet(task), status=status)
 
@@ -86,11 +88,35 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
-    drafts = [_at_one_pace(task, turns)]
+    drafts = [_at_one_pace(task, turns)] if task.scenario.problem.closures is None else []
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
     return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
+
+
+def refuse_or_give_up(task: Task) -> None:
+    """Raise for fleets that LaCAM cannot plan where robots one after another find no plan.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists: closures and barred edges leave no more moves.
+    GaveUp
+        Otherwise, where something is closed or barred.
+    """
+    problem = task.scenario.problem
+    if problem.closures is None and not problem.is_barred:
+        return
+    left = task.deadline.seconds_left()
+    try:
+        untimed_lacam(problem, seed=task.seed, time_limit=left)
+    except NoPlanExists:
+        everybody = range(len(task.scenario.robots))
+        found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+        raise NoPlanExists([found]) from None
+    message = "robots one after another find no plan that keeps clear of closures and barred edges"
+    raise GaveUp(f"{message} (give a longer time limit, or other places)")
 
 
 def _with_sizes(task: Task, search: FleetSearch, order: str) -> Draft:

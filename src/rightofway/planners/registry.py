@@ -33,6 +33,10 @@ class PlannerSpec:
         Whether its plans may hold swaps; all other plans keep all rules.
     knows_sizes
         Whether it plans robots that have a size.
+    knows_closures
+        Whether it keeps clear of closures.
+    knows_types
+        Whether it keeps robots off edges that are barred for their type.
     """
 
     name: str
@@ -42,6 +46,8 @@ class PlannerSpec:
     improves: bool = False
     leaves_swaps: bool = False
     knows_sizes: bool = False
+    knows_closures: bool = False
+    knows_types: bool = False
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -82,6 +88,8 @@ PLANNERS = (
         "The default: a plan at once, then better plans until time is up.",
         options.AutoOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "two-level",
@@ -89,12 +97,15 @@ PLANNERS = (
         "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "paper",
         "rightofway.planners.two_level:paper",
         "The paper's method as published: swaps remain, and the exit code is 1 if there are any.",
         leaves_swaps=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "lacam",
@@ -109,6 +120,8 @@ PLANNERS = (
         options.LocalSearchOptions,
         improves=True,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "fixed-priority",
@@ -116,6 +129,8 @@ PLANNERS = (
         "Right of way in the order of the scenario: the first robot goes first.",
         options.PriorityOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "random-priority",
@@ -123,6 +138,8 @@ PLANNERS = (
         "Right of way by random orders of the robots; the best plan is kept.",
         options.RandomPriorityOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "priority-search",
@@ -130,6 +147,8 @@ PLANNERS = (
         "Right of way by an order of the robots that hill climbing improves.",
         options.PrioritySearchOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "prioritized",
@@ -137,6 +156,8 @@ PLANNERS = (
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "lns",
@@ -145,6 +166,8 @@ PLANNERS = (
         options.LnsOptions,
         improves=True,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
     ),
 )
 
