@@ -269,11 +269,19 @@ class _Reservations:
         return evicted
 
     def blockers(self, robot: int) -> set[int]:
-        """Return the robots in the way of this one on its shortest route without waits."""
+        """Return the robots in the way of this one on its shortest route without waits.
+
+        With closures: on its best track among them.
+        """
         itinerary = self.itineraries[robot]
-        route = shortest_route(itinerary, self.distances)
-        enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
-        track = Track.of(route.vertices, list(enter))
+        track = None
+        if self.bookings.problem.closures is not None:
+            alone = Bookings(self.bookings.problem)
+            track = earliest_track(robot, alone, self.distances)
+        if track is None:
+            route = shortest_route(itinerary, self.distances)
+            enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
+            track = Track.of(route.vertices, list(enter))
         return self.bookings.in_the_way(robot, track)
 
 
