@@ -34,18 +34,24 @@ class _Fleet:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.books_ahead = scenario.rules.occupancy == "both"
-        assert self.books_ahead or len(scenario.robots) < 3, "three points may rotate"  # noqa: PLR2004
+        assert self.books_ahead or len(scenario.robots) < 3, "three points may rotate"
+        self.closed: dict[tuple[int, Shape, int], bool] = {}
         self.excludes: dict[tuple[int, Shape, int, Shape], bool] = {}
 
     def is_closed(self, robot: int, booked: list[Shape], tick: int) -> bool:
         """Return whether something that a robot books in a tick is closed."""
-        begin, end = Fraction(tick), Fraction(tick + 1)
-        return any(is_shut(self.scenario, robot, shape, begin, end) for shape in booked)
+        for shape in booked:
+            key = (robot, shape, tick)
+            if key not in self.closed:
+                now = Fraction(tick)
+                self.closed[key] = is_shut(self.scenario, robot, shape, now, now + 1)
+        return any(self.closed[robot, shape, tick] for shape in booked)
 
     def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:
         """Return whether robots i and j book shapes that exclude each other."""
         if not self.books_ahead:  # points: only vertices exclude each other
-            one, other = ([shape for shape in shapes if len(shape) == 1] for shapes in (one, other))
+            one = [shape for shape in one if len(shape) == 1]
+            other = [shape for shape in other if len(shape) == 1]
         for x, y in product(one, other):
             if (i, x, j, y) not in self.excludes:
                 self.excludes[i, x, j, y] = incompatible(self.scenario, i, x, j, y)

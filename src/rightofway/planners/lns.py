@@ -59,7 +59,9 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     """
     found: tuple[Draft | None, ...]
     problem = task.scenario.problem
-    if problem.closures is not None or (problem.is_barred and problem.resources is None):
+    if problem.closures is not None:
+        found = (first, plan_few(task, search) or _if_found(task, search, needed=first is None))
+    elif problem.is_barred and problem.resources is None:
         found = (first, plan_in_turn(task, search, "shortest"))
     elif problem.resources is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
@@ -70,6 +72,16 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
     return _improve(task, search, best)
+
+
+def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
+    """Plan robots one after another; where a plan is there already, finding none is no error."""
+    try:
+        return plan_in_turn(task, search, "shortest")
+    except GaveUp:
+        if needed:
+            raise
+        return None
 
 
 def _together(task: Task) -> Draft | None:
