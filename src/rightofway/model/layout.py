@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, listed, nearest, shown
+from rightofway.model.drawing import Drawing, Picture
 from rightofway.model.geometry import Point
 from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
 from rightofway.model.spacing import split_lanes
@@ -90,6 +91,8 @@ class Level:
         What lies on it.
     links
         Lanes that lead to other levels.
+    picture
+        The picture that it is drawn over [m].
     """
 
     name: str
@@ -98,6 +101,7 @@ class Level:
     stations: tuple[Station, ...] = ()
     zones: tuple[NamedZone, ...] = ()
     links: int = 0
+    picture: Picture | None = None
 
     @property
     def vehicle_types(self) -> tuple[str, ...]:
@@ -223,7 +227,25 @@ def roadmap_of_level(
         positions, edges = split_lanes(positions, edges, spacing)
     drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
     roadmap = roadmap_of_edges(drawn, edges, y_up=True, zones=zones)
+    roadmap = replace(roadmap, drawing=_drawing(level, roadmap, metre))
     return roadmap, tuple(_lacks(level, lanes, slowest, closed))
+
+
+def _drawing(level: Level, roadmap: Roadmap, metre: Fraction) -> Drawing:
+    """Return the places of a level that its roadmap has, and its picture."""
+    ids = {name: roadmap.vertex(name) for name in roadmap.labels or ()}
+    stations = {
+        station.name: next(ids[name] for name in station.vertices if name in ids)
+        for station in level.stations
+        if not ids.keys().isdisjoint(station.vertices)
+    }
+    known = [vertex for vertex in level.vertices if vertex.name in ids]
+    return Drawing(
+        stations=tuple(stations.items()),
+        parking=tuple(ids[vertex.name] for vertex in known if vertex.is_parking),
+        charging=tuple(ids[vertex.name] for vertex in known if vertex.is_charging),
+        picture=level.picture and level.picture.scaled(metre),
+    )
 
 
 def _slower(one: Edge, other: Edge) -> Edge:

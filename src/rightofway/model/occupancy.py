@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.drawing import Picture
 from rightofway.model.geometry import Point
 
 FREE, UNKNOWN, OCCUPIED = 0, 1, 2
@@ -43,6 +44,8 @@ class Occupancy:
         The lower left corner of the picture in the site's frame [m].
     yaw
         Angle by which the picture is turned about its origin, counterclockwise [rad].
+    picture
+        The file of the picture, and where it lies [m].
     notes
         What the reader mended or left out, a sentence each.
     """
@@ -51,6 +54,7 @@ class Occupancy:
     resolution: Fraction
     origin: Point = (Fraction(0), Fraction(0))
     yaw: Fraction = Fraction(0)
+    picture: Picture | None = None
     notes: tuple[str, ...] = ()
 
     def cells(

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.model.clustering import Obstacle
+from rightofway.model.drawing import Drawing
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
 from rightofway.model.values import Number, coerced, length, number, optional
@@ -89,6 +90,8 @@ class Roadmap:
     obstacles
         What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
         plan depends on it, and roadmaps that differ in it alone are equal.
+    drawing
+        Stations, parking places, the picture below: only for people, too.
     """
 
     indptr: NDArray[np.int32]
@@ -102,6 +105,7 @@ class Roadmap:
     speed_limits: tuple[Fraction | None, ...] = ()
     zones: tuple[Zone, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
+    drawing: Drawing = field(default_factory=Drawing)
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

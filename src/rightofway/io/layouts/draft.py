@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults
+from rightofway.model.drawing import Picture
 from rightofway.model.geometry import (
     Point,
     rounding_step,
@@ -65,6 +66,7 @@ class LevelDraft:
     lanes: list[Lane] = field(default_factory=list)
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
+    picture: Picture | None = None
 
     def add(self, vertex: LayoutVertex, place: str) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
@@ -156,6 +158,7 @@ class Draft:
             stations=tuple(self._served(level)),
             zones=tuple(self._zones(level)),
             links=links,
+            picture=level.picture,
         )
 
     def _edge(self, lane: Lane, vertices: dict[str, LayoutVertex], step: Fraction) -> LayoutEdge:

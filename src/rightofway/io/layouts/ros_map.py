@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.parts import Part
+from rightofway.model.drawing import Picture
+from rightofway.model.geometry import Frame
 from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
 
 if TYPE_CHECKING:
@@ -81,11 +83,21 @@ def read(document: Any, path: Path) -> Occupancy:
     pixels = table[values]
     if is_clear is not None and not is_raw:
         pixels[is_clear] = UNKNOWN
+    (x, y), pixel = numbers[:2], resolution.number()
+    yaw = numbers[2] if len(numbers) > 2 else Fraction(0)  # noqa: PLR2004 - x, y, yaw
+    height = len(pixels) * pixel
+    picture = Picture(
+        file=path.parent / root.need("image").text(),
+        pixel=pixel,
+        corner=Frame(x=x, y=y, y_up=True, yaw=yaw).to_site((Fraction(0), -height)),
+        yaw=yaw,
+    )
     return Occupancy(
         pixels=pixels,
-        resolution=resolution.number(),
-        origin=(numbers[0], numbers[1]),
-        yaw=numbers[2] if len(numbers) > 2 else Fraction(0),  # noqa: PLR2004 - x, y, yaw
+        resolution=pixel,
+        origin=(x, y),
+        yaw=yaw,
+        picture=picture,
         notes=tuple(notes),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.maps import LoadedMap
 from rightofway.model import Units, roadmap_of_grid
+from rightofway.model.drawing import Drawing
 from rightofway.model.layout import Layout, roadmap_of_level
 from rightofway.model.occupancy import CellMap, Occupancy
 
@@ -44,12 +46,7 @@ def laid_out(
             second=1 / seconds,
             spacing=document.spacing,
         )
-        known = set(roadmap.labels or ())
-        stations = {
-            station.name: next(name for name in station.vertices if name in known)
-            for station in level.stations
-            if not known.isdisjoint(station.vertices)
-        }
+        stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
         notes = (*found.notes, *lacks)
         return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
@@ -72,6 +69,8 @@ def _cut(
             origin=(found.origin[0] / metres, found.origin[1] / metres),
             yaw=found.yaw,
         )
+    if found.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
     return LoadedMap(roadmap=roadmap, lines=lines, units=units, notes=(*found.notes, cells))
 

@@ -30,6 +30,7 @@ from rightofway.model import (
     straight_length,
 )
 from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.drawing import Drawing
 from rightofway.model.places import Place, vertex_at
 from rightofway.model.spacing import split_lanes
 from rightofway.model.zones import NamedZone
@@ -234,9 +235,40 @@ def _drawn(document: RoadmapDocument, spacing: Fraction | None, *, y_up: bool) -
     drawn = {name: (float(x), float(y)) for name, (x, y) in all_positions.items()}
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
+    roadmap = roadmap_of_edges(drawn, edges, y_up=y_up, zones=zones)
     return LoadedMap(
-        roadmap=roadmap_of_edges(drawn, edges, y_up=y_up, zones=zones),
+        roadmap=replace(roadmap, drawing=_places(document, roadmap)),
+        stations=document.stations,
         rounding=note if rounded else None,
+    )
+
+
+def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
+    """Return the stations and parking places, or report every vertex that there is not."""
+    faults = Faults()
+
+    def vertex(name: str) -> VertexId:
+        try:
+            return roadmap.vertex(name)
+        except KeyError:
+            near = nearest(name, document.vertices)
+            hint = f"did you mean {near!r}?" if near else "add it to vertices"
+            raise InputError.at("", f"no vertex is named {shown(name)} ({hint})") from None
+
+    def known(key: str, names: Sequence[str]) -> tuple[VertexId, ...]:
+        found = [faults.attempt(f"{key}[{at}]", vertex, name) for at, name in enumerate(names)]
+        return tuple(each for each in found if each is not None)
+
+    stations = [
+        (name, faults.attempt(f"stations.{name}", vertex, at))
+        for name, at in document.stations.items()
+    ]
+    parking, charging = known("parking", document.parking), known("charging", document.charging)
+    faults.stop()
+    return Drawing(
+        stations=tuple((name, at) for name, at in stations if at is not None),
+        parking=parking,
+        charging=charging,
     )
 
 

@@ -127,6 +127,11 @@ class RoadmapDocument(Document):
     zones: list[ZoneDocument] = Field(
         default=[], description="a list of {name, vertices, edges} that hold one robot each"
     )
+    stations: dict[Name, Name] = Field(
+        default={}, description="for each place to work at its name and its vertex"
+    )
+    parking: list[Name] = Field(default=[], description="names of vertices to park at")
+    charging: list[Name] = Field(default=[], description="names of vertices to charge at")
 
 
 OF_LAYOUTS = ("level", "vehicle_type", "unknown")

@@ -161,7 +161,16 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         }
         for zone in roadmap.zones
     ]
-    return {"vertices": vertices, "edges": edges, **({"zones": zones} if zones else {})}
+    drawing = roadmap.drawing
+    places = {
+        "zones": zones,
+        "stations": {station: name(at) for station, at in drawing.stations},
+        "parking": [name(at) for at in drawing.parking],
+        "charging": [name(at) for at in drawing.charging],
+    }
+    return {"vertices": vertices, "edges": edges} | {
+        key: value for key, value in places.items() if value
+    }
 
 
 def _speed_limit(roadmap: Roadmap, edge: int) -> dict[str, Any]:
