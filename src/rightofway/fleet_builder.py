@@ -28,7 +28,7 @@ from rightofway.model import (
 )
 from rightofway.model.places import as_place, is_cell, vertex_at
 from rightofway.model.resources import circle_around
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
 from rightofway.model.zones import NamedZone
@@ -342,13 +342,13 @@ class FleetBuilder:
                 )
                 for tail, head, given, limit in self._edges
             ]
-            positions = self._positions
-            if self._spacing is not None and self._zones:
-                raise InputError.at("spacing", "does not know zones yet (take one of them out)")
+            split = SplitLanes(self._positions, edges, {})
             if self._spacing is not None:
-                positions, edges = split_lanes(positions, edges, self._spacing)
-            drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-            self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up, zones=self._zones)
+                split = split_lanes(self._positions, edges, self._spacing)
+            drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
+            self._roadmap = roadmap_of_edges(
+                drawn, split.edges, y_up=self._y_up, zones=self._zones, pieces=split.pieces
+            )
         return self._roadmap
 
     def _square(self, tail: str, head: str) -> Fraction:

@@ -18,6 +18,7 @@ from rightofway.planners import (
     DEFAULT,
     IMPROVER,
     Deadline,
+    Draft,
     PlannerOptions,
     PlannerSpec,
     Task,
@@ -195,7 +196,7 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
         )
         if task.start is not None:
             keep()
-        draft = spec.load()(task)
+        draft = _drafted(spec, task)
     keep()
     run = PlannerRun(
         name=spec.name,
@@ -214,6 +215,34 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     return plan
+
+
+def _drafted(spec: PlannerSpec, task: Task) -> Draft:
+    """Return the draft of a planner; if it gives up, the draft for zones of listed vertices only.
+
+    Planners take a vertex between two edges of a zone as in the zone for all visits, or for none.
+    Without it there is more room: what is proven to have no plan has none, and the judge decides
+    whether a plan keeps the zones.
+    """
+    from rightofway.planners.impossible import refuse_passed_zones
+
+    scenario, plan_with = task.scenario, spec.load()
+    if not any(zone.passed for zone in scenario.roadmap.zones):
+        return plan_with(task)
+    gave_up = GaveUp("better plans have robots wait where others pass a zone (keep the plan)")
+    if task.start is None:
+        try:
+            refuse_passed_zones(scenario)
+            return plan_with(task)
+        except GaveUp as error:
+            gave_up = error
+        task.report("no plan keeps robots clear of zones: planning as if they did not pass any")
+    zones = tuple(replace(zone, listed_only=True) for zone in scenario.roadmap.zones)
+    looser = replace(scenario, roadmap=replace(scenario.roadmap, zones=zones))
+    draft = plan_with(replace(task, scenario=looser))
+    if check(Plan(scenario=scenario, tracks=draft.tracks, run=PlannerRun(name=spec.name))).ok:
+        return draft
+    raise gave_up
 
 
 def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:

@@ -17,9 +17,10 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
 )
+from rightofway.model.zones import Zone
 from tests.builders.fleets import random_fleet
 
-__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii"]
+__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
 
 
 def with_radii(
@@ -132,6 +133,40 @@ def _tiny(seed: int, robots: int) -> Scenario:
         ),
         rules=Rules(ends="none"),
     )
+
+
+def zoned(seed: int) -> Scenario:
+    """Return two robots on six vertices, some of them points, with zones of a few edges.
+
+    Most zones do not list the vertices that robots pass inside.
+    """
+    fleets = (_zoned(seed + 1000 * k) for k in range(1000))
+    return next(fleet for fleet in fleets if fleet.problem.clock.tick >= Fraction(1, 8))
+
+
+def _zoned(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    fleet = _tiny(seed, 2)
+    roadmap = fleet.roadmap
+    edges = [
+        (VertexId(tail), VertexId(int(head)))
+        for tail in range(roadmap.n_vertices)
+        for head in roadmap.heads[roadmap.indptr[tail] : roadmap.indptr[tail + 1]]
+    ]
+    zones = tuple(
+        Zone(
+            name=f"Z{k}",
+            vertices=tuple(map(VertexId, draw.sample(range(6), draw.choice([0, 1])))),
+            edges=tuple(draw.sample(edges, draw.choice([2, 3, 4]))),
+        )
+        for k in range(draw.choice([1, 2]))
+    )
+    points = [draw.random() < 0.5 for _ in fleet.robots]
+    robots = tuple(
+        replace(robot, radius=Fraction(0) if is_point else robot.radius)
+        for robot, is_point in zip(fleet.robots, points, strict=True)
+    )
+    return replace(fleet, roadmap=replace(roadmap, zones=zones), robots=robots)
 
 
 def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:

@@ -13,7 +13,7 @@ from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.model.drawing import Drawing, Picture
 from rightofway.model.geometry import Point
 from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 
 
@@ -221,12 +221,11 @@ def roadmap_of_level(
         if vertex.name not in closed
     }
     edges, zones = list(slowest.values()), _zones(level, positions, slowest)
+    split = SplitLanes(positions, edges, {})
     if spacing is not None:
-        if zones:
-            raise InputError.at("spacing", "spacing does not know zones yet (take it out)")
-        positions, edges = split_lanes(positions, edges, spacing)
-    drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-    roadmap = roadmap_of_edges(drawn, edges, y_up=True, zones=zones)
+        split = split_lanes(positions, edges, spacing)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
+    roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
     roadmap = replace(roadmap, drawing=_drawing(level, roadmap, metre))
     return roadmap, tuple(_lacks(level, lanes, slowest, closed))
 
@@ -278,16 +277,11 @@ def _ends(lanes: Sequence[LayoutEdge]) -> set[str]:
 def _zones(
     level: Level, vertices: Collection[str], lanes: Collection[tuple[str, str]]
 ) -> list[NamedZone]:
-    """Return the zones with what the roadmap has of them.
-
-    A vertex that can be entered and left along lanes of a zone belongs to it.
-    """
+    """Return the zones with what the roadmap has of them."""
     found = []
     for zone in level.zones:
         edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
-        passed = {head for _, head in edges} & {tail for tail, _ in edges}
-        inside = [name for name in zone.vertices if name in vertices]
-        names = tuple(dict.fromkeys((*inside, *sorted(passed))))
+        names = tuple(dict.fromkeys(name for name in zone.vertices if name in vertices))
         if names or edges:
             found.append(NamedZone(name=zone.name, vertices=names, edges=edges))
     return found

@@ -102,6 +102,22 @@ def exact_positions(roadmap: Roadmap) -> list[Point]:
     return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
 
 
+def are_nearer(roadmap: Roadmap, one: int, other: int, distance: Fraction) -> bool:
+    """Return whether two vertices are nearer than a distance; exact.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices.
+    one, other
+        Two of them.
+    distance
+        The distance [length unit].
+    """
+    at = exact_positions(roadmap)
+    return squared_distance(at[one], at[other]) < distance**2
+
+
 def distance(roadmap: Roadmap, one: int, other: int) -> float:
     """Return the distance of two vertices [length unit].
 
@@ -182,6 +198,10 @@ class Resources:
     first, excluded
         Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
         in increasing order; int32, shapes (rows + 1,) and (n,).
+    is_exact
+        Whether the lists exclude no more than the rule does. They exclude more where a vertex
+        counts as in a zone for some visits only: there, they take it as in the zone for all. Then
+        a search that finds no plan proves nothing.
     """
 
     n_vertices: int
@@ -189,6 +209,7 @@ class Resources:
     size_of: NDArray[np.int32]
     first: NDArray[np.int32] = field(repr=False)
     excluded: NDArray[np.int32] = field(repr=False)
+    is_exact: bool = True
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
@@ -250,6 +271,7 @@ def resources_of(
         size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
         first=first,
         excluded=excluded,
+        is_exact=not any(zone.passed for zone in roadmap.zones),
     )
 
 
@@ -370,10 +392,9 @@ class _Drawing:
     def in_zones(self, zones: Sequence[Zone]) -> Iterator[Pairs]:
         """Yield pairs of resources of one zone; an edge that ends at a vertex of it is left out."""
         for zone in zones:
-            vertices = np.array(zone.vertices, np.int64)
-            edges = [
-                self._number_of_edge[ends] for ends in zone.edges if not {*ends} & {*zone.vertices}
-            ]
+            inside = {*zone.vertices, *zone.passed}
+            vertices = np.array(sorted(inside), np.int64)
+            edges = [self._number_of_edge[ends] for ends in zone.edges if inside.isdisjoint(ends)]
             members = np.concatenate((vertices, np.array(edges, np.int64)))
             left, right = np.triu_indices(len(members), k=1)
             yield members[left], members[right]

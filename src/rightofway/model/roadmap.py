@@ -368,6 +368,7 @@ def roadmap_of_edges(
     *,
     y_up: bool = False,
     zones: Sequence[NamedZone] = (),
+    pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -381,7 +382,9 @@ def roadmap_of_edges(
     y_up
         Whether y grows upwards in the site's frame.
     zones
-        Vertices and edges that hold one robot at a time.
+        Vertices and edges that hold one robot at a time. A lane that was split may be named.
+    pieces
+        Tail and head of every piece of each lane that was split, by tail and head of the lane.
 
     Raises
     ------
@@ -405,6 +408,7 @@ def roadmap_of_edges(
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
     down = (1.0, -1.0 if y_up else 1.0)
+    both_ends = {(edge.tail, edge.head) for edge in edges}
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
@@ -416,7 +420,7 @@ def roadmap_of_edges(
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
         frame=Frame(y_up=y_up),
-        zones=zones_of(zones, ids, {(edge.tail, edge.head) for edge in edges}) if zones else (),
+        zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
     )
 
 

@@ -146,7 +146,8 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
             search.start(_in_sequence(task, list(here.moves)))
             search.retime()
             task.has_plan()
-            return Draft(tracks=search.tracks(), status="best order of moves")
+            best = "best order of moves" if resources.is_exact else "an order of moves"
+            return Draft(tracks=search.tracks(), status=best)
         for move, state in floor.successors(here.state):
             after = floor.moved(here, move, state)
             others = known.setdefault(state, [])
@@ -166,8 +167,10 @@ def _moves(task: Task, resources: Resources) -> list[_Move]:
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
     for expanded in count():
-        if not waiting:
+        if not waiting and resources.is_exact:
             raise NoPlanExists([_blockage(task)])
+        if not waiting:
+            raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")
         if expanded == MOST_STATES:
             raise GaveUp(f"no order of moves in {MOST_STATES} states (give robots more room)")
         if expanded % BETWEEN_CHECKS == 0:

@@ -32,7 +32,7 @@ from rightofway.model import (
 from rightofway.model.clustering import MAX_CELLS
 from rightofway.model.drawing import Drawing
 from rightofway.model.places import Place, vertex_at
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -223,19 +223,17 @@ def _drawn(document: RoadmapDocument, spacing: Fraction | None, *, y_up: bool) -
                 break
             edges.append(Edge(tail=tail, head=head, length=length, max_speed=edge.max_speed))
     faults.stop()
-    all_positions = dict(positions)
     zones = [
         NamedZone(name=zone.name, vertices=tuple(zone.vertices), edges=tuple(zone.edges))
         for zone in document.zones
     ]
+    split = SplitLanes(positions, edges, {})
     if spacing is not None:
-        if zones:
-            raise InputError.at("zones", "spacing does not know zones yet (take one of them out)")
-        all_positions, edges = split_lanes(positions, edges, spacing)
-    drawn = {name: (float(x), float(y)) for name, (x, y) in all_positions.items()}
+        split = split_lanes(positions, edges, spacing)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
-    roadmap = roadmap_of_edges(drawn, edges, y_up=y_up, zones=zones)
+    roadmap = roadmap_of_edges(drawn, split.edges, y_up=y_up, zones=zones, pieces=split.pieces)
     return LoadedMap(
         roadmap=replace(roadmap, drawing=_places(document, roadmap)),
         stations=document.stations,
