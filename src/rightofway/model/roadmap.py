@@ -193,17 +193,24 @@ class Roadmap:
         x, y = self.positions[vertex].tolist()
         return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
 
-    def without(self, closed: Collection[int]) -> Roadmap:
-        """Return the same vertices without the edges from and to those that are closed."""
+    def without(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
+        """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
         shut = np.fromiter(closed, np.int64, len(closed))
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
+        is_open[[index for ends in edges if (index := self.edge(*ends)) is not None]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
+        kept = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
+        zones = (
+            replace(zone, edges=tuple(ends for ends in zone.edges if ends in kept))
+            for zone in self.zones
+        )
         return replace(
             self,
             indptr=np.concatenate(([0], np.cumsum(degree))).astype(np.int32),
             heads=self.heads[is_open],
             length_class=self.length_class[is_open],
+            zones=tuple(zones),
         )
 
     def edge(self, tail: int, head: int) -> int | None:

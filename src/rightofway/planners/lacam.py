@@ -86,9 +86,13 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
     """Return the earliest tracks that keep the routes and the order of steps of `untimed_lacam`."""
+    return timetable_in_order(scenario, *order_of_steps(steps))
+
+
+def order_of_steps(steps: NDArray[np.int32]) -> tuple[list[list[VertexId]], list[list[int]]]:
+    """Return the vertices that each robot visits, and the step in which each visit begins."""
     arrivals = [[0, *(np.flatnonzero(np.diff(places)) + 1).tolist()] for places in steps.T]
-    visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
-    return timetable_in_order(scenario, visited, arrivals)
+    return [steps[when, robot].tolist() for robot, when in enumerate(arrivals)], arrivals
 
 
 def timetable_in_order(

@@ -21,7 +21,7 @@ number of states grows with the power of the number of robots; the search ends u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple
@@ -79,10 +79,35 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     """
     resources = task.scenario.problem.resources
     assert resources is not None, "this is for robots with a size"
-    search.start(_in_sequence(task, _moves(task, resources)))
+    search.start(_in_sequence(task, _moves(task, _Floor(task, resources), MOST_STATES)))
     search.retime()
     task.has_plan()
     return Draft(tracks=search.tracks(), status="order of moves first")
+
+
+def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: int) -> list[Track]:
+    """Return tracks in which robots with a size make one move after another.
+
+    Parameters
+    ----------
+    task
+        The problem; its robots have sizes.
+    ends_anywhere
+        Robots that serve all stages but the last one, and may end at any vertex.
+    most_states
+        States that are expanded at most.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists.
+    GaveUp
+        After too many states, or when time ran out.
+    """
+    resources = task.scenario.problem.resources
+    assert resources is not None, "this is for robots with a size"
+    floor = _Floor(task, resources, ends_anywhere)
+    return _in_sequence(task, _moves(task, floor, most_states))
 
 
 class _Timed(NamedTuple):
@@ -159,9 +184,8 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
     raise AssertionError("the loop ends by itself")
 
 
-def _moves(task: Task, resources: Resources) -> list[_Move]:
+def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
     """Return moves that bring all robots through their trips."""
-    floor = _Floor(task, resources)
     start = floor.served(_State(tuple(one.home for one in floor.itineraries), floor.no_stage))
     came_from: dict[_State, tuple[_State, _Move] | None] = {start: None}
     order = count()  # of equally near states, the latest first
@@ -171,8 +195,8 @@ def _moves(task: Task, resources: Resources) -> list[_Move]:
             raise NoPlanExists([_blockage(task)])
         if not waiting:
             raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")
-        if expanded == MOST_STATES:
-            raise GaveUp(f"no order of moves in {MOST_STATES} states (give robots more room)")
+        if expanded == most_states:
+            raise GaveUp(f"no order of moves in {most_states} states (give robots more room)")
         if expanded % BETWEEN_CHECKS == 0:
             task.deadline.check("searching for an order of moves")
         to_go, _, state = heappop(waiting)
@@ -203,7 +227,9 @@ def _blockage(task: Task) -> Blockage:
 class _Floor:
     """The moves of a fleet, and how far a state is from the end."""
 
-    def __init__(self, task: Task, resources: Resources) -> None:
+    def __init__(
+        self, task: Task, resources: Resources, ends_anywhere: Collection[int] = ()
+    ) -> None:
         self.itineraries = task.scenario.problem.itineraries
         self.no_stage = (0,) * len(self.itineraries)
         self._roadmap, self.resources = task.scenario.roadmap, resources
@@ -221,6 +247,8 @@ class _Floor:
             [distances.to(stage.vertex, one.edge_ticks).tolist() for stage in one.stages]
             for one in self.itineraries
         ]
+        for robot in ends_anywhere:
+            self._ways[robot][-1] = [0] * self._roadmap.n_vertices
         self._later = [
             [
                 sum(ways[k][one.stages[k - 1].vertex] for k in range(stage + 1, len(ways)))

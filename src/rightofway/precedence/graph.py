@@ -238,8 +238,12 @@ class PrecedenceGraph:
             For each robot, a number for each of its visits; of two visits to one vertex, the one
             with the smaller number goes first. The ticks of a plan, or steps.
         """
-        possible = self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
+        possible = self.keeps_order(when)
         assert possible, "what took place in some order can take place in it again"
+
+    def keeps_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> bool:
+        """Do as `keep_order`; false, with nothing changed, if some visit cannot take place."""
+        return self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
 
     def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) of which one is a visit of the robot."""
