@@ -45,13 +45,20 @@ def laid_out(
             spacing=document.spacing,
         )
         known = set(roadmap.labels or ())
+        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
         stations = {
             station.name: next(name for name in station.vertices if name in known)
             for station in level.stations
             if not known.isdisjoint(station.vertices)
         }
         notes = (*found.notes, *lacks)
-        return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
+        return LoadedMap(
+            roadmap=roadmap,
+            units=units,
+            stations=stations,
+            parking=tuple(roadmap.vertex(name) for name in parking if name in known),
+            notes=notes,
+        )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _cut(document, found, units, metres, radius())
 
@@ -73,7 +80,12 @@ def _cut(
             yaw=found.yaw,
         )
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
-    return LoadedMap(roadmap=roadmap, lines=lines, units=units, notes=(*found.notes, cells))
+    blocked = "what the picture shows there"
+    if 2 * radius > size:
+        blocked += f", or beside it for a radius of {units.written_length(radius)}"
+    return LoadedMap(
+        roadmap=roadmap, lines=lines, units=units, blocked=blocked, notes=(*found.notes, cells)
+    )
 
 
 def _drawn_in_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
