@@ -189,7 +189,7 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
         fleet = {"robots": found} if isinstance(found, list) else found
         if not isinstance(fleet, dict) or "robots" not in fleet:
             raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
-        parts = {key: fleet[key] for key in ("robots", "rules", "units") if key in fleet}
+        parts = {key: fleet[key] for key in ("homes", "robots", "rules", "units") if key in fleet}
         loaded = read_scenario({**document, **parts}, base)
     return _sites_of(loaded.scenario, loaded.notes)
 

@@ -47,8 +47,16 @@ def laid_out(
             spacing=document.spacing,
         )
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
+        known = set(roadmap.labels or ())
+        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
         notes = (*found.notes, *lacks)
-        return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
+        return LoadedMap(
+            roadmap=roadmap,
+            units=units,
+            stations=stations,
+            parking=tuple(roadmap.vertex(name) for name in parking if name in known),
+            notes=notes,
+        )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _cut(document, found, units, metres, radius())
 
@@ -72,7 +80,12 @@ def _cut(
     if found.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
-    return LoadedMap(roadmap=roadmap, lines=lines, units=units, notes=(*found.notes, cells))
+    blocked = "what the picture shows there"
+    if 2 * radius > size:
+        blocked += f", or beside it for a radius of {units.written_length(radius)}"
+    return LoadedMap(
+        roadmap=roadmap, lines=lines, units=units, blocked=blocked, notes=(*found.notes, cells)
+    )
 
 
 def _drawn_in_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:

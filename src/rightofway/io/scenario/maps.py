@@ -56,6 +56,8 @@ class LoadedMap:
     rounding: str | None = None  # how many lengths are rounded up, and to which step
     units: Units = field(default_factory=Units)
     stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
+    parking: tuple[VertexId, ...] = ()  # parking and charging places
+    blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     notes: tuple[str, ...] = ()  # of a layout's reader
 
     def find(self, place: Place) -> VertexId:
@@ -65,7 +67,9 @@ class LoadedMap:
             grid, floor = self.roadmap.grid, self.floor
             if floor is None or grid is None:
                 sign = self.lines[row][column]
-                return "a space, as only '.' is free" if sign == " " else repr(sign)
+                return self.blocked or (
+                    "a space, as only '.' is free" if sign == " " else repr(sign)
+                )
             if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
                 row = grid.rows - 1 - row
             return _obstacle(row, column, floor, grid)

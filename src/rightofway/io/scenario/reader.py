@@ -20,8 +20,10 @@ from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
+from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
+from rightofway.model.places import kinds_of_places
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -34,6 +36,11 @@ MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
 
 DEFAULT_SPEED = Fraction(1)
+
+HOME = f"the place it starts from: {kinds_of_places(None)}"
+
+HOMELESS = VertexId(-1)
+"""The home of a robot to which none is dealt out yet."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -118,17 +125,21 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     robots = faults.part(document, "robots", _written_robots, base) or []
     speeds = _speeds(robots)
     loaded = faults.part(document, "map", loaded_map_of)
-    if not isinstance(robots, _Rows):
-        placed = list(_listed(robots, loaded, faults))
-    else:
+    more = list[str]()
+    if isinstance(robots, _Rows):
         placed = _dealt(robots, loaded, faults) if loaded else []
+    else:
+        deals = document.get("homes") == "parking"
+        placed = _listed(robots, loaded, faults, deals=deals)
+        if deals and loaded and placed:
+            placed, more = _housed(placed, loaded, rules, faults)
     scenario = None
     if loaded and placed:
         scenario = _assembled(loaded.roadmap, placed, rules, loaded.units, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
+    return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *more))
 
 
 def _robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
@@ -215,20 +226,50 @@ def _place_of_laps(document: TripDocument, place: str) -> str:
     return "rules.laps" if document.ends is None else f"{place}.return"
 
 
-def _listed(robots: Sequence[Any], on: LoadedMap | None, faults: Faults) -> Iterator[_Placed]:
-    """Yield robots that are listed; note the faults of others. Without a map, only note faults."""
+def _listed(
+    robots: Sequence[Any], on: LoadedMap | None, faults: Faults, *, deals: bool
+) -> list[_Placed]:
+    """Return robots that are listed; note the faults of others. Without a map, only note faults."""
     from rightofway.io.scenario.shape import RobotDocument
 
+    placed = list[_Placed]()
     for index, data in enumerate(robots):
         place = f"robots[{index}]"
+        if not deals and isinstance(data, dict) and "home" not in data:
+            faults.note(f"{place}.home", f"is missing (give {HOME}, or homes: parking for all)")
         document = faults.attempt(place, checked, RobotDocument, data, on)
-        if document is None or on is None:
+        if document is None or on is None or (document.home is None and not deals):
             continue
         own = {**document.given("speed", "turn", "ends", "laps"), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
-        robot = Robot(name=document.name, home=document.home, stops=stops, **own)
+        home = HOMELESS if document.home is None else document.home
+        robot = Robot(name=document.name, home=home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
-        yield _Placed(robot=robot, place=place, aliases=aliases)
+        placed.append(_Placed(robot=robot, place=place, aliases=aliases))
+    return placed
+
+
+def _housed(
+    placed: Sequence[_Placed], on: LoadedMap, rules: Rules, faults: Faults
+) -> tuple[list[_Placed], list[str]]:
+    """Return the robots, those without a home at parking places, and notes of who starts where."""
+    homeless = [it.robot for it in placed if it.robot.home == HOMELESS]
+    wanted = [Wanted(name=it.name, first_stop=it.stops[0].at, radius=it.radius) for it in homeless]
+    fixed = Fixed(
+        homes=tuple((it.robot.home, it.robot.radius) for it in placed if it.robot.home != HOMELESS),
+        stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
+        clearance=rules.clearance,
+    )
+    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, on.parking, fixed)
+    if homes is None:
+        return [], []
+    names = [on.roadmap.name(home) for home in homes]
+    left = iter(homes)
+    housed = [
+        replace(it, robot=replace(it.robot, home=next(left))) if it.robot.home == HOMELESS else it
+        for it in placed
+    ]
+    return housed, list(note_of_homes(wanted, names, len(on.parking)))
 
 
 def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:

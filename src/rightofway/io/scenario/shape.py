@@ -244,7 +244,7 @@ class RobotDocument(TripDocument):
     )
 
     name: Name = Field(description="a name of its own")
-    home: Place = Field(description=f"the place it starts from: {PLACES}")
+    home: Place = optional(f"the place it starts from: {PLACES}; left out with homes: parking")
     target: Place = optional(f"the place to work at: {PLACES}")
     work: NotNegative = optional(WORK)
     stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
@@ -319,6 +319,9 @@ class ScenarioFrame(Document):
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     units: Any = optional("{length, time}: how reports write quantities")
+    homes: Literal["parking"] = optional(
+        "parking: robots without a home start from the parking and charging places of a layout"
+    )
     robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
     rules: Any = optional("classic, or rules for the whole fleet")
 
