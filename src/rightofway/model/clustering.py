@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
 
@@ -123,6 +124,20 @@ def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
 
 
 def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:
+    """Return the rows of a floor's `free_cells`: ``.`` for free, ``@`` for blocked.
+
+    Parameters
+    ----------
+    floor, cell_size, max_cells
+        As for `free_cells`.
+    """
+    free = free_cells(floor, cell_size, max_cells=max_cells)
+    return tuple("".join(row) for row in np.where(free, ".", "@"))
+
+
+def free_cells(
+    floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS
+) -> NDArray[np.bool_]:
     """Cut a floor into square cells.
 
     Parameters
@@ -137,8 +152,9 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
 
     Returns
     -------
-    tuple of str
-        The rows of a grid, ``.`` for free and ``@`` where an obstacle covers any part of a cell.
+    ndarray
+        Which cells are free: those that no obstacle covers any part of; bool, shape (rows,
+        columns).
 
     Raises
     ------
@@ -159,12 +175,12 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
             f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
         )
         raise InputError.at("cell_size", message)
-    blocked = np.zeros((rows, columns), bool)
+    free = np.ones((rows, columns), np.bool_)
     for obstacle in floor.obstacles:
         across = _covered(obstacle.x, obstacle.width, cell_size)
         down = _covered(obstacle.y, obstacle.height, cell_size)
-        blocked[down, across] = True
-    return tuple("".join(row) for row in np.where(blocked, "@", "."))
+        free[down, across] = False
+    return free
 
 
 def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
