@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from fractions import Fraction
 
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model import Roadmap
-from rightofway.model.occupancy import Occupancy
 from rightofway.model.quadtree import OBLIQUE, Squares, roadmap_of_squares, squares_of
 
 RANDOM = [(seed, share) for seed in range(5) for share in (0.02, 0.1, 0.3)]
@@ -160,16 +158,3 @@ def test_limits_are_said() -> None:
         roadmap_of_squares(free, Fraction(1), largest=Fraction(2), max_squares=3)
     with pytest.raises(InputError, match="no free cell in 16"):
         roadmap_of_squares(~free, Fraction(1))
-
-
-def test_a_map_of_4000_by_4000_pixels_takes_under_two_seconds() -> None:
-    """A site of 200 m at 5 cm a pixel, smallest cells of 10 cm, a hundred walls."""
-    pixels, draw = np.zeros((4000, 4000), np.uint8), np.random.default_rng(1)
-    for row, column in draw.integers(0, 4000, (100, 2)).tolist():
-        pixels[row : row + 6, column : column + 700] = 2
-        pixels[column : column + 700, row : row + 6] = 2
-    occupancy = Occupancy(pixels=pixels, resolution=Fraction(1, 20))
-    begin = time.process_time()
-    free = occupancy.free_cells(Fraction(1, 10), radius=Fraction(3, 10), max_cells=4_000_000)
-    roadmap_of_squares(free, Fraction(1, 10), radius=Fraction(3, 10), largest=Fraction(10))
-    assert time.process_time() - begin < 2

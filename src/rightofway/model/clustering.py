@@ -136,7 +136,7 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
 
 
 def free_cells(
-    floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS
+    floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS, key: str = "cell_size"
 ) -> NDArray[np.bool_]:
     """Cut a floor into square cells.
 
@@ -149,6 +149,8 @@ def free_cells(
         not used.
     max_cells
         The most cells to make.
+    key
+        What messages call the size of the cells.
 
     Returns
     -------
@@ -162,19 +164,19 @@ def free_cells(
         If no cell fits in, or more than ``max_cells`` do.
     """
     if cell_size <= 0:
-        raise InputError.at("cell_size", f"{cell_size} is not positive (give a length above 0)")
+        raise InputError.at(key, f"{cell_size} is not positive (give a length above 0)")
     columns, rows = floor.width // cell_size, floor.height // cell_size
     if not rows * columns:
         message = (
             f"{cell_size} is longer than the floor (give at most {min(floor.width, floor.height)})"
         )
-        raise InputError.at("cell_size", message)
+        raise InputError.at(key, message)
     if rows * columns > max_cells:
         message = (
             f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
-            f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
+            f" {max_cells} (give a larger {key}, speeds closer together, or raise max_cells)"
         )
-        raise InputError.at("cell_size", message)
+        raise InputError.at(key, message)
     free = np.ones((rows, columns), np.bool_)
     for obstacle in floor.obstacles:
         across = _covered(obstacle.x, obstacle.width, cell_size)

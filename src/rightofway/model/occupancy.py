@@ -73,6 +73,7 @@ class Occupancy:
         radius: Fraction = Fraction(0),
         unknown_is_free: bool = False,
         max_cells: int = MAX_CELLS,
+        key: str = "cell_size",
     ) -> NDArray[np.bool_]:
         """Cut the picture into cells, from its lower left corner on.
 
@@ -86,6 +87,8 @@ class Occupancy:
             Whether robots may be where nothing is known.
         max_cells
             The most cells to make.
+        key
+            What messages call the size of the cells.
 
         Returns
         -------
@@ -102,13 +105,13 @@ class Occupancy:
         rows, columns = (int(side * self.resolution // size) for side in (height, width))
         if size < self.resolution:
             message = f"a cell of {float(size)} m is below a pixel of {float(self.resolution)} m"
-            raise InputError.at("cell_size", f"{message} (give a larger one)")
+            raise InputError.at(key, f"{message} (give a larger one)")
         if not rows or not columns:
             message = f"a cell of {float(size)} m is larger than the map (give a smaller one)"
-            raise InputError.at("cell_size", message)
+            raise InputError.at(key, message)
         if rows * columns > max_cells:
             message = f"{rows * columns} cells, more than {max_cells} (give a larger one)"
-            raise InputError.at("cell_size", message)
+            raise InputError.at(key, message)
         blocked = self.pixels == OCCUPIED if unknown_is_free else self.pixels != FREE
         growth = (radius - size / 2) / self.resolution
         if growth > 0:

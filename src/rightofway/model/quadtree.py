@@ -14,6 +14,7 @@ two centres comes near a third square.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeVar
@@ -67,11 +68,11 @@ class Squares:
     side: NDArray[np.int32]
     at: NDArray[np.int32]
 
-    def name(self, square: int) -> str:
-        """Return the name of a square: ``Q<column>-<row>``, and ``x<side>`` above 1."""
-        side = int(self.side[square])
-        size = f"x{side}" if side > 1 else ""
-        return f"Q{int(self.column[square])}-{int(self.row[square])}{size}"
+    def names(self) -> Iterator[str]:
+        """Yield the name of each square: ``Q<column>-<row>``, and ``x<side>`` above 1."""
+        of = (each.tolist() for each in (self.column, self.row, self.side))
+        for column, row, side in zip(*of, strict=True):
+            yield f"Q{column}-{row}x{side}" if side > 1 else f"Q{column}-{row}"
 
 
 def squares_of(free: NDArray[np.bool_], *, largest: int, near: bool) -> Squares:
@@ -232,7 +233,7 @@ def roadmap_of_squares(
         length_class=length_class.astype(np.int32),
         lengths=tuple(Fraction(int(twelfths), 12) * smallest for twelfths in known),
         positions=np.column_stack((x, -y if y_up else y)),
-        labels=tuple(map(squares.name, range(count))),
+        labels=tuple(squares.names()),
         frame=Frame(y_up=y_up, **turned),
         sides=np.asarray(squares.side * float(smallest), np.float64),
     )

@@ -90,6 +90,7 @@ def _joined(
         radius=radius * metres,
         unknown_is_free=document.unknown == "free",
         max_cells=MAX_SMALLEST,
+        key="smallest",
     )
     corner = (found.origin[0] / metres, found.origin[1] / metres)
     roadmap = roadmap_of_squares(

@@ -203,7 +203,7 @@ def _joined_floor(
         smallest = node_length(speeds)
     with under("floor"):
         floor = _floor(document.floor, document)
-    free = free_cells(floor, smallest, max_cells=MAX_SMALLEST)
+    free = free_cells(floor, smallest, max_cells=MAX_SMALLEST, key="smallest")
     origin = document.origin or (Fraction(0), Fraction(0) if document.y_up else floor.height)
     roadmap = roadmap_of_squares(
         free,
