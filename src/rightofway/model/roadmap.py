@@ -92,6 +92,9 @@ class Roadmap:
         plan depends on it, and roadmaps that differ in it alone are equal.
     drawing
         Stations, parking places, the picture below: only for people, too.
+    sides
+        Side of the square cell round each vertex [length unit], None where vertices have none and
+        on a grid; float64, shape (V,).
     """
 
     indptr: NDArray[np.int32]
@@ -106,6 +109,7 @@ class Roadmap:
     zones: tuple[Zone, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
+    sides: NDArray[np.float64] | None = None
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -128,6 +132,7 @@ class Roadmap:
             and np.array_equal(self.heads, other.heads)
             and np.array_equal(self.length_class, other.length_class)
             and np.array_equal(self.positions, other.positions)
+            and _same_sides(self.sides, other.sides)
         )
 
     def __hash__(self) -> int:
@@ -229,6 +234,12 @@ class Roadmap:
             fits = (first + offset < last) & (self.heads[edge] == heads) & (found < 0)
             found[fits] = edge[fits]
         return found
+
+
+def _same_sides(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return np.array_equal(one, other)
 
 
 def _same_grid(one: Grid | None, other: Grid | None) -> bool:
@@ -376,6 +387,8 @@ def roadmap_of_edges(
     y_up: bool = False,
     zones: Sequence[NamedZone] = (),
     pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
+    sides: Sequence[float] | None = None,
+    frame: Frame | None = None,
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -392,6 +405,10 @@ def roadmap_of_edges(
         Vertices and edges that hold one robot at a time. A lane that was split may be named.
     pieces
         Tail and head of every piece of each lane that was split, by tail and head of the lane.
+    sides
+        Side of the square cell round each vertex [length unit]; None without cells.
+    frame
+        The frame that the positions are relative to, by default the site's; ``y_up`` is its own.
 
     Raises
     ------
@@ -426,7 +443,8 @@ def roadmap_of_edges(
         speed_limits=tuple(limit for _, limit in classes) if limits else (),
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
-        frame=Frame(y_up=y_up),
+        frame=frame or Frame(y_up=y_up),
+        sides=None if sides is None else np.array(sides, np.float64),
         zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
     )
 

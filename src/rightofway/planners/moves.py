@@ -191,7 +191,7 @@ def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
     for expanded in count():
-        if not waiting and resources.is_exact:
+        if not waiting and floor.resources.is_exact:
             raise NoPlanExists([_blockage(task)])
         if not waiting:
             raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")

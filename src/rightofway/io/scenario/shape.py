@@ -132,7 +132,20 @@ class RoadmapDocument(Document):
     )
     parking: list[Name] = Field(default=[], description="names of vertices to park at")
     charging: list[Name] = Field(default=[], description="names of vertices to charge at")
+    sides: list[Positive] = optional(
+        "side of the square cell round each vertex, in their order [length unit]"
+    )
 
+    @model_validator(mode="after")
+    def _check_sides(self) -> Self:
+        if self.sides is not None and len(self.sides) != len(self.vertices):
+            counts = f"{len(self.sides)} for {len(self.vertices)} vertices"
+            raise ValueError(f"sides: {counts} (give one for each, or take them out)")
+        return self
+
+
+OF_ADAPTIVE = ("smallest", "largest")
+"""Keys for adaptive cells only."""
 
 OF_LAYOUTS = ("level", "vehicle_type", "unknown")
 """Keys for layouts only."""
@@ -150,10 +163,8 @@ class MapDocument(Document):
         json_schema_extra=described(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentSchemas={
-                **{
-                    key: {"not": {"required": ["roadmap"]}}
-                    for key in ("cell_size", "origin", "yaw")
-                },
+                "cell_size": {"not": {"required": ["roadmap"]}},
+                **{key: {"required": ["cell_size"]} for key in OF_ADAPTIVE},
                 "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
                 **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
                 "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
@@ -173,7 +184,12 @@ class MapDocument(Document):
         default="blocked", description="blocked, or free: pixels of a picture that are not known"
     )
     cell_size: CellSize = optional(
-        "side of a cell [length unit]: 1 by default; on a floor clustered by default"
+        "side of a cell [length unit]: 1 by default; on a floor clustered by default; adaptive:"
+        " squares of a quadtree"
+    )
+    smallest: Positive = optional("side of the smallest adaptive cells [length unit]")
+    largest: Positive = optional(
+        "limit on the side of adaptive cells [length unit]; 8 smallest ones by default"
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
@@ -188,13 +204,14 @@ class MapDocument(Document):
         kind = exactly_one_of(self, MAPS)
         if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
-        if kind == "roadmap" and self.origin is not None:
-            raise ValueError(
-                "origin is given with a roadmap, whose vertices have coordinates of the site"
-                " (take it out)"
-            )
-        if kind == "roadmap" and self.yaw is not None:
-            raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
+        if kind == "roadmap" and self.roadmap.sides is None:
+            if self.origin is not None:
+                raise ValueError(
+                    "origin is given with a roadmap, whose vertices have coordinates of the site"
+                    " (take it out)"
+                )
+            if self.yaw is not None:
+                raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
         for key in BY_LAYOUTS if kind == "layout" else OF_LAYOUTS:
             if key in self.model_fields_set:
                 what = "which has its own" if kind == "layout" else "and is for a layout"
@@ -206,8 +223,18 @@ class MapDocument(Document):
         if kind not in {"grid", "file"} and "obstacles" in self.model_fields_set:
             remedy = "give them in the floor" if kind == "floor" else "take them out"
             raise ValueError(f"obstacles are given beside a {kind} ({remedy})")
-        if kind != "floor" and self.cell_size == "clustered":
+        return self
+
+    @model_validator(mode="after")
+    def _check_cells(self) -> Self:
+        kind, word = exactly_one_of(self, MAPS), self.cell_size
+        if (word == "clustered" and kind != "floor") or (
+            word == "adaptive" and kind not in {"floor", "layout"}
+        ):
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
+        for key in OF_ADAPTIVE:
+            if key in self.model_fields_set and word != "adaptive":
+                raise ValueError(f"{key} is for cell_size: adaptive (give that, or take it out)")
         return self
 
     @property

@@ -121,13 +121,14 @@ def _units(units: Units) -> dict[str, Any]:
 def _map(roadmap: Roadmap) -> dict[str, Any]:
     grid, frame = roadmap.grid, roadmap.frame
     y = {"y": "up"} if frame.y_up else {}
+    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
     if grid is None:
-        return {"roadmap": _roadmap(roadmap), **y}
+        pivot = {"origin": [written(frame.x), written(frame.y)]} if frame.yaw else {}
+        return {"roadmap": _roadmap(roadmap), **y, **pivot, **yaw}
     size = grid.cell_size
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
-    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
     shape = {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
     named = [
         {"name": it.name, "rect": [written(part) for part in (it.x, it.y, it.width, it.height)]}
@@ -167,6 +168,7 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         "stations": {station: name(at) for station, at in drawing.stations},
         "parking": [name(at) for at in drawing.parking],
         "charging": [name(at) for at in drawing.charging],
+        "sides": [] if roadmap.sides is None else roadmap.sides.tolist(),
     }
     return {"vertices": vertices, "edges": edges} | {
         key: value for key, value in places.items() if value

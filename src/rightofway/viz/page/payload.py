@@ -168,7 +168,15 @@ def _map(roadmap: Roadmap) -> dict[str, Any]:
         "tails": _differences(tails.tolist()),
         "heads": _differences(roadmap.heads.tolist()),
         "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
+        **_sides(roadmap, plane.unit),
     }
+
+
+def _sides(roadmap: Roadmap, unit: float) -> dict[str, Any]:
+    """Return how wide the square round each vertex is in the drawing, where there are squares."""
+    if roadmap.sides is None:
+        return {}
+    return {"sides": np.round(roadmap.sides / unit, DECIMALS).tolist()}
 
 
 def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:

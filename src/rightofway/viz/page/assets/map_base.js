@@ -19,8 +19,9 @@ class MapBase {
     context.scale(scale, scale);
     if (this.plan.roadmap.rows) this.#grid(context);
     else {
+      if (this.plan.roadmap.sides) this.#squares(context);
       this.#picture(context);
-      this.#network(context);
+      if (!this.plan.roadmap.sides) this.#network(context);
     }
     if (this.choice.heat) this.#heat(context);
     this.bottleneck.paintMap(context, scale);
@@ -69,6 +70,19 @@ class MapBase {
     context.strokeStyle = this.theme.wall;
     context.lineWidth = this.#pixels(1);
     context.strokeRect(-0.5, -0.5, width, height);
+  }
+
+  /** The cells of a quadtree; what is not free between them is wall. */
+  #squares(context) {
+    const { width, height, x, y, sides } = this.plan.roadmap;
+    const gap = this.viewport.scale >= RULED_CELL / 2 ? this.#pixels(1) : 0;
+    context.fillStyle = this.theme.wall;
+    context.fillRect(-0.5, -0.5, width, height);
+    context.fillStyle = this.theme.line;
+    const fill = (less) => sides.forEach((side, vertex) => context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side - less, side - less));
+    fill(this.#pixels(-0.3)); // no hairline between two cells
+    context.fillStyle = this.theme.floor;
+    fill(gap);
   }
 
   #rules(context, width, height) {
@@ -156,12 +170,13 @@ class MapBase {
   }
 
   #heat(context) {
-    const { x, y, size, rows } = this.plan.roadmap;
+    const { x, y, size, rows, sides } = this.plan.roadmap;
     for (let vertex = 0; vertex < size; vertex++) {
       const colour = this.use.heat(vertex, this.theme);
       if (!colour) continue;
       context.fillStyle = colour;
-      if (rows) context.fillRect(x[vertex] - 0.5, y[vertex] - 0.5, 1, 1);
+      const side = rows ? 1 : sides?.[vertex];
+      if (side) context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side, side);
       else disc(context, x[vertex], y[vertex], this.#pixels(Math.max(this.sizes.vertex * 1.6, 5)));
     }
   }

@@ -228,9 +228,9 @@ class MapNames {
 
   #colours(vertex, isMark) {
     const { theme, plan: { roadmap } } = this;
-    const heat = this.choice.heat && roadmap.rows ? this.use.heat(vertex, theme) : null;
+    const heat = this.choice.heat && roadmap.hasCells ? this.use.heat(vertex, theme) : null;
     if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
-    return { ink: isMark ? theme.ink : theme.muted, halo: roadmap.rows ? theme.floor : theme.paper };
+    return { ink: isMark ? theme.ink : theme.muted, halo: roadmap.hasCells ? theme.floor : theme.paper };
   }
 
   #pointOf(vertex) {
@@ -244,7 +244,7 @@ class MapNames {
     for (const [vertex, { isHome }] of marks) {
       this.#marks.takeDisc(...this.#pointOf(vertex), isHome ? this.sizes.home : this.sizes.stop);
     }
-    if (this.plan.roadmap.rows) return;
+    if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
     const half = this.sizes.lane / 2;
     for (const [tail, head] of [...bothWays, ...oneWay]) {
@@ -277,7 +277,7 @@ class MapNames {
   #named(marks) {
     const { roadmap } = this.plan;
     const isChosen = (vertex) => marks.get(vertex).robots.some((index) => this.#isChosen(index));
-    if (roadmap.rows && this.viewport.scale < NAMED_CELL) {
+    if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
       const shown = [...marks.keys()].filter((vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex));
       return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
     }

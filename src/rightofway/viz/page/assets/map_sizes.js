@@ -20,7 +20,7 @@ class MapSizes {
     const apart = Math.sqrt((roadmap.width * roadmap.height) / robots.length) * scale; // on average
     const cap = Math.max(SMALLEST_CAP.many, Math.min(SMALLEST_CAP.few, apart * 0.1), scale * 0.95);
     const least = Math.min(apart * 0.16, READABLE_RADIUS, cap);
-    return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.rows ? "grid" : "network"]);
+    return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.hasCells ? "grid" : "network"]);
   }
 
   /** Half the side of a home. */

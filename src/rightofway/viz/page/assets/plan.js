@@ -23,6 +23,11 @@ class Roadmap {
     this.size = this.x.length;
   }
 
+  /** Whether vertices are cells: those of a grid, or squares of a quadtree. */
+  get hasCells() {
+    return Boolean(this.rows ?? this.sides);
+  }
+
   name(vertex) {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
   }
@@ -46,8 +51,9 @@ class Roadmap {
     return this.obstacles.find(({ left, top, width, height }) => x >= left && x <= left + width && y >= top && y <= top + height);
   }
 
-  /** The vertex within half a unit of a point, or -1. */
+  /** The vertex within half a unit of a point, or whose cell holds it, or -1. */
   near(x, y) {
+    if (this.sides) return this.sides.findIndex((side, vertex) => 2 * Math.max(Math.abs(x - this.x[vertex]), Math.abs(y - this.y[vertex])) <= side);
     if (!this.rows) return nearest(this.x, this.y, x, y, 0.5);
     const [column, row] = [Math.round(x), Math.round(y)];
     if (row < 0 || row >= this.height || column < 0 || column >= this.width) return -1;
@@ -102,6 +108,7 @@ class Roadmap {
     this.tails = fromDifferences(raw.tails, Int32Array);
     this.heads = fromDifferences(raw.heads, Int32Array);
     this.lengths = raw.lengths;
+    this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
     this.lanes = this.#sortLanes();
     const joined = new Set([...this.tails, ...this.heads]);
     this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane
