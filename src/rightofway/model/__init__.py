@@ -1,5 +1,6 @@
 """Roadmap, robot, scenario, plan: frozen, in integer ticks, without files."""
 
+from rightofway.model.closures import Closure, Closures
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
 from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
 from rightofway.model.lost_time import Loss, LostTime
@@ -39,6 +40,8 @@ from rightofway.model.units import NEVER, Clock, Tick, VertexId, checked_time_li
 __all__ = [
     "NEVER",
     "Clock",
+    "Closure",
+    "Closures",
     "Decision",
     "Edge",
     "ExecutionTrace",

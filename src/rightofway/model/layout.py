@@ -124,7 +124,8 @@ class Level:
         known = self.vehicle_types
         if vehicle_type is None:
             if len({edge.types for edge in self.edges} - {None, frozenset(known)}) > 0:
-                message = f"lanes differ between vehicle types (give one of {listed(known)})"
+                message = "lanes differ between vehicle types (give one of"
+                message += f" {listed(known)}, or each robot a type)"
                 raise InputError.at("vehicle_type", message)
             return self.edges
         if known and vehicle_type not in known:
@@ -180,6 +181,7 @@ def roadmap_of_level(
     level: Level,
     *,
     vehicle_type: str | None = None,
+    robot_types: Collection[str | None] = (),
     metre: Fraction = Fraction(1),
     second: Fraction = Fraction(1),
     spacing: Fraction | None = None,
@@ -192,6 +194,9 @@ def roadmap_of_level(
         The level.
     vehicle_type
         As for `Level.lanes_of`.
+    robot_types
+        Where no vehicle type is named and lanes differ: the vehicle types of all robots, None for a
+        robot without one. Lanes are then barred for the types that may not use them.
     metre, second
         A metre in length units, and a second in time units, of the roadmap.
     spacing
@@ -207,11 +212,24 @@ def roadmap_of_level(
     InputError
         If the vehicle type is not known, or the level has no vertex.
     """
-    lanes = level.lanes_of(vehicle_type)
+    known_types, selects = level.vehicle_types, False
+    if vehicle_type is None and robot_types and None not in robot_types:
+        for name in sorted(name for name in robot_types if name is not None):
+            level.lanes_of(name)
+        selects = bool(known_types)
+    lanes = level.edges if selects else level.lanes_of(vehicle_type)
     slowest: dict[tuple[str, str], Edge] = {}
     for lane in lanes:
         limit = None if lane.max_speed is None else lane.max_speed * metre / second
-        edge = Edge(tail=lane.tail, head=lane.head, length=lane.length * metre, max_speed=limit)
+        is_open = lane.types is None or not selects
+        barred = frozenset() if is_open else frozenset(known_types).difference(lane.types or ())
+        edge = Edge(
+            tail=lane.tail,
+            head=lane.head,
+            length=lane.length * metre,
+            max_speed=limit,
+            barred=barred,
+        )
         known = slowest.get((lane.tail, lane.head))
         slowest[lane.tail, lane.head] = _slower(known, edge) if known else edge
     closed = _ends(level.edges) - _ends(lanes)  # only other vehicle types come there
@@ -251,7 +269,8 @@ def _slower(one: Edge, other: Edge) -> Edge:
     """Return an edge that asks a robot for no more than either of two parallel lanes does."""
     limits = [edge.max_speed for edge in (one, other) if edge.max_speed is not None]
     length = max(one.length, other.length)
-    return replace(one, length=length, max_speed=min(limits, default=None))
+    barred = one.barred & other.barred
+    return replace(one, length=length, max_speed=min(limits, default=None), barred=barred)
 
 
 def _lacks(

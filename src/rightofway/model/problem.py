@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 
+from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, resources_of
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
@@ -43,12 +44,30 @@ class Itinerary:
     stages
         What it has to do, in order. The vertex of the last one is where it stays for ever.
     edge_ticks
-        Ticks it needs for an edge, by length class of the roadmap.
+        Ticks it needs for an edge, by length class of the roadmap; -1 where it is barred.
+    surcharges
+        Ticks by which an edge of each length class is less liked; empty where all are 0.
     """
 
     home: VertexId
     stages: tuple[Stage, ...]
     edge_ticks: tuple[Tick, ...]
+    surcharges: tuple[Tick, ...] = ()
+
+    @property
+    def weights(self) -> tuple[Tick, ...]:
+        """Ticks and surcharge of an edge of each length class; -1 where the robot is barred."""
+        if not self.surcharges:
+            return self.edge_ticks
+        return tuple(
+            Tick(ticks + more) if ticks > 0 else ticks
+            for ticks, more in zip(self.edge_ticks, self.surcharges, strict=True)
+        )
+
+    @property
+    def quickest_edge(self) -> Tick:
+        """Ticks of the quickest edge; 1 without an edge."""
+        return min((ticks for ticks in self.edge_ticks if ticks > 0), default=Tick(1))
 
     @property
     def last(self) -> VertexId:
@@ -77,6 +96,8 @@ class Problem:
         One for each robot.
     resources
         Which bookings exclude each other, or None where no robot has a size and there is no zone.
+    closures
+        The bookings of nobody, or None where nothing is closed.
     """
 
     roadmap: Roadmap
@@ -86,6 +107,12 @@ class Problem:
     rotations: bool
     itineraries: tuple[Itinerary, ...]
     resources: Resources | None = None
+    closures: Closures | None = None
+
+    @property
+    def is_barred(self) -> bool:
+        """Whether some robot may not drive along some edge."""
+        return any(min(one.edge_ticks, default=1) < 0 for one in self.itineraries)
 
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
@@ -108,9 +135,14 @@ def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
 
 
 def problem_of(
-    roadmap: Roadmap, robots: Sequence[Robot], rules: Rules, clock: Clock | None = None
+    roadmap: Roadmap,
+    robots: Sequence[Robot],
+    rules: Rules,
+    clock: Clock | None = None,
+    closures: Sequence[Closure] = (),
 ) -> Problem:
     """Express a valid scenario in ticks, of a clock that is given or else chosen."""
+    radii = [robot.radius for robot in robots]
     if clock is None:
         each = (_durations(roadmap, robot, rules) for robot in robots)
         clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
@@ -121,7 +153,8 @@ def problem_of(
         books_ahead=rules.books_ahead,
         rotations=rules.rotations,
         itineraries=tuple(_itinerary(roadmap, robot, rules, clock) for robot in robots),
-        resources=resources_of(roadmap, [robot.radius for robot in robots], rules.clearance),
+        resources=resources_of(roadmap, radii, rules.clearance),
+        closures=closures_of(closures, roadmap, radii, rules.clearance, clock),
     )
 
 
@@ -137,7 +170,9 @@ def turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
 
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
-    yield from roadmap.durations(robot.speed)
+    for length_class, duration in enumerate(roadmap.durations(robot.speed)):
+        if not roadmap.is_barred(length_class, robot.type):
+            yield duration
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
 
@@ -150,5 +185,9 @@ def _itinerary(roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock) -> It
     return Itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
-        edge_ticks=tuple(map(clock.ticks, roadmap.durations(robot.speed))),
+        edge_ticks=tuple(
+            Tick(-1) if roadmap.is_barred(length_class, robot.type) else clock.ticks(duration)
+            for length_class, duration in enumerate(roadmap.durations(robot.speed))
+        ),
+        surcharges=tuple(map(clock.ticks, roadmap.surcharges)),
     )

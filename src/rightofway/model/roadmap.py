@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,13 @@ from rightofway.model.clustering import Obstacle
 from rightofway.model.drawing import Drawing
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
-from rightofway.model.values import Number, coerced, length, number, optional
+from rightofway.model.values import Number, coerced, length, names, number, optional
 from rightofway.model.zones import NamedZone, Zone, zones_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+T = TypeVar("T")
 
 FREE = frozenset(".GS")
 """Grid characters that a robot may stand on; every other one is blocked."""
@@ -85,6 +87,15 @@ class Roadmap:
     speed_limits
         Speed limit of each length class [length unit per time unit], None for none; empty where no
         edge has one. Classes of one length may differ in it.
+    barred
+        Types of robots that may not drive along an edge of each length class; empty where there is
+        no such type. Classes of one length may differ in it.
+    surcharges
+        What makes an edge of each length class less liked, not slower [time unit]; empty where
+        nothing does. Classes of one length may differ in it.
+    barred_vertices
+        Vertices with the types of robots that may not be there; every edge into such a vertex is
+        barred for these types.
     zones
         Vertices and edges that hold one robot at a time.
     obstacles
@@ -106,6 +117,9 @@ class Roadmap:
     grid: Grid | None = None
     frame: Frame = field(default_factory=Frame)
     speed_limits: tuple[Fraction | None, ...] = ()
+    barred: tuple[frozenset[str], ...] = ()
+    surcharges: tuple[Fraction, ...] = ()
+    barred_vertices: Mapping[VertexId, frozenset[str]] = field(default_factory=dict)
     zones: tuple[Zone, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
@@ -124,6 +138,9 @@ class Roadmap:
         return (
             self.lengths == other.lengths
             and self.speed_limits == other.speed_limits
+            and self.barred == other.barred
+            and self.surcharges == other.surcharges
+            and self.barred_vertices == other.barred_vertices
             and self.zones == other.zones
             and self.labels == other.labels
             and self.frame == other.frame
@@ -151,6 +168,15 @@ class Roadmap:
             length / (speed if limit is None else min(speed, limit))
             for length, limit in zip(self.lengths, self.speed_limits, strict=True)
         ]
+
+    def is_barred(self, length_class: int, robot_type: str | None) -> bool:
+        """Return whether edges of a length class are barred for robots of a type."""
+        return bool(self.barred) and robot_type in self.barred[length_class]
+
+    @property
+    def types(self) -> frozenset[str]:
+        """Types of robots that an edge or a vertex is barred for."""
+        return frozenset().union(*self.barred, *self.barred_vertices.values())
 
     @property
     def n_vertices(self) -> int:
@@ -368,16 +394,24 @@ class Edge:
         Its length [length unit], positive.
     max_speed
         Speed limit [length unit per time unit], positive; None for none.
+    barred
+        Types of robots that may not use it.
+    surcharge
+        What makes it less liked, not slower [time unit], not negative.
     """
 
     tail: str
     head: str
     length: Fraction
     max_speed: Fraction | None = None
+    barred: frozenset[str] = frozenset()
+    surcharge: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
         source = f"edge {self.tail!r} to {self.head!r}"
-        coerced(self, source, length=number, max_speed=optional(number))
+        coerced(
+            self, source, length=number, max_speed=optional(number), barred=names, surcharge=number
+        )
 
 
 def roadmap_of_edges(
@@ -389,6 +423,8 @@ def roadmap_of_edges(
     pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
     sides: Sequence[float] | None = None,
     frame: Frame | None = None,
+    barred: Mapping[str, Collection[str]] | None = None,
+    surcharges: Mapping[str, Fraction] | None = None,
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -409,6 +445,10 @@ def roadmap_of_edges(
         Side of the square cell round each vertex [length unit]; None without cells.
     frame
         The frame that the positions are relative to, by default the site's; ``y_up`` is its own.
+    barred
+        Names of vertices with the types of robots that may not be there.
+    surcharges
+        Names of vertices with what is added to the surcharge of each edge into them [time unit].
 
     Raises
     ------
@@ -418,16 +458,27 @@ def roadmap_of_edges(
     """
     ids = {name: vertex for vertex, name in enumerate(positions)}
     _check_edges(ids, edges)
+    barred, surcharges = dict(barred or {}), dict(surcharges or {})
+    if barred or surcharges:
+        edges = [
+            replace(
+                edge,
+                barred=edge.barred.union(barred.get(edge.head, ())),
+                surcharge=edge.surcharge + surcharges.get(edge.head, 0),
+            )
+            for edge in edges
+        ]
     # Floats first: fractions are slow to compare, and only equal floats need it.
-    lengths = sorted({edge.length for edge in edges}, key=lambda one: (float(one), one))
-    limits = sorted({edge.max_speed for edge in edges if edge.max_speed is not None})
-    known = {(edge.length, edge.max_speed) for edge in edges}
-    classes = [
-        (length, limit)
-        for length in lengths
-        for limit in (None, *limits)
-        if (length, limit) in known
-    ]
+    classes = sorted(
+        {_edge_class(edge) for edge in edges},
+        key=lambda one: (
+            float(one.length),
+            one.length,
+            one.max_speed or 0,
+            sorted(one.barred),
+            one.surcharge,
+        ),
+    )
     class_of = {each: index for index, each in enumerate(classes)}
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
@@ -436,11 +487,12 @@ def roadmap_of_edges(
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
-        length_class=np.array(
-            [class_of[edge.length, edge.max_speed] for edge in ordered], np.int32
-        ),
-        lengths=tuple(length for length, _ in classes),
-        speed_limits=tuple(limit for _, limit in classes) if limits else (),
+        length_class=np.array([class_of[_edge_class(edge)] for edge in ordered], np.int32),
+        lengths=tuple(one.length for one in classes),
+        speed_limits=_unless_all(None, [one.max_speed for one in classes]),
+        barred=_unless_all(frozenset(), [one.barred for one in classes]),
+        surcharges=_unless_all(Fraction(0), [one.surcharge for one in classes]),
+        barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
         frame=frame or Frame(y_up=y_up),
@@ -449,12 +501,32 @@ def roadmap_of_edges(
     )
 
 
+class _EdgeClass(NamedTuple):
+    """What edges of one length class have in common."""
+
+    length: Fraction
+    max_speed: Fraction | None
+    barred: frozenset[str]
+    surcharge: Fraction
+
+
+def _edge_class(edge: Edge) -> _EdgeClass:
+    return _EdgeClass(edge.length, edge.max_speed, edge.barred, edge.surcharge)
+
+
+def _unless_all(usual: T, values: Sequence[T]) -> tuple[T, ...]:
+    """Return the values, or nothing where all are as usual."""
+    return () if all(value == usual for value in values) else tuple(values)
+
+
 def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
     if not ids:
         raise InputError.at("", "the roadmap has no vertex (give at least one)")
     seen: set[tuple[str, str]] = set()
     for index, edge in enumerate(edges):
         fault = _edge_fault(edge, ids, seen)
+        if not fault and edge.surcharge < 0:
+            fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"
         if fault:
             raise InputError.at(f"edges[{index}]", fault)
         seen.add((edge.tail, edge.head))

@@ -76,6 +76,8 @@ class Robot:
         How often it makes its round trip, if that differs from the rules.
     radius
         Radius of the circle that it needs [length unit], not negative; 0 for a point.
+    type
+        The name of its type, by which edges and vertices may be barred; None for none.
 
     Raises
     ------
@@ -91,6 +93,7 @@ class Robot:
     ends: TripEnd | None = None
     laps: int | None = None
     radius: Fraction = Fraction(0)
+    type: str | None = None
 
     def __post_init__(self) -> None:
         coerced(
@@ -104,6 +107,7 @@ class Robot:
             ends=optional(word_of(TripEnd)),
             laps=optional(whole_number),
             radius=number,
+            type=optional(text),
         )
 
     def __repr__(self) -> str:

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field, replace
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.above import from_above
+from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.problem import Problem, problem_of
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import too_short_edges
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
-from rightofway.model.units import Clock
+from rightofway.model.units import Clock, VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +30,8 @@ class Scenario:
         What holds for the whole fleet.
     clock
         The clock to keep, where this is what is left of another scenario; else one is chosen.
+    closures
+        Vertices and edges that nobody may book for a while.
     units
         What lengths and times are measured in; only for people, no plan depends on it.
     problem
@@ -45,18 +48,25 @@ class Scenario:
     rules: Rules = field(default_factory=Rules)
     clock: Clock | None = None
     units: Units = field(default_factory=Units)
+    closures: tuple[Closure, ...] = ()
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         faults = list(_kind_faults(self))
         if not faults:
             object.__setattr__(self, "robots", tuple(self.robots))
+            object.__setattr__(self, "closures", tuple(self.closures))
             object.__setattr__(self, "rules", _resolved(self))
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
+            for index, closure in enumerate(self.closures):
+                found = closure_faults(closure, self.roadmap)
+                faults += [fault.within(f"closures[{index}]") for fault in found]
         if faults:
             raise InputError(faults)
         object.__setattr__(
-            self, "problem", problem_of(self.roadmap, self.robots, self.rules, self.clock)
+            self,
+            "problem",
+            problem_of(self.roadmap, self.robots, self.rules, self.clock, self.closures),
         )
 
     def __repr__(self) -> str:
@@ -98,6 +108,14 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
             yield InputFault(f"robots[{index}]", f"{shown(robot)} is no robot (give a Robot)")
     if not isinstance(rules, Rules):
         yield InputFault("rules", f"{shown(rules)} are no rules (give Rules)")
+    if not isinstance(scenario.closures, list | tuple):
+        message = f"{shown(scenario.closures)} are no closures (give a list of Closure)"
+        yield InputFault("closures", message)
+    else:
+        for index, closure in enumerate(scenario.closures):
+            if not isinstance(closure, Closure):
+                message = f"{shown(closure)} is no closure (give a Closure)"
+                yield InputFault(f"closures[{index}]", message)
     if not isinstance(scenario.units, Units):
         yield InputFault("units", f"{shown(scenario.units)} are no units (give Units)")
 
@@ -173,7 +191,7 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
 def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     yield from _number_faults(robot)
     yield from _turn_faults(robot.turn, "turn", scenario.roadmap)
-    yield from _place_faults(robot, scenario.roadmap.n_vertices)
+    yield from _place_faults(robot, scenario.roadmap)
     laps = scenario.rules.laps if robot.laps is None else robot.laps
     if (robot.ends or scenario.rules.ends) == "none" and laps > 1:
         message = f"{laps} laps need a way back (set return: home, or laps: 1)"
@@ -198,7 +216,8 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
             yield InputFault(f"stops[{index}].work", f"{stop.work} is negative (give 0 or more)")
 
 
-def _place_faults(robot: Robot, n_vertices: int) -> Iterator[InputFault]:
+def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
+    n_vertices = roadmap.n_vertices
     places: Iterable[tuple[str, int]] = [
         ("home", robot.home),
         *((f"stops[{index}].at", stop.at) for index, stop in enumerate(robot.stops)),
@@ -208,3 +227,6 @@ def _place_faults(robot: Robot, n_vertices: int) -> Iterator[InputFault]:
             yield InputFault(
                 place, f"vertex {vertex} is not on the roadmap (give 0 to {n_vertices - 1})"
             )
+        elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
+            message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
+            yield InputFault(place, f"{message} (give the robot another place, or another type)")

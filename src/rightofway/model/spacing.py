@@ -86,7 +86,13 @@ def split_lanes(
         if count > 1:
             pieces[edge.tail, edge.head] = list(pairwise(way))
         split += [
-            replace(edge, tail=tail, head=head, length=edge.length / count)
+            replace(
+                edge,
+                tail=tail,
+                head=head,
+                length=edge.length / count,
+                surcharge=edge.surcharge / count,
+            )
             for tail, head in pairwise(way)
         ]
     return SplitLanes(found, split, pieces)

@@ -164,6 +164,15 @@ def word_of(kind: Any) -> Callable[[object], object]:
     return read
 
 
+def names(value: object) -> frozenset[str]:
+    """Return a set of names."""
+    if isinstance(value, list | tuple | set | frozenset) and all(
+        isinstance(name, str) for name in value
+    ):
+        return frozenset(value)
+    raise ValueError(f"{shown(value)} are no names (give a list of texts)")
+
+
 def text(value: object) -> str:
     """Return a name."""
     if isinstance(value, str):

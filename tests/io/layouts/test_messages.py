@@ -51,7 +51,7 @@ def told(**shape: Any) -> str:
             {"layout": "hall.lif.json"},
             (
                 "map.vehicle_type: lanes differ between vehicle types"
-                " (give one of forklift and tugger)"
+                " (give one of forklift and tugger, or each robot a type)"
             ),
         ),
         (

@@ -23,7 +23,11 @@ if TYPE_CHECKING:
 
 
 def laid_out(
-    document: MapDocument, file: Path, units: Units, radius: Callable[[], Fraction]
+    document: MapDocument,
+    file: Path,
+    units: Units,
+    radius: Callable[[], Fraction],
+    types: Callable[[], frozenset[str | None]],
 ) -> LoadedMap:
     """Return the map of a layout's file.
 
@@ -43,6 +47,7 @@ def laid_out(
         roadmap, lacks = roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
+            robot_types=types(),
             metre=1 / metres,
             second=1 / seconds,
             spacing=document.spacing,

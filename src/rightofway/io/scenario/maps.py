@@ -101,17 +101,20 @@ def map_of(
     base: Path | None,
     units: Units,
     radius: Callable[[], Fraction],
+    *,
+    types: Callable[[], frozenset[str | None]] = frozenset,
 ) -> LoadedMap | None:
     """Make the roadmap of a map document; None where a floor's cells depend on unknown speeds.
 
     The speeds of the whole fleet [length units per time unit] are for node clustering, the largest
-    radius [length unit] is for maps that are pictures. Files are relative to the directory
+    radius [length unit] is for maps that are pictures, the types of all robots (None for a robot
+    without one) for layouts whose lanes are reserved for types. Files are relative to the directory
     ``base``; without one, none may be read. Units are those that the scenario names.
     """
     if document.layout is not None:
         from rightofway.io.scenario.layouts import laid_out
 
-        return laid_out(document, file_beside(base, document.layout), units, radius)
+        return laid_out(document, file_beside(base, document.layout), units, radius, types)
     if document.roadmap is not None:
         with under("roadmap"):
             return _drawn(document.roadmap, document)
@@ -254,7 +257,8 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
 def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
-    positions, lengths = document.vertices, list[Fraction | None]()
+    positions = {name: vertex.at for name, vertex in document.vertices.items()}
+    lengths = list[Fraction | None]()
     squares = {
         index: squared_distance(positions[edge.tail], positions[edge.head])
         for index, edge in enumerate(document.edges)
@@ -274,7 +278,16 @@ def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
                 message = f"leads from {tail!r} to {head!r} as edges[{earlier}] does (take one out)"
                 faults.note(place, message)
                 break
-            edges.append(Edge(tail=tail, head=head, length=length, max_speed=edge.max_speed))
+            edges.append(
+                Edge(
+                    tail=tail,
+                    head=head,
+                    length=length,
+                    max_speed=edge.max_speed,
+                    barred=frozenset(edge.barred),
+                    surcharge=edge.surcharge or Fraction(0),
+                )
+            )
     faults.stop()
     zones = [
         NamedZone(name=zone.name, vertices=tuple(zone.vertices), edges=tuple(zone.edges))
@@ -299,6 +312,8 @@ def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
         pieces=split.pieces,
         sides=sides,
         frame=frame,
+        barred={name: it.barred for name, it in document.vertices.items() if it.barred},
+        surcharges={name: it.surcharge for name, it in document.vertices.items() if it.surcharge},
     )
     return LoadedMap(
         roadmap=replace(roadmap, drawing=_places(document, roadmap)),

@@ -23,6 +23,7 @@ from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
+from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
@@ -108,7 +109,12 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
         found = map_of(
-            checked(MapDocument, data), speeds, base, units, lambda: _largest_radius(robots)
+            checked(MapDocument, data),
+            speeds,
+            base,
+            units,
+            lambda: _largest_radius(robots),
+            types=lambda: _types(robots),
         )
         return found if found is None or found.units.length else replace(found, units=units)
 
@@ -133,9 +139,11 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
         placed = _listed(robots, loaded, faults, deals=deals)
         if deals and loaded and placed:
             placed, more = _housed(placed, loaded, rules, faults)
+    closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
     if loaded and placed:
-        scenario = _assembled(loaded.roadmap, placed, rules, loaded.units, faults)
+        others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
+        scenario = _assembled(loaded.roadmap, placed, others, faults)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
@@ -219,6 +227,14 @@ def _largest_radius(robots: Sequence[Any] | _Rows) -> Fraction:
     return found
 
 
+def _types(robots: Sequence[Any] | _Rows) -> frozenset[str | None]:
+    """Return the types of the fleet; None stands for a robot without one."""
+    if isinstance(robots, _Rows):
+        return frozenset([None])
+    found = (robot.get("type") for robot in robots if isinstance(robot, dict))
+    return frozenset(name if isinstance(name, str) else None for name in found)
+
+
 def _place_of_laps(document: TripDocument, place: str) -> str:
     """Return where the document asks a robot without a way back for several laps."""
     if document.laps is not None:
@@ -240,11 +256,13 @@ def _listed(
         document = faults.attempt(place, checked, RobotDocument, data, on)
         if document is None or on is None or (document.home is None and not deals):
             continue
-        own = {**document.given("speed", "turn", "ends", "laps"), **document.space()}
+        own = {**document.given("speed", "turn", "ends", "laps", "type"), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
         home = HOMELESS if document.home is None else document.home
         robot = Robot(name=document.name, home=home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
+        if document.target is not None:
+            aliases["stops[0].at"] = f"{place}.target"
         placed.append(_Placed(robot=robot, place=place, aliases=aliases))
     return placed
 
@@ -318,17 +336,42 @@ def _check_map(row: ScenRow, on: LoadedMap) -> None:
         raise InputError.at(place, message)
 
 
+def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
+    """Return the closures, or raise all their faults; without a map, none."""
+    from rightofway.io.scenario.shape import ClosureDocument
+
+    if not isinstance(data, list):
+        remedy = "give a list of {at or edge, from, until, radius}"
+        raise InputError.at("", f"{shown(data)} is no list of closures ({remedy})")
+    faults, found = Faults(), list[Closure]()
+    for index, each in enumerate(data):
+        document = faults.attempt(f"[{index}]", checked, ClosureDocument, each, on)
+        if document is None or on is None:
+            continue
+        closure = Closure(
+            at=document.at,
+            edge=None if document.edge is None else (document.edge[0], document.edge[1]),
+            **document.given("from_", "until", "radius"),
+        )
+        for fault in closure_faults(closure, on.roadmap):
+            faults.note(f"[{index}].{fault.place}".rstrip("."), fault.message)
+        found.append(closure)
+    faults.stop()
+    return found
+
+
 def _assembled(
-    roadmap: Roadmap, placed: Sequence[_Placed], rules: Rules, units: Units, faults: Faults
+    roadmap: Roadmap, placed: Sequence[_Placed], others: dict[str, Any], faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(each.robot for each in placed)
-    stages = sum((len(robot.stops) + 1) * (robot.laps or rules.laps) for robot in robots)
+    laps = others["rules"].laps
+    stages = sum((len(robot.stops) + 1) * (robot.laps or laps) for robot in robots)
     try:
         if stages > MAX_STAGES:
             message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
             raise InputError.at("robots", f"{message} (give fewer laps)")
-        scenario = Scenario(roadmap=roadmap, robots=robots, rules=rules, units=units)
+        scenario = Scenario(roadmap=roadmap, robots=robots, **others)
         _check_ticks(scenario)
     except InputError as error:
         for fault in error.faults:

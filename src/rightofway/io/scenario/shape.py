@@ -36,6 +36,7 @@ from rightofway.model.resources import circle_around
 PLACES = kinds_of_places(None)
 TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
 RETURN = "home, or none"
+BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
 
@@ -74,6 +75,10 @@ class EdgeDocument(Document):
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
     max_speed: Positive = optional("its speed limit [length unit per time unit]; none by default")
+    barred: list[Name] = Field(default=[], description=BARRED)
+    surcharge: NotNegative = optional(
+        "what makes it less liked, not slower [time unit]; 0 by default"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -99,6 +104,28 @@ class EdgeDocument(Document):
         return {"anyOf": [array, dict(mapping)]}
 
 
+class VertexDocument(Document):
+    """A vertex with more than a position; ``[x, y]`` is short for one."""
+
+    at: Position = Field(description="[x, y] [length unit]")
+    barred: list[Name] = Field(default=[], description=BARRED)
+    surcharge: NotNegative = optional(
+        "what makes each edge into it less liked, not slower [time unit]; 0 by default"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_position(cls, data: Any) -> Any:
+        return data if isinstance(data, dict) else {"at": data}
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        mapping = handler.resolve_ref_schema(handler(core))
+        return {"anyOf": [mapping["properties"]["at"], dict(mapping)]}
+
+
 class ZoneDocument(Document):
     """Vertices and edges that hold one robot at a time."""
 
@@ -118,8 +145,8 @@ class ZoneDocument(Document):
 class RoadmapDocument(Document):
     """Named vertices and the ways between them."""
 
-    vertices: dict[Name, Position] = Field(
-        description="for each vertex its name and [x, y] [length unit]"
+    vertices: dict[Name, VertexDocument] = Field(
+        description="for each vertex its name and [x, y], or {at: [x, y], …} [length unit]"
     )
     edges: list[EdgeDocument] = Field(
         description="a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
@@ -278,6 +305,7 @@ class RobotDocument(TripDocument):
     speed: Positive = optional("length units per time unit, above 0; 1 by default")
     radius: NotNegative = optional("radius of the circle that it needs [length unit]")
     size: Size = optional("[length, width] instead of a radius: the circle around it [length unit]")
+    type: Name = optional("the name of its type, for edges and vertices that are barred for types")
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -333,6 +361,34 @@ class RulesDocument(TripDocument):
     )
 
 
+class ClosureDocument(Document):
+    """A vertex or an edge that nobody may use for a while."""
+
+    model_config = ConfigDict(
+        json_schema_extra=described(oneOf=[{"required": ["at"]}, {"required": ["edge"]}])
+    )
+
+    at: Place = optional(f"the place that is closed: {PLACES}")
+    edge: list[Place] = optional(
+        "[A, B] instead of at: both ends of an edge that is closed in both directions",
+        min_length=2,
+        max_length=2,
+    )
+    from_: NotNegative = optional("when it begins [time unit]; 0 by default", alias="from")
+    until: Positive = optional("when it ends [time unit]; left out: never")
+    radius: NotNegative = optional(
+        "what is nearer than this, a robot's radius and the clearance is closed for that robot,"
+        " too [length unit]"
+    )
+
+    @model_validator(mode="after")
+    def _check_one_place(self) -> Self:
+        if (self.at is None) == (self.edge is None):
+            what = "closes nothing" if self.at is None else "has both at and edge"
+            raise ValueError(f"{what} (give at, or edge)")
+        return self
+
+
 class UnitsDocument(Document):
     """What numbers are measured in, for people who read reports; none by default."""
 
@@ -351,6 +407,7 @@ class ScenarioFrame(Document):
     )
     robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
     rules: Any = optional("classic, or rules for the whole fleet")
+    closures: Any = optional("a list of {at or edge, from, until, radius}")
 
 
 class ScenarioDocument(ScenarioFrame):
@@ -364,3 +421,4 @@ class ScenarioDocument(ScenarioFrame):
     rules: Literal["classic"] | RulesDocument = optional(
         "classic (no turning, no way back), or rules for the whole fleet"
     )
+    closures: list[ClosureDocument] = optional("what nobody may use for a while")

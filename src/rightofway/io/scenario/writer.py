@@ -34,6 +34,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         **_units(scenario.units),
         "robots": [_robot(robot, roadmap) for robot in scenario.robots],
         "rules": _rules(scenario.rules),
+        **_closures(scenario),
     }
 
 
@@ -142,14 +143,16 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     down = (1.0, -1.0 if frame.y_up else 1.0)
     # The sum has no -0.0, which would be read as 0.0.
     positions = (roadmap.positions * down + (float(frame.x), float(frame.y))).tolist()
-    vertices = {name(vertex): position for vertex, position in enumerate(positions)}
+    vertices: dict[str, Any] = {name(vertex): position for vertex, position in enumerate(positions)}
+    for vertex, types in roadmap.barred_vertices.items():
+        vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
     edges = [
         {
             "from": name(tail),
             "to": name(int(roadmap.heads[edge])),
             "length": written(roadmap.lengths[roadmap.length_class[edge]]),
             "both_ways": False,
-            **_speed_limit(roadmap, edge),
+            **_of_class(roadmap, int(roadmap.length_class[edge])),
         }
         for tail in range(roadmap.n_vertices)
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
@@ -175,10 +178,31 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     }
 
 
-def _speed_limit(roadmap: Roadmap, edge: int) -> dict[str, Any]:
-    limits = roadmap.speed_limits
-    limit = limits[roadmap.length_class[edge]] if limits else None
-    return {} if limit is None else {"max_speed": written(limit)}
+def _of_class(roadmap: Roadmap, length_class: int) -> dict[str, Any]:
+    """Return what edges of a length class have beside their length."""
+    found: dict[str, Any] = {}
+    if roadmap.speed_limits and (limit := roadmap.speed_limits[length_class]) is not None:
+        found["max_speed"] = written(limit)
+    if roadmap.barred and (types := roadmap.barred[length_class]):
+        found["barred"] = sorted(types)
+    if roadmap.surcharges and (surcharge := roadmap.surcharges[length_class]):
+        found["surcharge"] = written(surcharge)
+    return found
+
+
+def _closures(scenario: Scenario) -> dict[str, Any]:
+    name = scenario.roadmap.name
+    found = []
+    for closure in scenario.closures:
+        times = {"from": closure.from_, "until": closure.until, "radius": closure.radius}
+        place = (
+            {"at": name(closure.at)}
+            if closure.edge is None and closure.at is not None
+            else {"edge": [name(end) for end in closure.edge or ()]}
+        )
+        known = {key: written(value) for key, value in times.items() if value is not None}
+        found.append({**place, **known})
+    return {"closures": found} if found else {}
 
 
 def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
@@ -195,6 +219,7 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         **trip,
         "speed": written(robot.speed),
         **({"radius": written(robot.radius)} if robot.radius else {}),
+        **({} if robot.type is None else {"type": robot.type}),
         **{key: value for key, value in own.items() if value is not None},
     }
 

@@ -1,0 +1,333 @@
+"""Closures: vertices and edges that nobody may book for a while.
+
+A closure is a booking of nobody. It takes *rows*, as robots of each size class book them: see
+`rightofway.model.resources`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputFault
+from rightofway.model.geometry import Point, squared_distance
+from rightofway.model.resources import exact_positions
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.units import NEVER, Clock, Tick, VertexId
+from rightofway.model.values import coerced, number, optional, vertex
+
+Lane = tuple[VertexId, VertexId]
+"""The two ends of a lane, whichever way it is driven."""
+
+LEEWAY = 1e-9
+"""Distances in floating point leave out only what is farther off by this part of the roadmap."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Closure:
+    """A vertex, or an edge in both directions, that nobody may book for a while.
+
+    Attributes
+    ----------
+    at
+        The vertex; None for an edge.
+    edge
+        The vertices at both ends of the edge; None for a vertex. A lane that `spacing` has split is
+        meant as a whole.
+    from_
+        When it begins [time unit].
+    until
+        When it ends [time unit]; None for never.
+    radius
+        What is nearer to the vertex or edge than this, the radius of a robot and the clearance is
+        closed for that robot, too [length unit]; None for the vertex or edge alone.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
+    """
+
+    at: VertexId | None = None
+    edge: Lane | None = None
+    from_: Fraction = Fraction(0)
+    until: Fraction | None = None
+    radius: Fraction | None = None
+
+    def __post_init__(self) -> None:
+        coerced(
+            self,
+            "closure",
+            at=optional(vertex),
+            edge=optional(_ends),
+            from_=number,
+            until=optional(number),
+            radius=optional(number),
+        )
+
+
+def _ends(value: object) -> Lane:
+    if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (two ends)
+        return vertex(value[0]), vertex(value[1])
+    raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
+
+
+def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
+    """Yield what is wrong with a closure.
+
+    Parameters
+    ----------
+    closure
+        The closure.
+    roadmap
+        What it closes a part of.
+    """
+    if (closure.at is None) == (closure.edge is None):
+        yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
+    if closure.from_ < 0:
+        yield InputFault("from", f"{closure.from_} is negative (give 0 or more)")
+    if closure.until is not None and closure.until <= closure.from_:
+        message = f"{closure.until} is not after from, {closure.from_}"
+        yield InputFault("until", f"{message} (give a later time, or leave it out: for ever)")
+    if closure.radius is not None and closure.radius < 0:
+        yield InputFault("radius", f"{closure.radius} is negative (give 0 or more)")
+    places = [("at", closure.at)] if closure.edge is None else [("edge", v) for v in closure.edge]
+    unknown = [
+        (key, place)
+        for key, place in places
+        if place is not None and not 0 <= place < roadmap.n_vertices
+    ]
+    for key, place in unknown:
+        last = roadmap.n_vertices - 1
+        yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
+    if closure.edge is not None and not unknown and not pieces_of(roadmap, closure.edge):
+        one, other = map(roadmap.name, closure.edge)
+        yield InputFault("edge", f"no edge joins {one} and {other} (name the ends of an edge)")
+
+
+def pieces_of(roadmap: Roadmap, lane: Lane) -> tuple[VertexId, ...]:
+    """Return the vertices along a lane, both ends included; empty if there is no such lane.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and edges.
+    lane
+        Both ends of an edge, or of a lane that `split_lanes` has split.
+    """
+    tail, head = lane
+    if any(roadmap.edge(*ends) is not None for ends in (lane, lane[::-1])):
+        return lane
+    if roadmap.labels is None:
+        return ()
+    for begin, end in ((tail, head), (head, tail)):
+        inside: list[VertexId] = []
+        try:
+            while True:
+                name = f"{roadmap.name(begin)}-{roadmap.name(end)}/{len(inside) + 1}"
+                inside.append(roadmap.vertex(name))
+        except KeyError:
+            pass
+        way = (begin, *inside, end)
+        if inside and all(
+            roadmap.edge(*ends) is not None or roadmap.edge(*ends[::-1]) is not None
+            for ends in pairwise(way)
+        ):
+            return way
+    return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Closures:
+    """The bookings of nobody, by row, then by time; those of one row neither overlap nor touch.
+
+    Attributes
+    ----------
+    row
+        A vertex, or ``n_vertices`` + an edge, as robots of a size class book it: ``size *
+        (n_vertices + n_edges)`` more; int32, shape (n,).
+    start, end
+        The time [ticks]; `NEVER` without an end; int64, shape (n,).
+    n_vertices, n_edges
+        Vertices and edges of the roadmap.
+    size_of
+        Size class of each robot.
+    """
+
+    row: NDArray[np.int32]
+    start: NDArray[np.int64]
+    end: NDArray[np.int64]
+    n_vertices: int
+    n_edges: int
+    size_of: tuple[int, ...]
+    _of: dict[int, list[tuple[Tick, Tick]]] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        of: dict[int, list[tuple[Tick, Tick]]] = {}
+        for row, start, end in zip(
+            self.row.tolist(), self.start.tolist(), self.end.tolist(), strict=True
+        ):
+            of.setdefault(row, []).append((Tick(start), Tick(end)))
+        object.__setattr__(self, "_of", of)
+
+    @property
+    def close_edges(self) -> bool:
+        """Whether an edge is closed for some robot."""
+        resource = self.row % (self.n_vertices + self.n_edges)
+        return bool((resource >= self.n_vertices).any())
+
+    def at_vertex(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
+        """Return when a vertex is closed for a robot [ticks]."""
+        size = self.size_of[robot]
+        return self._of.get(size * (self.n_vertices + self.n_edges) + vertex, [])
+
+    def along_edge(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
+        """Return when an edge is closed for a robot [ticks]."""
+        return self.at_vertex(robot, self.n_vertices + edge)
+
+
+class _Closed(NamedTuple):
+    row: int
+    start: Tick
+    end: Tick
+
+
+def closures_of(
+    closures: Sequence[Closure],
+    roadmap: Roadmap,
+    radii: Sequence[Fraction],
+    clearance: Fraction,
+    clock: Clock,
+) -> Closures | None:
+    """Return the bookings of nobody, or None without a closure.
+
+    Parameters
+    ----------
+    closures
+        Valid closures.
+    roadmap
+        The vertices and edges.
+    radii
+        Radius of each robot [length unit].
+    clearance
+        Least distance between two robots of which one has a size [length unit].
+    clock
+        How long a tick is.
+    """
+    if not closures:
+        return None
+    sizes, n_rows = sorted(set(radii)), roadmap.n_vertices + roadmap.n_edges
+    found = list[_Closed]()
+    for closure in closures:
+        start = Tick(closure.from_ // clock.tick)
+        end = NEVER if closure.until is None else clock.ticks(closure.until)
+        for size, radius in enumerate(sizes):
+            reach = None if closure.radius is None else radius + closure.radius + clearance
+            found += [
+                _Closed(size * n_rows + resource, start, end)
+                for resource in _closed_resources(roadmap, closure, reach)
+            ]
+    merged = list[_Closed]()
+    for one in sorted(found):
+        if merged and merged[-1].row == one.row and one.start <= merged[-1].end:
+            merged[-1] = merged[-1]._replace(end=max(merged[-1].end, one.end))
+        else:
+            merged.append(one)
+    return Closures(
+        row=np.array([one.row for one in merged], np.int32),
+        start=np.array([one.start for one in merged], np.int64),
+        end=np.array([one.end for one in merged], np.int64),
+        n_vertices=roadmap.n_vertices,
+        n_edges=roadmap.n_edges,
+        size_of=tuple(sizes.index(radius) for radius in radii),
+    )
+
+
+def _closed_resources(roadmap: Roadmap, closure: Closure, reach: Fraction | None) -> set[int]:
+    """Return the vertices and edges that are closed for robots; edges are numbered after vertices.
+
+    ``reach`` is the distance below which what is near is closed, too; None for nothing.
+    """
+    way = (closure.at,) if closure.edge is None else pieces_of(roadmap, closure.edge)
+    way = tuple(place for place in way if place is not None)
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+    edges = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
+    own = {ends for pair in pairwise(way) for ends in (pair, pair[::-1])}
+    closed = {roadmap.n_vertices + edge for edge, ends in enumerate(edges) if ends in own}
+    closed.update(way if closure.edge is None else way[1:-1])
+    if not reach:
+        return closed
+    kept = set() if closure.edge is None else {way[0], way[-1]}
+    at = exact_positions(roadmap)
+    shape = [at[place] for place in way]
+    segments = list(pairwise(shape)) or [(shape[0], shape[0])]
+    drawn = _drawn(roadmap)
+    for place in _boxed(drawn, drawn, segments, reach):
+        if place not in kept and _nearer((at[place], at[place]), segments, reach):
+            closed.add(place)
+    for edge in _boxed(drawn[tails], drawn[roadmap.heads], segments, reach):
+        tail, head = edges[edge]
+        if not kept & {tail, head} and _nearer((at[tail], at[head]), segments, reach):
+            closed.add(roadmap.n_vertices + edge)
+    return closed
+
+
+Segment = tuple[Point, Point]
+
+
+def _drawn(roadmap: Roadmap) -> NDArray[np.float64]:
+    """Return the positions in floating point; shape (V, 2)."""
+    if roadmap.grid is None:
+        return roadmap.positions
+    rows, columns = np.divmod(roadmap.grid.cells, roadmap.grid.columns)
+    return np.column_stack((columns, rows)) * float(roadmap.grid.cell_size)
+
+
+def _boxed(
+    one: NDArray[np.float64],
+    other: NDArray[np.float64],
+    segments: Sequence[Segment],
+    reach: Fraction,
+) -> list[int]:
+    """Return which straight lines may come within reach of segments, by boxes around both."""
+    points = np.array([[float(x) for x in point] for ends in segments for point in ends])
+    slack = float(reach) + LEEWAY * (np.abs(one).max() + float(reach))
+    low, high = points.min(axis=0) - slack, points.max(axis=0) + slack
+    meets = (np.maximum(one, other) >= low) & (np.minimum(one, other) <= high)
+    return np.flatnonzero(meets.all(axis=1)).tolist()
+
+
+def _nearer(one: Segment, others: Sequence[Segment], reach: Fraction) -> bool:
+    return any(_squared_gap(one, other) < reach**2 for other in others)
+
+
+def _squared_gap(one: Segment, other: Segment) -> Fraction:
+    """Return the squared distance of two segments, exactly."""
+    a, b = one
+    c, d = other
+    sides = _side(a, b, c) * _side(a, b, d), _side(c, d, a) * _side(c, d, b)
+    if sides[0] < 0 and sides[1] < 0:
+        return Fraction(0)
+    return min(_to_point(a, other), _to_point(b, other), _to_point(c, one), _to_point(d, one))
+
+
+def _side(a: Point, b: Point, c: Point) -> Fraction:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _to_point(point: Point, segment: Segment) -> Fraction:
+    """Return the squared distance of a point and a segment."""
+    (ax, ay), (bx, by) = segment
+    dx, dy = bx - ax, by - ay
+    square = dx * dx + dy * dy
+    if not square:
+        return squared_distance(point, segment[0])
+    share = ((point[0] - ax) * dx + (point[1] - ay) * dy) / square
+    share = min(max(share, Fraction(0)), Fraction(1))
+    return squared_distance(point, (ax + share * dx, ay + share * dy))
