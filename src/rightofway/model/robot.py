@@ -76,6 +76,9 @@ class Robot:
         How often it makes its round trip, if that differs from the rules.
     radius
         Radius of the circle that it needs [length unit], not negative; 0 for a point.
+    turn_rate
+        How fast it turns on the spot [degrees per time unit], positive, if that differs from the
+        rules.
 
     Raises
     ------
@@ -91,6 +94,7 @@ class Robot:
     ends: TripEnd | None = None
     laps: int | None = None
     radius: Fraction = Fraction(0)
+    turn_rate: Fraction | None = None
 
     def __post_init__(self) -> None:
         coerced(
@@ -104,6 +108,7 @@ class Robot:
             ends=optional(word_of(TripEnd)),
             laps=optional(whole_number),
             radius=number,
+            turn_rate=optional(number),
         )
 
     def __repr__(self) -> str:
@@ -129,7 +134,8 @@ class Rules:
     headway
         Least time between one robot leaving a vertex and the next entering it [time unit].
     turn
-        Turning time at each stop. None means ``cell`` on a grid and 0 on other roadmaps.
+        Turning time at each stop. None means ``cell`` on a grid, and 0 on other roadmaps and for
+        robots with a turn rate.
     ends
         Whether robots return home.
     laps
@@ -138,6 +144,9 @@ class Rules:
         Whether three or more robots may move round a circle all at one instant.
     clearance
         Least distance between two robots of which one has a radius [length unit].
+    turn_rate
+        How fast robots turn on the spot [degrees per time unit], positive. None: a change of
+        heading takes no time.
 
     Raises
     ------
@@ -152,6 +161,7 @@ class Rules:
     laps: int = 1
     rotations: bool = True
     clearance: Fraction = Fraction(0)
+    turn_rate: Fraction | None = None
 
     def __post_init__(self) -> None:
         coerced(
@@ -164,6 +174,7 @@ class Rules:
             laps=whole_number,
             rotations=truth,
             clearance=number,
+            turn_rate=optional(number),
         )
 
     @property

@@ -38,6 +38,7 @@ TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time
 RETURN = "home, or none"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
+TURN_RATE = "degrees per time unit that it turns on the spot, above 0; by default turns take no time"
 
 YAxis = Literal["down", "up"]
 
@@ -224,6 +225,7 @@ class TripDocument(Document):
     turn: Turning = optional(TURNING)
     ends: TripEnd = optional(RETURN, alias="return")
     laps: Count = optional(LAPS)
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotDocument(TripDocument):
