@@ -43,6 +43,12 @@ size_of, first, excluded : int32[R], int32[rows + 1], int32[n]
     Size class of each robot, and for each row the rows from which a booking of it excludes other
     robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
     edge as robots of one size class book it; the vertices come first.
+turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
+    How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
+    edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
+    ``turn_ticks[t * K + kind]`` ticks, and in no time where its class is -1.
+n_turn_kinds : int
+    K.
 
 Raises
 ------
@@ -57,7 +63,9 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
           const Ints& stage_vertex, const Ticks& stage_work, const Ticks& stage_turn,
           std::int32_t n_classes, Tick headway, bool books_ahead, bool rotations,
           const std::optional<Ints>& size_of, const std::optional<Ints>& first,
-          const std::optional<Ints>& excluded) {
+          const std::optional<Ints>& excluded, const std::optional<Ticks>& turn_offset,
+          const std::optional<Ints>& turn_kind, const std::optional<Ints>& turn_class,
+          const std::optional<Ints>& turn_ticks, std::int32_t n_turn_kinds) {
     const ProblemArrays arrays{view(indptr),      view(heads),        view(length_class),
                                view(paces),       view(pace_of),      view(home),
                                view(first_stage), view(stage_vertex), view(stage_work),
@@ -66,7 +74,12 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
     if (size_of && first && excluded) {
         resources = {view(*size_of), view(*first), view(*excluded)};
     }
-    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources);
+    TurnArrays turns;
+    if (turn_offset && turn_kind && turn_class && turn_ticks) {
+        turns = {view(*turn_offset), view(*turn_kind), view(*turn_class), view(*turn_ticks),
+                 n_turn_kinds};
+    }
+    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources, turns);
 }
 
 }  // namespace
@@ -78,11 +91,15 @@ void bind_problem(nb::module_& module) {
              array("stage_vertex"), array("stage_work"), array("stage_turn"), nb::arg("n_classes"),
              nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
              array("size_of").none() = nb::none(), array("first").none() = nb::none(),
-             array("excluded").none() = nb::none(), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+             array("excluded").none() = nb::none(), array("turn_offset").none() = nb::none(),
+             array("turn_kind").none() = nb::none(), array("turn_class").none() = nb::none(),
+             array("turn_ticks").none() = nb::none(), nb::arg("n_turn_kinds") = 0,
+             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
              nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
              nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
              nb::keep_alive<1, 10>(), nb::keep_alive<1, 11>(), nb::keep_alive<1, 16>(),
-             nb::keep_alive<1, 17>(), nb::keep_alive<1, 18>())
+             nb::keep_alive<1, 17>(), nb::keep_alive<1, 18>(), nb::keep_alive<1, 19>(),
+             nb::keep_alive<1, 20>(), nb::keep_alive<1, 21>(), nb::keep_alive<1, 22>())
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.");
 }

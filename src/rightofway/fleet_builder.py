@@ -63,7 +63,7 @@ class FleetBuilder:
         Edges that are longer are split into pieces of at most that length [length unit].
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
-        ``ends``, ``laps``, ``rotations``, ``clearance``.
+        ``ends``, ``laps``, ``rotations``, ``clearance``, ``turn_rate``.
 
     Raises
     ------
@@ -245,6 +245,7 @@ class FleetBuilder:
         laps: int | None = None,
         radius: Number | None = None,
         size: tuple[Number, Number] | None = None,
+        turn_rate: Number | None = None,
     ) -> Self:
         """Add a robot; the map must be complete.
 
@@ -267,6 +268,8 @@ class FleetBuilder:
             Radius of the circle that it needs [length unit]; a point by default.
         size
             Its length and width [length unit] instead of ``radius``: the circle around it.
+        turn_rate
+            How fast it turns on the spot [degrees per time unit], if that differs from the rules.
 
         Raises
         ------
@@ -296,6 +299,7 @@ class FleetBuilder:
                 ends=ends,
                 laps=laps,
                 radius=_radius(radius, size),
+                turn_rate=turn_rate,  # type: ignore[arg-type]
             )
         except InputError as error:
             raise InputError(error.faults, source) from None

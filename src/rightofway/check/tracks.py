@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
 from heapq import heappop, heappush
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
+from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
-from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
+from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId, decimal
 
 
-def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
-    """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
+def judge_drives(  # noqa: C901 (a function for the message of each kind of fault)
+    visits: Visits, names: Names, collector: FaultCollector
+) -> None:
+    """Find unknown vertices, jumps, drives that are too fast, cut turns, times that go backwards."""
 
     def robot(visit: int) -> str:
         return names.robot(int(visits.robot[visit]))
@@ -68,17 +72,28 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
 
         collector.add_all(kind, times[where], (visits.robot[where],), fault)
 
+    def turn_cut_short(visit: int) -> str:
+        drive, turn = visits.drive[visit], visits.turn[visit]
+        angle = decimal(Fraction(int(visits.angle[visit]), MICRO), 6)
+        return (
+            f"{robot(visit)} turns {angle} degrees at {vertex(visit)} in"
+            f" {names.duration(stay[visit] - drive)}, it needs {names.duration(turn)} (enter"
+            f" {vertex(visit + 1)} at {names.moment(visits.enter[visit] + turn + drive)} or later)"
+        )
+
     stay, moves, joined = visits.leave - visits.enter, ~visits.last, visits.edge >= 0
     both_known = visits.known & np.roll(visits.known, -1)
     report("unknown vertex", ~visits.known, unknown)
     report("backwards", moves & (stay < 0), backwards)
     report("jump", moves & both_known & ~joined, jump)
     report("too fast", joined & (stay >= 0) & (stay < visits.drive), too_fast)
+    turns = joined & (stay >= visits.drive) & (stay < visits.drive + visits.turn)
+    report("turn cut short", turns, turn_cut_short)
 
 
 def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
-    spare = np.maximum(visits.leave - visits.enter - visits.drive, 0).tolist()
+    spare = np.maximum(visits.leave - visits.enter - visits.drive - visits.turn, 0).tolist()
     begin = 0
     for robot, track in enumerate(plan.tracks):
         end = begin + len(track)
@@ -99,9 +114,10 @@ def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
 class _Trip:
     """A robot's track against its itinerary.
 
-    `spare` is how long each visit lasts beyond the drive that ends it, less what has been worked
-    there so far [ticks]; the last visit's counts for nothing, it never ends. `too_short` holds, for
-    each stage, which may recur in every lap, the visits that were: a heap of (-spare, visit).
+    `spare` is how long each visit lasts beyond the drive that ends it and the turn before, less
+    what has been worked there so far [ticks]; the last visit's counts for nothing, it never ends.
+    `too_short` holds, for each stage, which may recur in every lap, the visits that were: a heap of
+    (-spare, visit).
     """
 
     robot: int

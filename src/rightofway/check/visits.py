@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.check.turning import turns_of
 from rightofway.model import Plan, Roadmap
 
 SAFE = 2**60
@@ -33,6 +34,8 @@ class Visits:
     known: NDArray[np.bool_]  # whether the roadmap has the vertex
     edge: NDArray[np.int64]  # to the robot's next visit, -1 without one
     drive: NDArray[Any]  # of that edge for that robot, 0 without one [ticks]
+    angle: NDArray[np.int64]  # that the robot turns before that drive [1e-6 degrees]
+    turn: NDArray[Any]  # how long that turn takes [ticks]
 
 
 def visits_of(plan: Plan) -> Visits:
@@ -46,6 +49,7 @@ def visits_of(plan: Plan) -> Visits:
     robot = np.repeat(np.arange(len(lengths)), lengths)
     roadmap = plan.scenario.roadmap
     edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
+    angle, turn = turns_of(plan, robot, vertex, edge)
     return Visits(
         robot=robot,
         vertex=vertex,
@@ -55,6 +59,8 @@ def visits_of(plan: Plan) -> Visits:
         known=(vertex >= 0) & (vertex < roadmap.n_vertices),
         edge=edge,
         drive=_drives(plan, robot, edge, enter.dtype),
+        angle=angle,
+        turn=turn.astype(enter.dtype),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 from itertools import accumulate, chain, pairwise
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -37,6 +38,7 @@ def bound(problem: Problem) -> _core.Problem:
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
+        turning = _turning(problem)
         native = _BOUND[problem] = _core.Problem(
             indptr=roadmap.indptr,
             heads=roadmap.heads,
@@ -55,8 +57,30 @@ def bound(problem: Problem) -> _core.Problem:
             size_of=None if sizes is None else sizes.size_of,
             first=None if sizes is None else sizes.first,
             excluded=None if sizes is None else sizes.excluded,
+            **turning,
         )
     return native
+
+
+def _turning(problem: Problem) -> dict[str, Any]:
+    """Return how long robots turn; robots of one turn rate are a class."""
+    robots = problem.itineraries
+    classes = list({one.turning: None for one in robots if one.turning is not None})
+    if not classes:
+        return {}
+    angles = classes[0].angles
+    ticks = np.concatenate([one.ticks for one in classes])
+    if ticks.max(initial=0) > np.iinfo(np.int32).max:
+        raise OverflowError(f"a turn of {ticks.max()} ticks does not fit int32")
+    return {
+        "turn_offset": angles.offset,
+        "turn_kind": angles.kind,
+        "turn_class": np.array(
+            [-1 if one.turning is None else classes.index(one.turning) for one in robots], np.int32
+        ),
+        "turn_ticks": ticks.astype(np.int32),
+        "n_turn_kinds": len(angles.angles),
+    }
 
 
 def tracks_of(

@@ -25,6 +25,7 @@ from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
+from rightofway.model.turning import longest_turn
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-        return Rules(**given(*keys))
+        return Rules(**given(*keys, "turn_rate"))
 
     def units_of(data: Any) -> Units:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
@@ -256,11 +257,14 @@ def _listed(
         document = faults.attempt(place, checked, RobotDocument, data, on)
         if document is None or on is None or (document.home is None and not deals):
             continue
-        own = {**document.given("speed", "turn", "ends", "laps", "type"), **document.space()}
+        keys = ("speed", "turn", "ends", "laps", "type", "turn_rate")
+        own = {**document.given(*keys), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
         home = HOMELESS if document.home is None else document.home
         robot = Robot(name=document.name, home=home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
+        if document.turn_rate is None:
+            aliases["turn_rate"] = "rules.turn_rate"
         if document.target is not None:
             aliases["stops[0].at"] = f"{place}.target"
         placed.append(_Placed(robot=robot, place=place, aliases=aliases))
@@ -295,8 +299,10 @@ def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
     document, placed = robots.document, list[_Placed]()
     ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.given("turn", "ends", "laps", "radius")
-    aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
+    own = document.given("turn", "ends", "laps", "radius", "turn_rate")
+    rate = "rules.turn_rate" if document.turn_rate is None else "robots.turn_rate"
+    laps = _place_of_laps(document, "robots")
+    aliases = {"turn": "robots.turn", "laps": laps, "turn_rate": rate}
     dealt = zip(ends, speeds, works, strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
@@ -386,6 +392,7 @@ def _check_ticks(scenario: Scenario) -> None:
         problem.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
         *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
+        *(longest_turn(itinerary.turning) for itinerary in problem.itineraries),
     )
     if longest > MAX_TICKS:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"

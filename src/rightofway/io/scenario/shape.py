@@ -39,6 +39,7 @@ RETURN = "home, or none"
 BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
+TURN_RATE = "degrees per time unit of turns on the spot, above 0; by default turns take no time"
 
 YAxis = Literal["down", "up"]
 
@@ -283,6 +284,7 @@ class TripDocument(Document):
     turn: Turning = optional(TURNING)
     ends: TripEnd = optional(RETURN, alias="return")
     laps: Count = optional(LAPS)
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotDocument(TripDocument):

@@ -221,6 +221,7 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         **({"radius": written(robot.radius)} if robot.radius else {}),
         **({} if robot.type is None else {"type": robot.type}),
         **{key: value for key, value in own.items() if value is not None},
+        **_turn_rate(robot),
     }
 
 
@@ -238,4 +239,9 @@ def _rules(rules: Rules) -> dict[str, Any]:
         "laps": rules.laps,
         "rotations": rules.rotations,
         **({"clearance": written(rules.clearance)} if rules.clearance else {}),
+        **_turn_rate(rules),
     }
+
+
+def _turn_rate(of: Robot | Rules) -> dict[str, Any]:
+    return {} if of.turn_rate is None else {"turn_rate": written(of.turn_rate)}

@@ -339,7 +339,14 @@ def _executed_stays(
     waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
     waits[-1] = 0
     completion = Tick(int(track.enter[-1] + dwell[-1]))
-    return Stays(dwell=stood, drive=out, waits=waits, serves=(), completion=completion)
+    return Stays(
+        dwell=stood,
+        drive=out,
+        waits=waits,
+        turns=np.zeros_like(stood),
+        serves=(),
+        completion=completion,
+    )
 
 
 def _executed_stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:

@@ -110,6 +110,7 @@ class Words {
       case "rotation": return `${who} move round ${where} all at once`;
       case "jump": return `${who} jumps from ${places[0]} to ${places[1] ?? "nowhere"}`;
       case "too fast": return `${who} drives from ${places[0]} to ${places[1]} faster than it can`;
+      case "turn cut short": return `${who} turns at ${places[0]} faster than it can`;
       case "work cut short": return `${who} leaves ${where} before its work there is done`;
       case "stop missed": return `${who} does not come to its stop ${where}`;
       case "wrong home": return `${who} does not start at its home: it starts in ${where}`;
@@ -130,6 +131,7 @@ class Words {
       rotation: "The rules forbid rotations: let one wait until its place is empty.",
       jump: "No way joins these two places.",
       "too fast": "Let the drive take as long as the robot needs.",
+      "turn cut short": "Let it stay until it has turned.",
       "work cut short": "Let it stay until its work and turning are done.",
       "stop missed": "Let it visit its stops in their order.",
       "wrong home": "Let it start at its home at time 0.",
