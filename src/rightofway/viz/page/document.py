@@ -28,11 +28,12 @@ FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
 
 SCRIPTS = (
-    "observable", "quantities", "phases", "plan", "floor", "steady", "fleet_memo",
+    "observable", "quantities", "phases", "roadmap", "plan", "floor", "steady", "fleet_memo",
     "motion", "clock", "corridor", "choice", "use", "words",
     "dom", "theme", "canvas", "shapes",
-    "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
-    "map_names", "map_tip", "scale_bar", "map_view",
+    "viewport", "bottleneck", "map_sizes", "map_ground", "map_marks", "map_base", "map_route",
+    "map_robots", "space", "map_space", "label_board", "map_names", "map_tip", "scale_bar",
+    "map_view",
     "axis", "steady_band", "space_axis", "space_time", "robot_rows", "census", "diagram",
     "virtual_list", "find", "robot_list", "decision_list", "fault_list", "comparison", "card",
     "summary", "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper",

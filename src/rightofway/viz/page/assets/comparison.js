@@ -13,8 +13,9 @@ class Comparison {
     const lit = new Bottleneck(other, clock, this.otherChoice, theme, this.words);
     const canvas = document.getElementById("other-map");
     canvas.parentElement.hidden = false;
-    this.view = new MapView(
-      canvas, other, this.motion, ghosts, clock, this.otherChoice, theme, this.words, new Use(other), lit, false);
+    this.view = new MapView(canvas, other, theme, {
+      motion: this.motion, ghosts, clock, choice: this.otherChoice, words: this.words, bottleneck: lit,
+    });
     this.#linkViews(mapView);
     document.body.classList.add("compared");
     for (const [id, shown] of [["map-title", plan], ["other-title", other]]) this.#title(document.getElementById(id), shown);
@@ -58,7 +59,10 @@ class Comparison {
     choice.on("choice", () => otherChoice.chooseRobot(choice.robotIndex));
     otherChoice.on("choice", () => otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex));
     choice.on("heat", () => otherChoice.toggleHeat());
-    for (const event of ["choice", "heat"]) otherChoice.on(event, () => (this.view.base.stale = true));
+    choice.on("space", () => {
+      if (otherChoice.space !== choice.space) otherChoice.toggleSpace();
+    });
+    for (const event of ["choice", "heat", "space"]) otherChoice.on(event, () => (this.view.base.stale = true));
   }
 
   /** Both maps show the same part. */

@@ -19,6 +19,7 @@ function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     0: () => viewport.fit(),
     h: () => choice.toggleHeat(),
     c: () => choice.toggleCorridor(),
+    s: () => choice.plan.hasSpace && choice.toggleSpace(),
     b: () => choice.toggleBottleneck(),
     l: () => loop.toggle(),
     f: () => modeSwitch.next(),

@@ -5,6 +5,11 @@ function line(context, fromX, fromY, toX, toY) {
   context.lineTo(toX, toY);
 }
 
+/** A point in a path that is stroked with round caps. */
+function dot(path, x, y) {
+  line(path, x, y, x + 1e-4, y); // a line of no length need not be drawn
+}
+
 /** An arrow head with its middle at a point, in the present stroke. */
 function chevron(context, x, y, angle, size) {
   const [along, across] = [Math.cos(angle) * size, Math.sin(angle) * size];

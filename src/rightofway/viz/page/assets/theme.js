@@ -29,7 +29,7 @@ class Theme extends Observable {
 
 const THEME_COLOURS = [
   "paper", "panel", "floor", "wall", "line", "ink", "muted", "heat-low", "heat-high",
-  "drive", "wait", "work", "turn", "held", "broken", "lit", "lit-edge",
+  "drive", "wait", "work", "turn", "held", "broken", "lit", "lit-edge", "zone",
 ];
 
 /** The channels of "#rrggbb", 0 to 255. */
