@@ -7,15 +7,25 @@ import io
 import os
 from dataclasses import dataclass
 from fractions import Fraction
+from math import cos, sin
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError
-from rightofway.model import Roadmap
+from rightofway.model import Point, Roadmap
+from rightofway.model.drawing import Picture
 from rightofway.viz.placement import plane_of
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 PLAIN_KINDS = {"PNG": "image/png", "JPEG": "image/jpeg", "WEBP": "image/webp"}
 """Kinds of pictures that every browser shows; others are converted to PNG."""
+
+MOST_PIXELS = 4096
+"""The longer side of a picture in the page; a larger one is made smaller."""
+
+OPACITY = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,6 +41,8 @@ class Background:
     origin
         The picture's lower left corner in the site's frame [length unit]. None puts it on the
         lower left corner of the map.
+    yaw
+        Angle by which the picture is turned about that corner, from the site's x to its y [rad].
     opacity
         From 0 to 1.
     """
@@ -38,7 +50,8 @@ class Background:
     picture: str | os.PathLike[str]
     scale: float | None = None
     origin: tuple[float, float] | None = None
-    opacity: float = 0.6
+    yaw: float = 0
+    opacity: float = OPACITY
 
     def __post_init__(self) -> None:
         if self.scale is not None and not self.scale > 0:
@@ -48,7 +61,7 @@ class Background:
             raise InputError.at("background.opacity", fault)
 
 
-def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
+def background_data(roadmap: Roadmap, background: Background | Picture) -> dict[str, Any]:
     """Return the picture and where it lies in the drawing, as plain data for JSON.
 
     Parameters
@@ -61,35 +74,39 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``href`` (a data URI), ``opacity``, and ``x``, ``y`` (the upper left corner), ``width`` and
-        ``height`` in units of the drawing.
+        ``href`` (a data URI), ``opacity``, and in units of the drawing ``x``, ``y`` (the upper left
+        corner), ``width`` and ``height``; ``turn`` is the angle by which the picture is turned
+        about that corner, from right to down [rad], left out where it is 0.
 
     Raises
     ------
     InputError
         If the file is no picture that can be read.
     """
-    href, columns, rows = _data_uri(background.picture)
-    plane = plane_of(roadmap)
-    margin = 0.0 if roadmap.grid is None else 0.5  # cells reach beyond their centres
-    left, bottom = -margin, plane.height - 1 + margin
-    if background.origin is not None:
-        x, y = roadmap.frame.to_plane(
-            (Fraction(background.origin[0]), Fraction(background.origin[1]))
-        )
-        left = (float(x) - plane.corner[0]) / plane.unit
-        bottom = (float(y) - plane.corner[1]) / plane.unit
-    pixel = (plane.width - 1 + 2 * margin) / columns
-    if background.scale is not None:
-        pixel = background.scale / plane.unit
-    return {
-        "href": href,
-        "opacity": background.opacity,
-        "x": left,
-        "y": bottom - rows * pixel,
-        "width": columns * pixel,
-        "height": rows * pixel,
-    }
+    file = background.file if isinstance(background, Picture) else background.picture
+    href, columns, rows = _data_uri(file)
+    plane, frame = plane_of(roadmap), roadmap.frame
+
+    def drawn(point: Point) -> tuple[float, float]:
+        x, y = frame.to_plane(point)
+        return (float(x) - plane.corner[0]) / plane.unit, (float(y) - plane.corner[1]) / plane.unit
+
+    turn = float(Fraction(background.yaw) - frame.yaw) * (-1 if frame.y_up else 1)
+    if isinstance(background, Picture):
+        opacity, pixel = OPACITY, float(background.pixel) / plane.unit
+        x, y = drawn(background.corner)
+    else:
+        margin = 0.0 if roadmap.grid is None else 0.5  # cells reach beyond their centres
+        opacity, pixel = background.opacity, (plane.width - 1 + 2 * margin) / columns
+        if background.scale is not None:
+            pixel = background.scale / plane.unit
+        x, y = -margin, plane.height - 1 + margin
+        if background.origin is not None:
+            x, y = drawn((Fraction(background.origin[0]), Fraction(background.origin[1])))
+        x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
+    found = {"href": href, "opacity": opacity, "x": x, "y": y}
+    found |= {"width": columns * pixel, "height": rows * pixel}
+    return {**found, "turn": turn} if turn else found
 
 
 def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
@@ -101,13 +118,23 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             image.load()
             kind, (columns, rows) = PLAIN_KINDS.get(image.format or ""), image.size
             content = io.BytesIO()
-            if kind is None:
-                image.convert("RGBA" if "A" in image.getbands() else "L").save(content, "png")
+            if kind is None or max(columns, rows) > MOST_PIXELS:
+                kind = None
+                kept = image.convert(_mode(image))
+                kept.thumbnail((MOST_PIXELS, MOST_PIXELS))
+                kept.save(content, "png")
             else:
                 content.write(Path(path).read_bytes())
-    except (OSError, ValueError, SyntaxError) as error:
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError.at(
             str(path), "is no picture that can be read (give a PNG, JPEG or PGM file)"
         ) from error
     encoded = base64.b64encode(content.getvalue()).decode()
     return f"data:{kind or 'image/png'};base64,{encoded}", columns, rows
+
+
+def _mode(image: Image) -> str:
+    """Return the mode that a PNG keeps the colours of a picture in."""
+    if "A" in image.getbands() or "transparency" in image.info:
+        return "RGBA"
+    return "L" if image.mode in {"1", "L", "I", "F"} or image.mode.startswith("I;") else "RGB"

@@ -1,7 +1,6 @@
 """The page as one HTML document that needs no other file, and as a frame for notebooks.
 
-The scripts under ``assets/`` are plain classic scripts, one concept each, that share one scope;
-they are put into the page without comments and indentation, each in an element of its own.
+Its scripts stand in the page in the order in which they run, each in an element of its own.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import os
 import re
 from collections.abc import Sequence
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from rightofway.errors import NoPlanExists
@@ -22,23 +20,11 @@ from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.scripts import asset, classic_script, scripts_of
 from rightofway.viz.palette import DARK, LIGHT
 
 FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
-
-SCRIPTS = (
-    "observable", "quantities", "phases", "plan", "floor", "steady", "fleet_memo",
-    "motion", "clock", "corridor", "choice", "use", "words",
-    "dom", "theme", "canvas", "shapes",
-    "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
-    "map_names", "map_tip", "scale_bar", "map_view",
-    "axis", "steady_band", "space_axis", "space_time", "robot_rows", "census", "diagram",
-    "virtual_list", "find", "robot_list", "decision_list", "fault_list", "comparison", "card",
-    "summary", "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper",
-    "keys", "main",
-)  # fmt: skip
-"""In the order they run; each may use those before it at once, and all others later."""
 
 MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})
 """Escapes that mean the same in JSON, and nothing in HTML."""
@@ -85,7 +71,7 @@ def page_of(
         If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
     """
     style = style_sheet()
-    scripts = [lean_script(name) for name in SCRIPTS]
+    scripts = [classic_script(name) for name in scripts_of("main")]
     count = len(plan.scenario.robots)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
@@ -205,15 +191,3 @@ def style_sheet() -> str:
 def _hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"
-
-
-@cache
-def lean_script(name: str) -> str:
-    """Return a script without comments that fill lines and without indentation: a fifth less."""
-    return re.sub(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*", "", asset(f"{name}.js"))
-
-
-@cache
-def asset(name: str) -> str:
-    """Return the text of a file under ``assets/``."""
-    return files(__package__).joinpath("assets", name).read_text("utf-8")

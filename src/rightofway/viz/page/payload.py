@@ -6,7 +6,7 @@ route these are small and repeat, so the file is a fraction of the size. ``plan.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -20,7 +20,6 @@ from rightofway.metrics import Metrics, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
-    Grid,
     Loss,
     LostTime,
     Plan,
@@ -34,16 +33,17 @@ from rightofway.model import (
 )
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
-from rightofway.viz.page.background import Background, background_data
+from rightofway.viz.page.background import Background
+from rightofway.viz.page.map_data import differences, map_data
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import Plane, edge_length, plane_of, vertices_in_line
+from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, verdict_on
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
 
 DECIMALS = 3
-"""Decimals of a position; a thousandth of a cell cannot be seen."""
+"""Decimals of a place in the diagram; a thousandth of a length unit cannot be seen."""
 
 LOSSES = ("waits", "follows", "makes room")
 """Kinds of lost time; the page is given their places in this list."""
@@ -81,7 +81,7 @@ def payload_of(
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
-        "map": _map(scenario.roadmap),
+        "map": map_data(scenario.roadmap, room=room_of(scenario), background=background),
         "line": _line(scenario.roadmap, trips, trips_of(other[0]) if other else ()),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
@@ -100,8 +100,8 @@ def payload_of(
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
-    if background is not None:
-        payload["map"]["background"] = background_data(scenario.roadmap, background)
+    if scenario.rules.clearance:
+        payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
         payload["floor"] = _execution(plan, actual, trips)
     if no_plan is not None:
@@ -111,6 +111,12 @@ def payload_of(
         _refuse_other_scenario(plan, *other)
         payload["other"] = {**payload_of(other[0], title=other[1]), "map": {}}
     return payload
+
+
+def room_of(scenario: Scenario) -> Fraction:
+    """Return the distance that the two largest robots need [length unit]; 0 for points."""
+    radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
+    return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
 
 
 def _refuse_other_scenario(plan: Plan, other: Plan, title: str) -> None:
@@ -151,54 +157,6 @@ def _improvement(run: PlannerRun) -> dict[str, Any]:
     return {} if made is None else {"saved": made.saved, "tries": made.tries}
 
 
-def _map(roadmap: Roadmap) -> dict[str, Any]:
-    plane = plane_of(roadmap)
-    size = {
-        "width": round(plane.width, DECIMALS),
-        "height": round(plane.height, DECIMALS),
-        "frame": _frame(plane, roadmap),
-    }
-    if roadmap.grid is not None:
-        return {**size, "rows": roadmap.grid.lines(), **_obstacles(roadmap, roadmap.grid)}
-    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-    return {
-        **size,
-        "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
-        "points": np.round(plane.points, DECIMALS).ravel().tolist(),
-        "tails": _differences(tails.tolist()),
-        "heads": _differences(roadmap.heads.tolist()),
-        "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
-        **_sides(roadmap, plane.unit),
-    }
-
-
-def _sides(roadmap: Roadmap, unit: float) -> dict[str, Any]:
-    """Return how wide the square round each vertex is in the drawing, where there are squares."""
-    if roadmap.sides is None:
-        return {}
-    return {"sides": np.round(roadmap.sides / unit, DECIMALS).tolist()}
-
-
-def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:
-    """Return the named obstacles: name, left, top, width and height in the drawing."""
-    size, found = grid.cell_size, []
-    low = grid.rows * size - size / 2
-    left, bottom = roadmap.frame.to_site((-size / 2, low))
-    for it in roadmap.obstacles:
-        down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
-        sides = (it.x - left - size / 2, low + down, it.width, it.height)
-        found.append([it.name, *(round(float(side / size), DECIMALS) for side in sides)])
-    return {"obstacles": found} if found else {}
-
-
-def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
-    """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
-    left, top = map(Fraction, plane.corner)
-    x, y = roadmap.frame.to_site((left, top))
-    found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
-    return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
-
-
 def _line(roadmap: Roadmap, trips: Sequence[Trip], others: Sequence[Trip]) -> list[list[float]]:
     """Return the places over time of a small fleet: vertex and distance along the line.
 
@@ -221,11 +179,12 @@ def _robots(
             "name": robot.name,
             "colour": colours[index],
             "speed": str(robot.speed),
+            **({"radius": float(robot.radius)} if robot.radius else {}),
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
             "lost": [lost[index].detours, lost[index].making_room, lost[index].waiting],
-            "vertices": _differences(trip.vertices),
-            "enter": _differences(trip.enter),
+            "vertices": differences(trip.vertices),
+            "enter": differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),
             "stages": [
                 [stage.vertex, stage.work, stage.turn, visit]
@@ -312,8 +271,8 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
         is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
         robot = {
             "stages": _executed_stages(planned if is_planned else taken, dwell),
-            **({} if is_planned else {"vertices": _differences(taken.vertices)}),
-            "enter": _differences(taken.enter),
+            **({} if is_planned else {"vertices": differences(taken.vertices)}),
+            "enter": differences(taken.enter),
             "drive": drive.tolist(),
             "still": [list(stoppage) for stoppage in stoppages],
             "completion": completion,
@@ -363,12 +322,6 @@ def _executed_stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
         else [stage.vertex, stage.work, stage.turn, -1]
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
-
-
-def _differences(numbers: Iterable[int]) -> list[int]:
-    """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
-    found: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
-    return found
 
 
 def _loss(loss: Loss) -> list[int | None]:

@@ -1,10 +1,10 @@
-"use strict";
+import { MODES } from "./mode_switch.js";
 
 /** Whether the page is part of another one, such as a notebook. */
-const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
+export const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
 
 /** Keeps moment and choice in the address, so that a link shows what its sender saw. */
-class DeepLink {
+export class DeepLink {
   #timer = 0;
 
   constructor(plan, clock, choice) {

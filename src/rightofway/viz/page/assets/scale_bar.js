@@ -1,4 +1,4 @@
-"use strict";
+import { haloed } from "./shapes.js";
 
 const LONGEST_BAR = 130; // pixels
 
@@ -10,7 +10,7 @@ function roundLength(perPixel) {
 }
 
 /** How long a length is on the map, at its lower right corner. */
-function paintScaleBar(context, width, height, plan, { scale }, theme) {
+export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   const length = roundLength(plan.roadmap.unit / scale);
   const wide = (length / plan.roadmap.unit) * scale;
   const [right, bottom] = [width - 18, height - 10];

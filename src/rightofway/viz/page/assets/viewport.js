@@ -1,4 +1,5 @@
-"use strict";
+import { EMBEDDED } from "./deep_link.js";
+import { Observable } from "./observable.js";
 
 const LARGEST_CELL = 400; // pixels
 const LARGEST_FITTED = { cell: 190, edge: 320 }; // pixels; an edge that is as long as a unit
@@ -8,7 +9,7 @@ const LEGEND_HEIGHT = 34; // pixels below the map: scale bar, legends
  * Which part of the map is shown, and how large. Dragging pans, wheel and two fingers zoom.
  * Tells `view` when it changes, `click` and `hover` with `pointer` in map units.
  */
-class Viewport extends Observable {
+export class Viewport extends Observable {
   constructor(canvas, roadmap) {
     super();
     this.canvas = canvas;

@@ -1,9 +1,10 @@
-"use strict";
+import { BROKEN } from "./phases.js";
+import { FOLLOWS, MAKES_ROOM } from "./robot.js";
 
-const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
+export const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
 
 /** "R1, R2 and R3"; the first few of many. */
-function several(names) {
+export function several(names) {
   if (names.length > 4) return `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
   return names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
 }
@@ -15,12 +16,17 @@ function isTie({ level, completionSums }) {
 
 const EQUAL_CONFLICTS = "either choice leaves as many conflicts in the whole system";
 
+/** A length without the noise of floating point. */
+function rounded(length) {
+  return Number(length.toPrecision(9));
+}
+
 function upperFirst(text) {
   return text[0].toUpperCase() + text.slice(1);
 }
 
 /** Durations as people write them, names, and sentences made of them. */
-class Words {
+export class Words {
   constructor(plan) {
     this.plan = plan;
   }
@@ -58,6 +64,12 @@ class Words {
   loss(loss, robot) {
     const more = robot.planned ? robot.unplanned(loss) : 0;
     return more > 0 ? `${this.#loss(loss)}, ${this.time(more)} more than planned` : this.#loss(loss);
+  }
+
+  /** How far two robots are apart, and how far they have to be: "0.95 m apart, 0.9 m needed". */
+  apart({ distance, room }) {
+    const { quantities } = this.plan;
+    return `${quantities.length(rounded(distance))} apart, ${quantities.length(rounded(room))} needed`;
   }
 
   /** Why a robot never gets on. */
@@ -105,6 +117,9 @@ class Words {
     const [who, where] = [several(names), several(places) ?? "a place that is not on the map"];
     switch (kind) {
       case "vertex conflict": return `${who} are both in ${where}`;
+      case "too close": return `${who} come nearer than their sizes allow, ${where}`;
+      case "space conflict": return `${who} book places that are too near to each other, ${where}`;
+      case "zone conflict": return `${who} are both in one zone, ${where}`;
       case "headway": return `${who} come to ${where} too soon after each other`;
       case "swap conflict": return `${who} drive through each other between ${where}`;
       case "rotation": return `${who} move round ${where} all at once`;
