@@ -10,7 +10,7 @@ from rightofway.io.layouts import described, is_layout, read_layout
 
 SAMPLES = Path(__file__).parents[2] / "data" / "samples"
 
-SIZES = {  # the examples of LIF by their number
+SIZES = {  # by glob
     "lif/example_10_10_*.lif.json": "a LIF layout with 6 vertices, 6 lanes and 1 station",
     "lif/example_10_11_*.lif.json": "a LIF layout with 5 vertices and 8 lanes",
     "lif/example_10_12_*.lif.json": "a LIF layout with 3 vertices and 3 lanes",
@@ -39,9 +39,9 @@ SIZES = {  # the examples of LIF by their number
     "open_rmf/office.building.yaml": "an Open-RMF building with 29 vertices and 60 lanes",
     "open_rmf/triple_H.building.yaml": "an Open-RMF building with 23 vertices and 44 lanes",
     "opentcs/Demo-01.xml": "an openTCS plant model with 59 vertices, 75 lanes and 15 stations",
-    "opentcs/PlantModelV005.sample.xml": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
-    "opentcs/PlantModelV6.sample.xml": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
-    "opentcs/PlantModelV7.sample.xml": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
+    "opentcs/PlantModelV005.*": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
+    "opentcs/PlantModelV6.*": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
+    "opentcs/PlantModelV7.*": "an openTCS plant model with 15 vertices, 6 lanes and 1 station",
     "ros_map/depot.yaml": "a ROS map of 604 x 307 pixels",
     "ros_map/tb3_sandbox.yaml": "a ROS map of 384 x 384 pixels",
 }
