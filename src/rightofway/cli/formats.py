@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -27,6 +28,7 @@ Examples:
   rightofway convert plan.json --to lns2 -o paths.txt
   rightofway convert plan.json --to nav2 -o paths.json
   rightofway convert hall.lif.json -o hall.yaml
+  rightofway convert room.yaml --radius 0.3 -o hall.yaml
   rightofway convert hall.lif.json --to nav2 -o hall.geojson
 """
 
@@ -50,6 +52,18 @@ def _names() -> Iterable[str]:
     return dict.fromkeys((*SITE_PLAN_FORMATS, *FOREIGN_FORMATS, *LAYOUT_WRITERS))
 
 
+def _radius(
+    _context: click.Context, _parameter: click.Parameter, given: str | None
+) -> Fraction | None:
+    """Return the radius as an exact number."""
+    from rightofway.io.fields import positive
+
+    try:
+        return None if given is None else positive(given)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
 @click.command(
     cls=ListingCommand,
     listing=_list_formats,
@@ -63,10 +77,19 @@ def _names() -> Iterable[str]:
               )  # fmt: skip
 @click.option("--to", "name", metavar="FORMAT", shell_complete=words(_names),
               help="Write a plan or a layout for another program; see below.")  # fmt: skip
+@click.option("--radius", metavar="LENGTH", callback=_radius,
+              help="Radius of the robots of the scenario that is written for a layout [m].",
+              )  # fmt: skip
 @count_option
 @foreign_options
 def convert(
-    *, source: str, target: str | None, output: str | None, name: str | None, count: int | None
+    *,
+    source: str,
+    target: str | None,
+    output: str | None,
+    name: str | None,
+    radius: Fraction | None,
+    count: int | None,
 ) -> None:
     """Write the scenario, plan or layout SOURCE in another format.
 
@@ -87,8 +110,10 @@ def convert(
     if name is None:
         _check_ending(path)
     if _is_layout(source):
-        _write_layout(source, path, name)
+        _write_layout(source, path, name, radius)
         return
+    if radius is not None:
+        raise click.UsageError(f"--radius is for layouts, and {source} is none")
     _refuse_layout_format(source, name)
     found = read_either(source, count)
     if isinstance(found, Plan):
@@ -130,14 +155,16 @@ def _refuse_layout_format(source: str, name: str | None) -> None:
         raise click.UsageError(f"--to {name} is for layouts, and {source} is none")
 
 
-def _write_layout(source: str, path: str, name: str | None) -> None:
+def _write_layout(source: str, path: str, name: str | None, radius: Fraction | None) -> None:
     """Write a layout in another format, or without one a scenario that has it as its map."""
     from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
     from rightofway.model.layout import Layout
 
     if name is None:
-        _write_example(source, path)
+        _write_example(source, path, radius or Fraction(0))
         return
+    if radius is not None:
+        raise click.UsageError(f"--radius is for a scenario, and --to {name} writes none")
     layout = read_layout(source)
     if name not in LAYOUT_WRITERS or not isinstance(layout, Layout):
         what = "a layout" if isinstance(layout, Layout) else "a map in cells or pixels"
@@ -152,13 +179,13 @@ def _write_layout(source: str, path: str, name: str | None) -> None:
         say(f"{path}: {note}")
 
 
-def _write_example(source: str, path: str) -> None:
+def _write_example(source: str, path: str, radius: Fraction) -> None:
     from rightofway.files import write_whole
     from rightofway.io import example_of_layout
 
     if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
         raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
-    text = example_of_layout(source, path)
+    text = example_of_layout(source, path, radius)
     if path == "-":
         click.echo(text, nl=False)
         return

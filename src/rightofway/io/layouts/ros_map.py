@@ -11,6 +11,7 @@ import struct
 import warnings
 import zlib
 from fractions import Fraction
+from math import ceil, floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -107,15 +108,11 @@ def _table(largest: int, free: Fraction, occupied: Fraction, *, negate: bool) ->
 
     Between the thresholds it is unknown (``trinary``) or costly (``scale``), and not free for us.
     """
-    dark = [Fraction(value if negate else largest - value, largest) for value in (0, 1)]
-    step = dark[1] - dark[0]
+    values = np.arange(largest + 1)
+    dark = values if negate else largest - values
     table = np.full(largest + 1, UNKNOWN, np.uint8)
-    for value in range(largest + 1):
-        share = dark[0] + value * step
-        if share >= occupied:
-            table[value] = OCCUPIED
-        elif share <= free:
-            table[value] = FREE
+    table[dark <= floor(free * largest)] = FREE
+    table[dark >= ceil(occupied * largest)] = OCCUPIED
     return table
 
 
