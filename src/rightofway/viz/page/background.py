@@ -71,7 +71,8 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
     """
     href, columns, rows = _data_uri(background.picture)
     plane = plane_of(roadmap)
-    margin = 0.0 if roadmap.grid is None else 0.5  # cells reach beyond their centres
+    has_cells = roadmap.grid is not None or roadmap.sides is not None
+    margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
     left, bottom = -margin, plane.height - 1 + margin
     if background.origin is not None:
         x, y = roadmap.frame.to_plane(
