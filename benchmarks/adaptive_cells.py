@@ -32,21 +32,22 @@ from rightofway.model.places import Spot, vertex_at
 MAPS = DOCS.parent / "examples" / "maps"
 PAGE = DOCS / "layouts" / "ros-map.md"
 
-RADIUS, CELL = Fraction("0.2"), Fraction("0.5")
+RADIUS, CELL = Fraction("0.12"), Fraction("0.25")
 """Of the robots, and the side of the smallest cells [m]."""
 
 START = (Fraction(1), Fraction(1))
 """A point of the part of the map that robots work in."""
 
-ROBOTS, SEEDS = (10, 20, 40, 60, 80, 100, 120), range(5)
+ROBOTS, SEEDS = (10, 20, 50, 100, 150, 200), range(5)
 
 CUTS: Mapping[str, Mapping[str, Any]] = {
-    "cells of 0.5 m": {"cell_size": str(CELL)},
+    "cells of 0.25 m": {"cell_size": str(CELL)},
+    "squares to 0.5 m": {"cell_size": "adaptive", "smallest": str(CELL), "largest": "0.5"},
     "squares to 1 m": {"cell_size": "adaptive", "smallest": str(CELL), "largest": 1},
     "squares to 2 m": {"cell_size": "adaptive", "smallest": str(CELL), "largest": 2},
 }
 FINE, *COARSER = CUTS
-COLOURS = {"squares to 1 m": "#56b4e9", "squares to 2 m": "#0b4f8a"}
+COLOURS = dict(zip(CUTS, ("#d55e00", "#8a8a8a", "#56b4e9", "#0b4f8a"), strict=True))
 
 Ends = Sequence[tuple[Spot, Spot]]
 
@@ -141,7 +142,7 @@ def changes(cases: Sequence[Case], cut: str, robots: int) -> list[float]:
 
 def savings(cases: Sequence[Case]) -> str:
     """Return a line for each cut: vertices, seconds of planning, flowtime against fine cells."""
-    few, many = 20, ROBOTS[-1]
+    few, many = ROBOTS[1], ROBOTS[-1]
     lines = []
     for cut in CUTS:
         seconds = [median(case.planning for case in of(cases, cut, n)) for n in (few, many)]
@@ -177,11 +178,11 @@ def draw_squares(axes: Axes) -> None:
         for (left, bottom), side in zip(low.tolist(), roadmap.sides.tolist(), strict=True)
     ]
     axes.add_collection(
-        PatchCollection(squares, facecolor="white", edgecolor="#7a8794", linewidth=0.35)
+        PatchCollection(squares, facecolor="white", edgecolor="#7a8794", linewidth=0.25)
     )
     axes.set_facecolor("#cfccc4")
     axes.set(xlim=(-15.1, 15.1), ylim=(-25, 25.2), aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    axes.set_title(f"{len(squares)} squares of 0.5 to 2 m", loc="left", fontsize=10)
+    axes.set_title(f"{len(squares)} squares of 0.25 to 2 m", loc="left", fontsize=10)
 
 
 def draw_costs(axes: Axes, cases: Sequence[Case]) -> None:
@@ -195,7 +196,7 @@ def draw_costs(axes: Axes, cases: Sequence[Case]) -> None:
     axes.axhline(0, color="#444444", linewidth=1)
     axes.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
     axes.set(xlabel="robots")
-    axes.set_title("flowtime against cells of 0.5 m", loc="left", fontsize=10)
+    axes.set_title("flowtime against cells of 0.25 m", loc="left", fontsize=10)
     axes.legend(frameon=False, fontsize=8, loc="upper left")
     plain_axes(axes)
 
@@ -204,8 +205,7 @@ def draw_seconds(axes: Axes, cases: Sequence[Case]) -> None:
     """Draw the seconds of planning, by the number of robots."""
     for cut in CUTS:
         middle = [median(case.planning for case in of(cases, cut, robots)) for robots in ROBOTS]
-        colour = COLOURS.get(cut, "#d55e00")
-        axes.plot(ROBOTS, middle, "o-", color=colour, markersize=4, label=cut)
+        axes.plot(ROBOTS, middle, "o-", color=COLOURS[cut], markersize=4, label=cut)
     axes.set(xlabel="robots", ylim=(0, None))
     axes.set_title("seconds of planning", loc="left", fontsize=10)
     axes.legend(frameon=False, fontsize=8, loc="upper left")

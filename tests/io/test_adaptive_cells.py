@@ -50,7 +50,7 @@ def test_the_smallest_cell_is_as_wide_as_the_largest_robot_or_as_node_clustering
 @pytest.mark.parametrize("more", [{}, {"origin": [10, -3]}, {"origin": [10, -3], "yaw": 0.5}])
 def test_a_plan_of_adaptive_cells_is_read_as_it_was_written(y: str, more: dict[str, Any]) -> None:
     where = {"floor": {"size": [8, 4]}, "cell_size": "adaptive", "smallest": "0.1", "y": y, **more}
-    document_ = document(where, home="Q0-0x8", target="Q40-24x8", radius="0.05")
+    document_ = document(where, home="Q0-0x4", target="Q40-24x4", radius="0.05")
     scenario = scenario_of(document_)
     assert scenario_of(dump_scenario(scenario)) == scenario
     plan = rightofway.solve(scenario, time_limit=None, options={"iterations": 1})
