@@ -14,6 +14,8 @@ import rightofway
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, dump_scenario, plan_of, scenario_of
 from rightofway.io.opening import load_with_notes
+from rightofway.metrics import Site, inspect
+from rightofway.model import Units
 
 FLOOR = {"size": [8, 4], "obstacles": [{"name": "rack", "rect": [2, 1, 3, 2]}]}
 ROBOT = {"name": "R1", "home": {"x": 0.5, "y": 0.5}, "target": {"x": 7, "y": 3}}
@@ -50,7 +52,7 @@ def test_the_smallest_cell_is_as_wide_as_the_largest_robot_or_as_node_clustering
 @pytest.mark.parametrize("more", [{}, {"origin": [10, -3]}, {"origin": [10, -3], "yaw": 0.5}])
 def test_a_plan_of_adaptive_cells_is_read_as_it_was_written(y: str, more: dict[str, Any]) -> None:
     where = {"floor": {"size": [8, 4]}, "cell_size": "adaptive", "smallest": "0.1", "y": y, **more}
-    document_ = document(where, home="Q0-0x8", target="Q40-24x8", radius="0.05")
+    document_ = document(where, home="Q0-0x4", target="Q40-24x4", radius="0.05")
     scenario = scenario_of(document_)
     assert scenario_of(dump_scenario(scenario)) == scenario
     plan = rightofway.solve(scenario, time_limit=None, options={"iterations": 1})
@@ -102,3 +104,19 @@ def test_a_map_in_pixels_lies_where_its_frame_says(tmp_path: Path) -> None:
     assert points == [(0, 3), (2, 3), (0, 5)]
     assert loaded.notes == ("map cut into 3 squares of 2 m, from 48 free cells",)
     assert roadmap.lengths == (Fraction(2),)
+
+
+def test_inspect_speaks_of_the_smallest_cells_once() -> None:
+    """Each pair of squares that is too near would be hundreds of findings on a real map."""
+    where = {"floor": FLOOR, "cell_size": "adaptive", "smallest": 1}
+    scenario = scenario_of(document(where, radius="0.6"))
+    site = Site(
+        roadmap=scenario.roadmap,
+        units=Units(length="m"),
+        robots=scenario.robots,
+        rules=scenario.rules,
+    )
+    result = inspect(site)
+    assert [each.fact for each in result.findings if each.kind == "too near"] == [
+        "The middles of the smallest cells are 1 m apart; robots of radius 0.6 m need 1.2 m"
+    ]

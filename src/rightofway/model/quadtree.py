@@ -30,7 +30,7 @@ from rightofway.model.roadmap import Roadmap
 MAX_SMALLEST = 64_000_000
 """The most smallest cells, free and blocked."""
 
-LARGEST = 8
+LARGEST = 4
 """How many smallest cells the largest square is wide where nothing else is said."""
 
 OBLIQUE = Fraction(19, 12)

@@ -120,6 +120,8 @@ def _joined(
         origin=corner,
         yaw=found.yaw,
     )
+    if found.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
     note = joined_note("map", roadmap, int(free.sum()), units)
     return LoadedMap(roadmap=roadmap, units=units, notes=(*found.notes, note))
 

@@ -217,7 +217,7 @@ class MapDocument(Document):
     )
     smallest: Positive = optional("side of the smallest adaptive cells [length unit]")
     largest: Positive = optional(
-        "limit on the side of adaptive cells [length unit]; 8 smallest ones by default"
+        "limit on the side of adaptive cells [length unit]; 4 smallest ones by default"
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")

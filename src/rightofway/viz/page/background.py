@@ -96,7 +96,8 @@ def background_data(roadmap: Roadmap, background: Background | Picture) -> dict[
         opacity, pixel = OPACITY, float(background.pixel) / plane.unit
         x, y = drawn(background.corner)
     else:
-        margin = 0.0 if roadmap.grid is None else 0.5  # cells reach beyond their centres
+        has_cells = roadmap.grid is not None or roadmap.sides is not None
+        margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
         opacity, pixel = background.opacity, (plane.width - 1 + 2 * margin) / columns
         if background.scale is not None:
             pixel = background.scale / plane.unit
