@@ -125,8 +125,7 @@ class CyclicProblem:
 
     def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of a timetable under the rules of the scenario."""
-        context = self.context
-        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
+        return self.context.graph(timetable)
 
     def timetable(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
         """Join the cycles of all robots to a timetable."""

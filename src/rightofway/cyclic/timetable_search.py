@@ -28,6 +28,7 @@ from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, Tick, VertexId, checked_time_limit
+from rightofway.model.resources import refuse_sizes
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
@@ -119,6 +120,7 @@ def best_timetable(
     time_limit = checked_time_limit(time_limit)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
+    refuse_sizes(scenario.problem.resources, "rule timetable", "choose another rule")
     deadline, params = Deadline.after(time_limit), ChoiceParams()
     if n_robots > params.large:
         usual, others = clear_and_direct(scenario)
@@ -135,7 +137,7 @@ def best_timetable(
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
     found: list[GroupResult] = []
-    groups = independent_groups(usual)
+    groups = independent_groups(scenario, usual)
     for partition in (groups, [usual]):  # at last with the vertices of other groups
         try:
             found = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
