@@ -219,6 +219,24 @@ class Resources:
         """Return the row that a robot books along an edge."""
         return self.vertex_row(robot, self.n_vertices + edge)
 
+    def rows_of_lap(
+        self, roadmap: Roadmap, robot: int, vertices: Sequence[int]
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return the rows of a lap's vertices, and of the edges driven out of them.
+
+        Parameters
+        ----------
+        roadmap
+            The vertices and edges.
+        robot
+            The robot that makes the lap.
+        vertices
+            Where it goes; an edge leads from the last one to the first.
+        """
+        visited = np.array(vertices, np.int32)
+        edges = roadmap.edges(visited, np.roll(visited, -1))
+        return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
+
     def excluded_by(self, row: int) -> NDArray[np.int32]:
         """Return the rows that a booking of a row excludes."""
         return self.excluded[self.first[row] : self.first[row + 1]]

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Resources, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model import Lap, Resources, Route, Scenario, Tick, Track, VertexId, route_of
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -80,6 +80,33 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
+            resources=resources,
+        )
+
+    @classmethod
+    def of_laps(
+        cls, scenario: Scenario, robots: Sequence[int], laps: Sequence[Lap], counts: Sequence[int]
+    ) -> BookedRows | None:
+        """Return the rows of visits that repeat, or None where no robot has a size.
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        robots, laps, counts
+            Robots of the scenario, the lap of each, and how many laps it makes in a period.
+        """
+        resources = scenario.problem.resources
+        if resources is None:
+            return None
+        at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
+        for robot, lap, count in zip(robots, laps, counts, strict=True):
+            rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
+            for found, own in zip((at_vertex, along_edge), rows, strict=True):
+                found.append(np.tile(own, count))
+        return cls(
+            vertex=np.concatenate(at_vertex, dtype=np.int32),
+            edge=np.concatenate(along_edge, dtype=np.int32),
             resources=resources,
         )
 
