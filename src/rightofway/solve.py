@@ -14,6 +14,7 @@ from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
 from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
 from rightofway.model.resources import refuse_sizes
+from rightofway.model.zones import listed_only
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
@@ -237,7 +238,7 @@ def _drafted(spec: PlannerSpec, task: Task) -> Draft:
         except GaveUp as error:
             gave_up = error
         task.report("no plan keeps robots clear of zones: planning as if they did not pass any")
-    zones = tuple(replace(zone, listed_only=True) for zone in scenario.roadmap.zones)
+    zones = listed_only(scenario.roadmap.zones)
     looser = replace(scenario, roadmap=replace(scenario.roadmap, zones=zones))
     draft = plan_with(replace(task, scenario=looser))
     if check(Plan(scenario=scenario, tracks=draft.tracks, run=PlannerRun(name=spec.name))).ok:

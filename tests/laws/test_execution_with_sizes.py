@@ -28,7 +28,7 @@ from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
 from tests.builders.fleets import random_fleet
 from tests.builders.seeds import seeds
-from tests.builders.sizes import crossing, sized, sized_on_lanes
+from tests.builders.sizes import crossing, sized, sized_on_lanes, zoned
 
 DELAYS = ("exponential:0.5", "chance:0.1x15", "uniform:-0.3..1", "breaks:0.1")
 APART = {"vertex conflict", "headway", "space conflict", "too close", "swap conflict"}
@@ -50,6 +50,21 @@ def test_no_collision_and_no_deadlock_in_any_run(seed: int) -> None:
         if "-" not in delays:
             judged = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
             assert not APART & set(judged.counts)
+
+
+@pytest.mark.parametrize("seed", seeds(60, 6))
+def test_late_robots_keep_zones(seed: int) -> None:
+    """Most zones do not list the vertices between their edges, so that visits decide."""
+    scenario = zoned(seed)
+    try:
+        plan = rightofway.solve(scenario, "two-level")
+    except (NoPlanExists, GaveUp):
+        pytest.skip("no plan")
+    for delays in ("exponential:0.5", "chance:0.3x15"):
+        outcome = rightofway.simulate(plan, delays, runs=30)
+        assert (outcome.collisions, outcome.deadlocks) == (0, 0)
+        judged = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
+        assert not (APART | {"zone conflict"}) & set(judged.counts)
 
 
 def one_after_another() -> Plan:

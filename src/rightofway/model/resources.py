@@ -303,7 +303,7 @@ def _excluded(
     reach = 2 * sizes[-1] + clearance
     same = np.arange(n_vertices)
     candidates = drawing.candidates(reach) if sizes[-1] > 0 else None
-    in_zones = list(drawing.in_zones(roadmap.zones))
+    in_zones = list(_in_zones(roadmap))
     rows, columns = list[Ints](), list[Ints]()
     for one, other in combinations_with_replacement(range(len(sizes)), 2):
         pairs = [(same, same), *in_zones]
@@ -317,6 +317,31 @@ def _excluded(
     row, column = np.divmod(found, len(sizes) * n_rows)
     first = np.searchsorted(row, np.arange(len(sizes) * n_rows + 1))
     return first.astype(np.int32), column.astype(np.int32)
+
+
+def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
+    """Return the resources that planners take as in a zone.
+
+    An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and edges.
+    zone
+        A zone of the roadmap.
+    """
+    inside = {*zone.vertices, *zone.passed}
+    numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
+    return [*sorted(inside), *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
+
+
+def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:
+    """Yield pairs of resources of one zone."""
+    for zone in roadmap.zones:
+        members = np.array(members_of(roadmap, zone), np.int64)
+        left, right = np.triu_indices(len(members), k=1)
+        yield members[left], members[right]
 
 
 class _Drawing:
@@ -334,10 +359,6 @@ class _Drawing:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
         ends = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
-        both_ends = zip(tails.tolist(), heads.tolist(), strict=True)
-        self._number_of_edge = {
-            edge_ends: number for number, edge_ends in enumerate(both_ends, roadmap.n_vertices)
-        }
         lanes, lane_of = np.unique(ends, axis=0, return_inverse=True)
         lane_of = lane_of.reshape(-1)  # NumPy 2.0 keeps an axis of length 1
         self.a, self.b = lanes[:, 0], lanes[:, 1]
@@ -406,16 +427,6 @@ class _Drawing:
                 )
             ],
         )
-
-    def in_zones(self, zones: Sequence[Zone]) -> Iterator[Pairs]:
-        """Yield pairs of resources of one zone; an edge that ends at a vertex of it is left out."""
-        for zone in zones:
-            inside = {*zone.vertices, *zone.passed}
-            vertices = np.array(sorted(inside), np.int64)
-            edges = [self._number_of_edge[ends] for ends in zone.edges if inside.isdisjoint(ends)]
-            members = np.concatenate((vertices, np.array(edges, np.int64)))
-            left, right = np.triu_indices(len(members), k=1)
-            yield members[left], members[right]
 
     def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
         """Repeat each left one for every edge of its lane."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 from rightofway.errors import InputError, InputFault, nearest, shown
@@ -44,6 +44,17 @@ class Zone:
             return ()
         entered, left = {head for _, head in self.edges}, {tail for tail, _ in self.edges}
         return tuple(sorted((entered & left).difference(self.vertices)))
+
+
+def listed_only(zones: Collection[Zone]) -> tuple[Zone, ...]:
+    """Return zones in which planners take only the listed vertices as inside.
+
+    Parameters
+    ----------
+    zones
+        The same zones.
+    """
+    return tuple(replace(zone, listed_only=True) for zone in zones)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -43,8 +43,13 @@ def auto(task: Task) -> Draft:
             task.has_plan()
     if explained is None:
         return lns(task)
-    first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
-    better = improved(task, fleet_search(task), first=first)
+    resources, first = task.scenario.problem.resources, None
+    if resources is None or resources.is_exact:  # else two-level may wait where LNS may not
+        first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
+    try:
+        better = improved(task, fleet_search(task), first=first)
+    except GaveUp:
+        return explained
     before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better

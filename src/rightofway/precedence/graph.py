@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Lap, Resources, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model import Lap, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model.passed_zones import visit_rows
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -47,13 +48,14 @@ class BookedRows:
     vertex, edge
         The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
         shape (N,).
-    resources
-        Which rows exclude each other.
+    first, excluded
+        The lists of rows that each row excludes, as in `Resources`.
     """
 
     vertex: NDArray[np.int32]
     edge: NDArray[np.int32]
-    resources: Resources
+    first: NDArray[np.int32]
+    excluded: NDArray[np.int32]
 
     @classmethod
     def of(
@@ -71,16 +73,17 @@ class BookedRows:
         resources = scenario.problem.resources
         if resources is None:
             return None
-        at_vertex, along_edge = [], []
+        at_vertex, first, excluded = visit_rows(scenario, vertices)
+        along_edge = []
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
             edges = scenario.roadmap.edges(visited[:-1], visited[1:])
-            at_vertex.append(resources.vertex_row(robot, 0) + visited)
             along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            resources=resources,
+            first=first,
+            excluded=excluded,
         )
 
     @classmethod
@@ -107,12 +110,13 @@ class BookedRows:
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32),
-            resources=resources,
+            first=resources.first,
+            excluded=resources.excluded,
         )
 
     def arrays(self) -> tuple[NDArray[np.int32], ...]:
         """Return the arrays as kernels take them: the rows, and the lists of excluded rows."""
-        return self.vertex, self.edge, self.resources.first, self.resources.excluded
+        return self.vertex, self.edge, self.first, self.excluded
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
