@@ -18,6 +18,7 @@ from typing import Any
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
+from rightofway.model.drawing import Picture
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.page.scripts import asset, classic_script, scripts_of
@@ -37,7 +38,7 @@ def page_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | None = None,
+    background: Background | Picture | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
@@ -70,12 +71,9 @@ def page_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
     """
-    style = style_sheet()
-    scripts = [classic_script(name) for name in scripts_of("main")]
     count = len(plan.scenario.robots)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
-    allowed = " ".join(map(_hash, scripts))
     payload = payload_of(
         plan,
         steady=steady,
@@ -85,16 +83,40 @@ def page_of(
         background=background,
         other=other,
     )
+    return document_of("template.html", about, payload, "main")
+
+
+def document_of(template: str, about: str, payload: dict[str, Any], entry: str) -> str:
+    """Return a template filled with style, plain data and scripts, as one HTML document.
+
+    Parameters
+    ----------
+    template
+        A file under ``assets/`` with ``{{title}}``, ``{{policy}}``, ``{{style}}``, ``{{payload}}``
+        and ``{{scripts}}``.
+    about
+        The title of the document.
+    payload
+        Plain data for JSON.
+    entry
+        Name of the module under ``assets/`` that runs the page, without ``.js``.
+
+    Returns
+    -------
+    str
+        HTML. Its content security policy forbids any connection, and any script but these.
+    """
+    style, scripts = style_sheet(), [classic_script(name) for name in scripts_of(entry)]
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": "default-src 'none'; img-src data:; "
-        f"style-src {_hash(style)}; script-src {allowed}",
+        f"style-src {_hash(style)}; script-src {' '.join(map(_hash, scripts))}",
         "style": style,
         "payload": as_script(payload),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("template.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset(template))
 
 
 def write_page(
@@ -105,7 +127,7 @@ def write_page(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | None = None,
+    background: Background | Picture | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from rightofway.model import Grid, Roadmap
+from rightofway.model.drawing import Picture
 from rightofway.model.resources import close_pairs
 from rightofway.viz.page.background import Background, background_data
 from rightofway.viz.placement import Plane, plane_of
@@ -23,7 +24,10 @@ MOST_CLOSE = 5_000
 
 
 def map_data(
-    roadmap: Roadmap, *, room: Fraction = Fraction(0), background: Background | None = None
+    roadmap: Roadmap,
+    *,
+    room: Fraction = Fraction(0),
+    background: Background | Picture | None = None,
 ) -> dict[str, Any]:
     """Return a map as plain data for JSON: graph, frame, places, zones, limits, picture.
 

@@ -31,6 +31,7 @@ from rightofway.model import (
     Tick,
     Track,
 )
+from rightofway.model.drawing import Picture
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
@@ -56,7 +57,7 @@ def payload_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | None = None,
+    background: Background | Picture | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.

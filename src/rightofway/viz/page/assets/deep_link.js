@@ -1,7 +1,5 @@
+import { EMBEDDED } from "./dom.js";
 import { MODES } from "./mode_switch.js";
-
-/** Whether the page is part of another one, such as a notebook. */
-export const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
 
 /** Keeps moment and choice in the address, so that a link shows what its sender saw. */
 export class DeepLink {

@@ -1,3 +1,6 @@
+/** Whether the page is part of another one, such as a notebook. */
+export const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
+
 /** Make an element. Text is always text, never markup: names come from strangers' files. */
 export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);

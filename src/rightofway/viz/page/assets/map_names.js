@@ -2,6 +2,7 @@ import { FleetMemo } from "./fleet_memo.js";
 import { LabelBoard, SIDES, boxBeside } from "./label_board.js";
 import { BROKEN, DONE, DRIVE, TURN, WORK } from "./phases.js";
 import { decimal, fraction } from "./quantities.js";
+import { LONGEST_BAR } from "./scale_bar.js";
 import { disc, haloed, ring } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
@@ -14,6 +15,7 @@ const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named 
 const ROBOT_TYPE = 13; // pixels
 const PLACE_TYPE = 12;
 const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
+const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
 const LONGEST_NAME = 20; // characters; longer ones are cut
 
 /**
@@ -216,7 +218,7 @@ export class MapNames {
     for (const vertex of inSight.length > MOST_VERTICES ? inSight.filter((it) => marks.has(it)) : inSight) {
       const mark = marks.get(vertex);
       const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
-      const name = cut(roadmap.label(vertex));
+      const name = cut(roadmap.label(vertex), mark ? LONGEST_MARK : LONGEST_NAME);
       const box = this.#spot(vertex, this.#width(context, name, font), mark);
       if (!box) continue;
       this.#places.take(...box);
@@ -248,9 +250,10 @@ export class MapNames {
 
   /** The speed limit of a lane, in a ring on its middle. */
   #signLimits(context, spots) {
-    const { limits, x, y } = this.plan.roadmap;
+    const { limits, usualLimit, x, y } = this.plan.roadmap;
     const font = this.theme.font(11, 600);
     for (const { tail, head, limit } of limits ?? []) {
+      if (limit === usualLimit) continue;
       if (Math.hypot(x[head] - x[tail], y[head] - y[tail]) * this.viewport.scale < SIGNED_LANE) continue;
       const name = decimal(fraction(limit));
       const radius = Math.max(this.#width(context, name, font) / 2 + 4, 9);
@@ -305,6 +308,7 @@ export class MapNames {
   /** Marks, and on a roadmap lanes, that names rather do not cover. */
   #keepFree(marks, width, height) {
     for (const board of [this.#places, this.#marks, this.#lanes]) board.clear(width, height);
+    this.#places.take(width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40), height - 28, width, height); // scale bar
     for (const [vertex, mark] of marks) this.#marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
     if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
@@ -325,11 +329,12 @@ export class MapNames {
     return isStop ? this.sizes.stop : this.sizes.sign;
   }
 
-  /** A box for the name of a place, or null without room; only the names of marks may cover a lane. */
+  /** A box for the name of a place, or null without room; names of homes and stops may cover a lane. */
   #spot(vertex, wide, mark) {
     const [x, y] = this.#pointOf(vertex);
     const high = PLACE_TYPE + 2;
     const { scale } = this.viewport;
+    const mayCover = mark && (mark.robots.length > 0 || scale >= NAMED_CELL);
     if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
       const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
       const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
@@ -338,7 +343,7 @@ export class MapNames {
     const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
-    return free.find((box) => this.#lanes.isFree(...box)) ?? (mark ? free[0] ?? null : null);
+    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? free[0] ?? null : null);
   }
 
   /** The vertices that may have a name, in the order of their importance. */
@@ -375,6 +380,6 @@ export class MapNames {
 }
 
 /** A name, and the beginning of one that is too long. */
-function cut(name) {
-  return name.length > LONGEST_NAME ? `${name.slice(0, LONGEST_NAME - 1)}…` : name;
+function cut(name, longest = LONGEST_NAME) {
+  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
 }

@@ -33,7 +33,7 @@ export class MapView {
     Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.roadmap = plan.roadmap;
-    this.viewport = new Viewport(canvas, plan.roadmap);
+    this.viewport = new Viewport(canvas, plan.roadmap, plan.largestRadius / plan.roadmap.unit);
     this.sizes = new MapSizes(plan, this.viewport);
     const base = new MapBase(plan, this.viewport, this.sizes, theme, choice, use, bottleneck);
     this.base = new Layer((context, width, height) => {
@@ -48,7 +48,8 @@ export class MapView {
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
-    canvas.setAttribute("aria-label", `Map with ${counted(plan.robots.length, "robot")}`);
+    const { length } = plan.robots;
+    canvas.setAttribute("aria-label", length ? `Map with ${counted(length, "robot")}` : `Map with ${plan.roadmap.size} vertices`);
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());

@@ -32,9 +32,10 @@ export class Roadmap {
     return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
   }
 
-  /** What a vertex is called on the map: the stations there, or its name. */
+  /** What a vertex is called on the map: its name, and those of the stations there. */
   label(vertex) {
-    return this.stations.get(vertex)?.join(", ") ?? this.name(vertex);
+    const name = this.name(vertex);
+    return [name, ...(this.stations.get(vertex) ?? []).filter((station) => station !== name)].join(" · ");
   }
 
   /** What a vertex is for: "station Press, parking"; empty for a vertex to pass. */
@@ -125,6 +126,7 @@ export class Roadmap {
     this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
     this.lanes = this.#sortLanes();
     this.limits = this.#limitedLanes(raw.limits ?? []);
+    this.usualLimit = (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
     this.close = { crossings: [], beside: [], vertices: [], ...raw.close }; // nearer than robots need
     const joined = new Set([...this.tails, ...this.heads]);
     this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane

@@ -1,6 +1,5 @@
 import { AXIS_HEIGHT } from "./axis.js";
-import { EMBEDDED } from "./deep_link.js";
-import { element } from "./dom.js";
+import { EMBEDDED, element } from "./dom.js";
 
 const SAID_FOR = 2000; // how long a button says what it did [ms]
 

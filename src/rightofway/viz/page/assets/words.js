@@ -21,7 +21,7 @@ function rounded(length) {
   return Number(length.toPrecision(9));
 }
 
-function upperFirst(text) {
+export function upperFirst(text) {
   return text[0].toUpperCase() + text.slice(1);
 }
 
