@@ -11,7 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -155,7 +155,8 @@ class Window:
         return BookedRows(
             vertex=np.concatenate(at_vertex),
             edge=np.concatenate(along_edge),
-            resources=replace(resources, first=np.append(resources.first, resources.first[-1:])),
+            first=np.append(resources.first, resources.first[-1:]),
+            excluded=resources.excluded,
         )
 
     def _route(self, robot: int, ahead: int, stop: int) -> Route:

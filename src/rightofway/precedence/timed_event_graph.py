@@ -258,7 +258,7 @@ class TimedEventGraph:
         ends, of_row = np.append(begins[1:], 2 * n), found // n_robots
         places = np.repeat(np.arange(len(found)), ends - begins) * n + rank[visit[order]]
         # Each start asks all rows that exclude it, and there each other robot.
-        first, excluded = rows.resources.first, rows.resources.excluded
+        first, excluded = rows.first, rows.excluded
         asks, at = _ranges(first[row], first[row + 1])
         again, of = _ranges(
             np.searchsorted(of_row, excluded[at]), np.searchsorted(of_row, excluded[at], "right")
