@@ -41,6 +41,7 @@ def auto(task: Task) -> Draft:
         with suppress(GaveUp):
             explained = two_level(hurried)
             task.has_plan()
+            task.better(lambda: explained.tracks)
     if explained is None:
         return lns(task)
     first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
