@@ -195,6 +195,15 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
 
 
 def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
+    """Return a scenario as the one site that it is about.
+
+    Parameters
+    ----------
+    scenario
+        The scenario.
+    notes
+        Sentences of its reader.
+    """
     site = Site(
         roadmap=scenario.roadmap,
         units=scenario.units,

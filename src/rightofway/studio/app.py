@@ -8,7 +8,6 @@ from typing import Any, get_args
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
 from rightofway import __version__
@@ -17,6 +16,7 @@ from rightofway.io.faults import checked
 from rightofway.studio.errors import StudioError
 from rightofway.studio.guard import Access, Guard, error_body
 from rightofway.studio.routes import documents, pages, planning
+from rightofway.studio.routes.models import kind_of
 from rightofway.studio.session import Studio
 from rightofway.studio.worker import as_error
 
@@ -110,16 +110,14 @@ def _not_fitting(request: Request, error: Exception) -> Response:
     return _answer(422, {"kind": "input", "message": message})
 
 
-def _model_of(request: Request, body: Any) -> type[BaseModel] | None:
-    """Return the model that the body of a request is to fit; of several, the one of its kind."""
+def _model_of(request: Request, body: Any) -> Any:
+    """Return the model that a body is to fit, of several the one of its kind; None without one."""
     parameters = request.scope["route"].dependant.body_params
     wanted = parameters[0].field_info.annotation if parameters else None
-    models = [each for each in get_args(wanted) or (wanted,) if hasattr(each, "model_fields")]
-    kind = body.get("kind", "plan") if isinstance(body, dict) else None
-    fitting = [each for each in models if kind in get_args(_kind_of(each))]
-    return (fitting or models or [None])[0]
-
-
-def _kind_of(model: Any) -> Any:
-    field = model.model_fields.get("kind")
-    return field and field.annotation
+    if wanted is not None and hasattr(wanted, "model_fields"):
+        return wanted
+    for each in get_args(wanted):  # each is annotated with the kind that it is for
+        model, tag = get_args(each)
+        if tag.tag == kind_of(body):
+            return model
+    return None

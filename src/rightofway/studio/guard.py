@@ -184,7 +184,9 @@ class Guard:
         has_body = length not in {"", "0"} or bool(request.header("transfer-encoding"))
         kind = request.header("content-type").partition(";")[0].strip().lower()
         wanted = {"application/json"}
-        if method == "PUT":  # a page cannot put without asking first, and we answer no such question
+        if (
+            method == "PUT"
+        ):  # a page cannot put without asking first, and we answer no such question
             wanted.add("application/octet-stream")
         if has_body and method in CHANGES and kind not in wanted:
             raise Refused(f"{kind[:50]!r} is no type of a body here (give application/json)", 415)
@@ -283,4 +285,6 @@ def error_body(status: int, error: dict[str, Any]) -> bytes:
     error
         ``message``, and what else is known.
     """
-    return json.dumps({"error": {"status": status, "kind": "refused", "faults": [], **error}}).encode()
+    return json.dumps(
+        {"error": {"status": status, "kind": "refused", "faults": [], **error}}
+    ).encode()

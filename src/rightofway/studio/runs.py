@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import json
 import time
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncGenerator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
@@ -352,7 +352,7 @@ class Runs:
             else:
                 listener.put_nowait(None)
 
-    async def listen(self, number: int) -> AsyncIterator[Event | None]:
+    async def listen(self, number: int) -> AsyncGenerator[Event | None]:
         """Yield the events of a run: first all that is known; None from time to time.
 
         It ends when the run is over, or the server closes.

@@ -20,6 +20,11 @@ from rightofway.studio.session import Studio
 PORT = 7477
 """The port that is taken where it is free, so that an address can be kept."""
 
+NOT_KEPT = (
+    "drafts and runs are kept in memory only (by --no-history, or because the folder cannot be"
+    " written, or because another studio has it open)"
+)
+
 
 class _Server(uvicorn.Server):
     """Hangs up on listeners before it waits for them."""
@@ -79,7 +84,7 @@ def serve(
     def ready() -> None:
         say(f"studio: {address} (end it with Ctrl-C)")
         if not studio.store.is_kept:
-            say("drafts and runs are kept in memory only (the folder cannot be written)")
+            say(NOT_KEPT)
         if opens_browser:
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import PurePosixPath
-from typing import Any
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Response
 
@@ -40,15 +40,17 @@ def list_files(studio: InStudio) -> dict[str, Any]:
 def download(studio: InStudio, path: FilePath) -> Response:
     """Return a file as it is."""
     headers = {"content-disposition": "attachment"}
-    return Response(studio.workspace.read(path), media_type="application/octet-stream", headers=headers)
+    return Response(
+        studio.workspace.read(path), media_type="application/octet-stream", headers=headers
+    )
 
 
 @router.put("/files/{path:path}", tags=["files"])
 def upload(
     studio: InStudio,
     path: FilePath,
-    content: bytes = Body(media_type="application/octet-stream"),
-    replace: bool = Query(default=False, description="whether a file of that name is replaced"),
+    content: Annotated[bytes, Body(media_type="application/octet-stream")],
+    replace: Annotated[bool, Query(description="whether a file of that name is replaced")] = False,
 ) -> dict[str, Any]:
     """Put a file into the folder, as drag and drop does; the body is its content."""
     revision = studio.workspace.write(path, content, revision=None if replace else "")
@@ -59,7 +61,9 @@ def upload(
 async def open_document(
     studio: InStudio,
     path: FilePath,
-    count: int | None = Query(None, ge=1, description="robots to take from a .scen file"),
+    count: Annotated[
+        int | None, Query(ge=1, description="robots to take from a .scen file")
+    ] = None,
 ) -> dict[str, Any]:
     """Open any file that the library reads: a scenario, a layout, a workbook, or a plan.
 
@@ -79,28 +83,39 @@ async def open_document(
 async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[str, Any]:
     """Save a document as a .yaml, .yml, .json or .xlsx file; .yaml and .json also with faults."""
     studio.workspace.path(path)
-    _, blobs = await studio.ask("write", document=save.document, folder=studio.place(save.folder), name=path)
-    return {"path": path, "revision": studio.workspace.write(path, blobs[0], revision=save.revision)}
+    _, blobs = await studio.ask(
+        "write", document=save.document, folder=studio.place(save.folder), name=path
+    )
+    return {
+        "path": path,
+        "revision": studio.workspace.write(path, blobs[0], revision=save.revision),
+    }
 
 
 @router.post("/validate", tags=["documents"])
 async def validate(studio: InStudio, placed: Placed) -> dict[str, Any]:
     """List the faults of a document, each with its place, or what the reader notes."""
-    result, _ = await studio.ask("validate", document=placed.document, folder=studio.place(placed.folder))
+    result, _ = await studio.ask(
+        "validate", document=placed.document, folder=studio.place(placed.folder)
+    )
     return dict(result)
 
 
 @router.post("/inspect", tags=["documents"])
 async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
     """List what will hurt on the floor of a document, as `rightofway inspect --json` does."""
-    result, _ = await studio.ask("inspect", document=placed.document, folder=studio.place(placed.folder))
+    result, _ = await studio.ask(
+        "inspect", document=placed.document, folder=studio.place(placed.folder)
+    )
     return dict(result)
 
 
 @router.post("/draw", tags=["documents"], response_class=Response)
 async def draw(studio: InStudio, placed: Placed) -> Response:
     """Return what the viewer needs to draw the map and the robots of a document."""
-    _, blobs = await studio.ask("draw", document=placed.document, folder=studio.place(placed.folder))
+    _, blobs = await studio.ask(
+        "draw", document=placed.document, folder=studio.place(placed.folder)
+    )
     return Response(blobs[0], media_type="application/json")
 
 

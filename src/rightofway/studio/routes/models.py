@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from fastapi import Depends, Path, Request
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from rightofway.studio.session import Studio
 
@@ -125,8 +125,17 @@ class NewSimulation(Model):
     time_limit: float = Field(60, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
 
 
+def kind_of(body: Any) -> Any:
+    """Return the kind of run that a body asks for: a plan where it names none."""
+    return body.get("kind", "plan") if isinstance(body, dict) else getattr(body, "kind", "plan")
+
+
 NewRun = Annotated[
-    NewPlan | NewImprovement | NewLaps | NewSimulation, Field(discriminator="kind")
+    Annotated[NewPlan, Tag("plan")]
+    | Annotated[NewImprovement, Tag("improve")]
+    | Annotated[NewLaps, Tag("laps")]
+    | Annotated[NewSimulation, Tag("simulate")],
+    Discriminator(kind_of),
 ]
 
 

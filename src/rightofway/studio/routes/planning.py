@@ -13,7 +13,7 @@ from fastapi import APIRouter, Body, Query, Response
 from fastapi.responses import StreamingResponse
 
 from rightofway.io import FOREIGN_FORMATS
-from rightofway.planners import DEFAULT, IMPROVER, registered
+from rightofway.planners import DEFAULT, IMPROVER, find, registered
 from rightofway.studio.errors import Refused
 from rightofway.studio.routes.models import (
     Flip,
@@ -97,6 +97,9 @@ async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[s
             keys = {"delays", "runs", "run", "seed", "switch", "replan", "time_limit"}
             run = Run(kind="simulate", based_on=new.based_on, request=new.model_dump(include=keys))
     run.name = new.name
+    if isinstance(new, NewPlan | NewImprovement):
+        default = DEFAULT if isinstance(new, NewPlan) else IMPROVER
+        find(new.planner or default).settle(new.options)
     if isinstance(new, NewPlan | NewLaps):
         arguments = {"document": new.document, "folder": studio.place(new.folder)}
         checked_json(arguments)
@@ -164,7 +167,7 @@ def _line(event: tuple[str, dict[str, Any]] | None) -> str:
 async def run_payload(
     studio: InStudio,
     number: RunNumber,
-    other: int | None = Query(None, description="run to show beside it"),
+    other: Annotated[int | None, Query(description="run to show beside it")] = None,
 ) -> Response:
     """Return what the viewer plays: the plan, or the plan so far, perhaps beside another one."""
     run = studio.runs.get(number)
@@ -179,7 +182,7 @@ async def run_payload(
 async def run_page(
     studio: InStudio,
     number: RunNumber,
-    other: int | None = Query(None, description="run to show beside it"),
+    other: Annotated[int | None, Query(description="run to show beside it")] = None,
 ) -> Response:
     """Return the page that plays the plan, as `rightofway show --page` writes it."""
     content = await _played(studio, "page", studio.runs.get(number), other)
@@ -280,7 +283,7 @@ async def compare(
 
 @router.get("/runs/{number}/losses", tags=["questions"])
 async def run_losses(
-    studio: InStudio, number: RunNumber, robot: str | None = Query(None, max_length=200)
+    studio: InStudio, number: RunNumber, robot: Annotated[str | None, Query(max_length=200)] = None
 ) -> dict[str, Any]:
     """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
     plan = await studio.runs.blob(number, "plan")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -36,10 +35,12 @@ def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     decision = _decision_behind(words.plan, loss)
-    because: Mapping[str, str] | None = decision and {
-        "decision": decision_in_words(words, decision),
-        "reason": reason_in_words(words, decision),
-    }
+    because = None
+    if decision is not None:
+        because = {
+            "decision": decision_in_words(words, decision),
+            "reason": reason_in_words(words, decision),
+        }
     return {
         "kind": loss.kind,
         "robot": words.robot(loss.robot),

@@ -5,15 +5,16 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from rightofway.viz.page.document import SCRIPTS, lean_script
+from rightofway.viz.page.document import SCRIPTS, asset, lean_script
 
 NAMES = re.compile(r"^(?:async )?(?:class|function|const|let) (\w+)", re.MULTILINE)
-"""What a script declares for the others."""
+"""What a script declares for the others: lines that are not indented."""
 
 
 @cache
 def viewer_module() -> str:
     """Return a module that exports every name that the scripts share, and starts nothing."""
-    scripts = [lean_script(name) for name in SCRIPTS if name != "main"]
-    names = sorted({name for script in scripts for name in NAMES.findall(script)})
-    return "\n".join([*scripts, f"export {{ {', '.join(names)} }};", ""])
+    parts = [name for name in SCRIPTS if name != "main"]
+    shared = sorted({name for part in parts for name in NAMES.findall(asset(f"{part}.js"))})
+    scripts = (lean_script(part) for part in parts)
+    return "\n".join([*scripts, f"export {{ {', '.join(shared)} }};", ""])
