@@ -379,11 +379,14 @@ def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     if isinstance(value, list):
         return f"[{inner}{f',{inner}'.join(map(json_line, value))}{margin}]"
     pairs = (
-        f"{json_line(key)}: "
-        f"{_spread(child, inner) if key in SPREAD_KEYS and child else json_line(child)}"
+        f"{json_line(key)}: {_spread(child, inner) if _is_spread(key, child) else json_line(child)}"
         for key, child in value.items()
     )
     return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
+
+
+def _is_spread(key: str, value: Any) -> bool:
+    return key in SPREAD_KEYS and isinstance(value, list | dict) and bool(value)
 
 
 def json_line(value: Any) -> str:

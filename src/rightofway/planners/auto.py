@@ -43,6 +43,7 @@ def auto(task: Task) -> Draft:
         with suppress(GaveUp):
             explained = two_level(hurried)
             task.has_plan()
+            task.better(lambda: explained.tracks)
     if explained is None:
         return lns(task)
     resources, first = task.scenario.problem.resources, None

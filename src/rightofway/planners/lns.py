@@ -84,6 +84,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
 
     An interrupt ends it too where the task keeps the best plan.
     """
+    task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
     deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
@@ -93,7 +94,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     done, ended = 0, ""
     try:
         while search.flowtime != bound and done < iterations:
-            began, done_before = time.perf_counter(), done
+            began, done_before, flowtime = time.perf_counter(), done, search.flowtime
             done += search.improve(
                 iterations - done,
                 patience=patience,
@@ -101,6 +102,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
+            if search.flowtime < flowtime:
+                task.better(search.tracks)
             reached = task.scenario.quantities.duration(search.flowtime)
             gap = f", {search.flowtime / bound - 1:.1%} above the bound" if bound else ""
             task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per s")
@@ -120,10 +123,10 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    found, flowtime = search.tracks(), partial(flowtime_of, task.scenario)
-    if spaced is not first.tracks and flowtime(found) > flowtime(first.tracks):
+    found, measured = search.tracks(), partial(flowtime_of, task.scenario)
+    if spaced is not first.tracks and measured(found) > measured(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
-    saved = flowtime(first.tracks) - flowtime(found)
+    saved = measured(first.tracks) - measured(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
     return Draft(tracks=found, status=status, improvement=made)
 

@@ -98,12 +98,13 @@ def yaml_of(document: dict[str, Any]) -> str:
         return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 
     Dumper.add_representer(str, block)
-    shape = document["map"]
-    if "grid" in shape:
-        shape = {**shape, "grid": "\n".join(shape["grid"]) + "\n"}
+    shape = document.get("map")
+    if isinstance(shape, dict) and isinstance(shape.get("grid"), list):
+        shape = {**shape, "grid": "".join(f"{row}\n" for row in shape["grid"])}
+        document = {**document, "map": shape}
     return str(
         yaml.dump(
-            {**document, "map": shape},
+            document,
             Dumper=Dumper,
             default_flow_style=None,  # a list or mapping of plain values stays on one line
             sort_keys=False,

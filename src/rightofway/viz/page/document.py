@@ -197,7 +197,12 @@ def payload_text(plan: Plan) -> str:
 
 def as_script(payload: dict[str, Any]) -> str:
     """Return plain data as JSON that may stand in a script element."""
-    return json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP)
+    return compact_json(payload).translate(MARKUP)
+
+
+def compact_json(payload: dict[str, Any]) -> str:
+    """Return plain data as JSON without spaces."""
+    return json.dumps(payload, separators=(",", ":"), allow_nan=False)
 
 
 @cache
