@@ -123,7 +123,7 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 @click.option("--background", type=click.Path(), metavar="FILE",
               help="Under the map of the page: a ROS map or building (.yaml), whose picture lies"
-              " where the file says, or a picture, from the map's lower left corner on.")  # fmt: skip
+              " where the file says, or a picture, at the map's lower left corner.")  # fmt: skip
 @click.option("--background-scale", type=float, metavar="LENGTH",
               help="Length of a pixel of a picture; by default it is as wide as the map.",
               )  # fmt: skip

@@ -1,6 +1,13 @@
 /** A map that is drawn, and a plan that is played on it, by the modules of the viewer. */
 
-import { Choice, Clock, MapView, Motion, Plan, Theme, Use, Words } from "./viewer.js";
+import { Choice } from "./viewer/choice.js";
+import { Clock } from "./viewer/clock.js";
+import { MapView } from "./viewer/map_view.js";
+import { Motion } from "./viewer/motion.js";
+import { Plan } from "./viewer/plan.js";
+import { Theme } from "./viewer/theme.js";
+import { Use } from "./viewer/use.js";
+import { Words } from "./viewer/words.js";
 
 /** Lights nothing: a stage has no bottleneck. */
 const NO_BOTTLENECK = { paintMap() {}, paintRobots() {} };

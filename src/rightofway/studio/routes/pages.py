@@ -14,7 +14,6 @@ from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
 from rightofway.studio.routes.models import MAX_SECONDS, InStudio
 from rightofway.viz.page.document import style_sheet
-from rightofway.viz.page.module import viewer_module
 
 MEDIA = {
     ".css": "text/css; charset=utf-8",
@@ -36,17 +35,18 @@ def index() -> Response:
 
 @router.get("/assets/{path:path}")
 def asset(path: str) -> Response:
-    """Return a file of the page."""
+    """Return a file of the page; the modules of the viewer stand in a folder of their own."""
     suffix = PurePosixPath(path).suffix
-    if path == "viewer.js":
-        content = viewer_module()
-    elif path == "viewer.css":
+    name = path.removeprefix("viewer/")
+    parts = name.split("/")
+    package = "rightofway.studio" if name == path else "rightofway.viz.page"
+    found = files(package).joinpath("assets", *parts)
+    if path == "viewer.css":
         content = style_sheet()
-    else:
-        found = files("rightofway.studio").joinpath("assets", *PurePosixPath(path).parts)
-        if suffix not in MEDIA or not found.is_file():
-            raise Refused(f"there is no asset {path[:100]!r} (open the studio at /)", 404)
+    elif suffix in MEDIA and not {"", ".", ".."} & {*parts} and found.is_file():
         content = found.read_text("utf-8")
+    else:
+        raise Refused(f"there is no asset {path[:100]!r} (open the studio at /)", 404)
     return Response(content, media_type=MEDIA[suffix], headers={"cache-control": "no-cache"})
 
 
