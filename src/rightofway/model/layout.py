@@ -219,14 +219,18 @@ def roadmap_of_level(
         selects = bool(known_types)
     lanes = level.edges if selects else level.lanes_of(vehicle_type)
     slowest: dict[tuple[str, str], Edge] = {}
+    longs = {length: length * metre for length in {lane.length for lane in lanes}}
+    limits = {
+        speed: speed * metre / second for speed in {lane.max_speed for lane in lanes} if speed
+    }
     for lane in lanes:
-        limit = None if lane.max_speed is None else lane.max_speed * metre / second
+        limit = None if lane.max_speed is None else limits[lane.max_speed]
         is_open = lane.types is None or not selects
         barred = frozenset() if is_open else frozenset(known_types).difference(lane.types or ())
         edge = Edge(
             tail=lane.tail,
             head=lane.head,
-            length=lane.length * metre,
+            length=longs[lane.length],
             max_speed=limit,
             barred=barred,
         )
