@@ -69,7 +69,7 @@ export class MapGround {
   /** The cells of a quadtree; what is not free between them is wall. */
   #squares(context) {
     const { width, height, x, y, sides } = this.roadmap;
-    const gap = this.viewport.scale >= RULED_CELL / 2 ? this.#pixels(1) : 0;
+    const gap = this.viewport.scale >= RULED_CELL / 4 ? this.#pixels(1) : 0;
     context.fillStyle = this.theme.wall;
     context.fillRect(-0.5, -0.5, width, height);
     context.fillStyle = this.theme.line;
