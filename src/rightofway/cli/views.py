@@ -122,8 +122,9 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
 @click.option("--tick", type=click.IntRange(0), metavar="TICK", help="The same as a tick.")
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 @click.option("--background", type=click.Path(), metavar="FILE",
-              help="Under the map of the page: a ROS map or building (.yaml), whose picture lies"
-              " where the file says, or a picture, at the map's lower left corner.")  # fmt: skip
+              help="Under the map of the page: a ROS map or a building (.yaml), whose picture lies"
+              " where the file says; or a picture, its lower left corner on the map's.",
+              )  # fmt: skip
 @click.option("--background-scale", type=float, metavar="LENGTH",
               help="Length of a pixel of a picture; by default it is as wide as the map.",
               )  # fmt: skip
@@ -206,7 +207,7 @@ def _check_background(picture: str | None, scale: float | None, outputs: list[st
         raise click.UsageError(f"--background-scale is for pictures; {picture} says its own scale")
 
 
-def _background(path: str | None, scale: float | None, plan: Plan) -> Background | Picture | None:
+def _background(path: str | None, scale: float | None, plan: Plan) -> Background | None:
     """Return a picture, or where a layout says that its picture lies."""
     from rightofway.viz import Background
 
@@ -226,7 +227,7 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
     if len(found) != 1:
         message = f"names {len(found)} pictures (give a ROS map, or a building of one level)"
         raise InputError.at("", message, path)
-    return found[0].scaled(1 / (plan.scenario.units.metres or Fraction(1)))
+    return Background.of(found[0].scaled(1 / (plan.scenario.units.metres or Fraction(1))))
 
 
 def _write(found: Plan, path: str, extras: dict[str, Any]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError
-from rightofway.model import Point, Roadmap
+from rightofway.model import Roadmap
 from rightofway.model.drawing import Picture
 from rightofway.viz.placement import plane_of
 
@@ -41,6 +41,8 @@ class Background:
     origin
         The picture's lower left corner in the site's frame [length unit]. None puts it on the
         lower left corner of the map.
+    corner
+        The picture's upper left corner in the site's frame, instead of the origin [length unit].
     yaw
         Angle by which the picture is turned about that corner, from the site's x to its y [rad].
     opacity
@@ -50,6 +52,7 @@ class Background:
     picture: str | os.PathLike[str]
     scale: float | None = None
     origin: tuple[float, float] | None = None
+    corner: tuple[float, float] | None = None
     yaw: float = 0
     opacity: float = OPACITY
 
@@ -59,9 +62,22 @@ class Background:
         if not 0 <= self.opacity <= 1:
             fault = f"{self.opacity} is not from 0 to 1 (give a share)"
             raise InputError.at("background.opacity", fault)
+        if self.origin is not None and self.corner is not None:
+            raise InputError.at("background", "has both origin and corner (give one of them)")
+
+    @classmethod
+    def of(cls, picture: Picture) -> Background:
+        """Return the picture of a layout where the layout says that it lies."""
+        x, y = picture.corner
+        return cls(
+            picture=picture.file,
+            scale=float(picture.pixel),
+            corner=(float(x), float(y)),
+            yaw=float(picture.yaw),
+        )
 
 
-def background_data(roadmap: Roadmap, background: Background | Picture) -> dict[str, Any]:
+def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
     """Return the picture and where it lies in the drawing, as plain data for JSON.
 
     Parameters
@@ -83,29 +99,27 @@ def background_data(roadmap: Roadmap, background: Background | Picture) -> dict[
     InputError
         If the file is no picture that can be read.
     """
-    file = background.file if isinstance(background, Picture) else background.picture
-    href, columns, rows = _data_uri(file)
+    href, columns, rows = _data_uri(background.picture)
     plane, frame = plane_of(roadmap), roadmap.frame
 
-    def drawn(point: Point) -> tuple[float, float]:
-        x, y = frame.to_plane(point)
+    def drawn(point: tuple[float, float]) -> tuple[float, float]:
+        x, y = frame.to_plane((Fraction(point[0]), Fraction(point[1])))
         return (float(x) - plane.corner[0]) / plane.unit, (float(y) - plane.corner[1]) / plane.unit
 
     turn = float(Fraction(background.yaw) - frame.yaw) * (-1 if frame.y_up else 1)
-    if isinstance(background, Picture):
-        opacity, pixel = OPACITY, float(background.pixel) / plane.unit
+    has_cells = roadmap.grid is not None or roadmap.sides is not None
+    margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
+    pixel = (plane.width - 1 + 2 * margin) / columns
+    if background.scale is not None:
+        pixel = background.scale / plane.unit
+    if background.corner is not None:
         x, y = drawn(background.corner)
     else:
-        has_cells = roadmap.grid is not None or roadmap.sides is not None
-        margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
-        opacity, pixel = background.opacity, (plane.width - 1 + 2 * margin) / columns
-        if background.scale is not None:
-            pixel = background.scale / plane.unit
         x, y = -margin, plane.height - 1 + margin
         if background.origin is not None:
-            x, y = drawn((Fraction(background.origin[0]), Fraction(background.origin[1])))
+            x, y = drawn(background.origin)
         x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
-    found = {"href": href, "opacity": opacity, "x": x, "y": y}
+    found = {"href": href, "opacity": background.opacity, "x": x, "y": y}
     found |= {"width": columns * pixel, "height": rows * pixel}
     return {**found, "turn": turn} if turn else found
 

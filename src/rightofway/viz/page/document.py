@@ -18,7 +18,6 @@ from typing import Any
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.model.drawing import Picture
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
 from rightofway.viz.page.scripts import asset, classic_script, scripts_of
@@ -38,7 +37,7 @@ def page_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | Picture | None = None,
+    background: Background | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> str:
     """Return a page that plays a plan, as one HTML document.
@@ -127,7 +126,7 @@ def write_page(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | Picture | None = None,
+    background: Background | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> None:
     """Write a page that plays a plan; the file is there whole or not at all.

@@ -8,7 +8,6 @@ from typing import Any
 
 from rightofway.files import write_whole
 from rightofway.metrics import HEADINGS, Inspection, Site, sentences
-from rightofway.model.drawing import Picture
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import document_of
 from rightofway.viz.page.map_data import map_data
@@ -24,7 +23,7 @@ def inspection_page(
     title: str,
     what: str = "",
     notes: Sequence[str] = (),
-    background: Background | Picture | None = None,
+    background: Background | None = None,
 ) -> str:
     """Return a page that shows an inspection, as one HTML document.
 
@@ -69,7 +68,7 @@ def write_inspection(
     title: str,
     what: str = "",
     notes: Sequence[str] = (),
-    background: Background | Picture | None = None,
+    background: Background | None = None,
 ) -> None:
     """Write the page of an inspection; the file is there whole or not at all.
 
@@ -89,7 +88,7 @@ def write_inspection(
     write_whole(path, page)
 
 
-def site_data(site: Site, background: Background | Picture | None = None) -> dict[str, Any]:
+def site_data(site: Site, background: Background | None = None) -> dict[str, Any]:
     """Return a site as plain data for JSON: the map, and robots at their homes.
 
     Parameters
@@ -130,7 +129,7 @@ def site_data(site: Site, background: Background | Picture | None = None) -> dic
 
 
 def _level(
-    name: str, site: Site, inspection: Inspection, background: Background | Picture | None
+    name: str, site: Site, inspection: Inspection, background: Background | None
 ) -> dict[str, Any]:
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
     return {

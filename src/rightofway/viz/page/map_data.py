@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from rightofway.model import Grid, Roadmap
-from rightofway.model.drawing import Picture
 from rightofway.model.resources import close_pairs
 from rightofway.viz.page.background import Background, background_data
 from rightofway.viz.placement import Plane, plane_of
@@ -27,7 +26,7 @@ def map_data(
     roadmap: Roadmap,
     *,
     room: Fraction = Fraction(0),
-    background: Background | Picture | None = None,
+    background: Background | None = None,
 ) -> dict[str, Any]:
     """Return a map as plain data for JSON: graph, frame, places, zones, limits, picture.
 
@@ -77,8 +76,9 @@ def map_data(
         "close": _close(roadmap, room) if room and grid is None else {},
     }
     found |= {key: value for key, value in marks.items() if value}
-    picture = background or drawing.picture
-    return found | ({"background": background_data(roadmap, picture)} if picture else {})
+    if background is None and drawing.picture is not None:
+        background = Background.of(drawing.picture)
+    return found | ({"background": background_data(roadmap, background)} if background else {})
 
 
 def differences(numbers: Iterable[int]) -> list[int]:

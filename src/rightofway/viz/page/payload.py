@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,7 @@ from rightofway.model import (
     Tick,
     Track,
 )
-from rightofway.model.drawing import Picture
+from rightofway.model.closures import Closure, pieces_of
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
@@ -57,7 +58,7 @@ def payload_of(
     actual: ExecutionTrace | None = None,
     no_plan: NoPlanExists | None = None,
     title: str = "",
-    background: Background | Picture | None = None,
+    background: Background | None = None,
     other: tuple[Plan, str] | None = None,
 ) -> dict[str, Any]:
     """Return what the page needs, as plain data for JSON.
@@ -101,6 +102,8 @@ def payload_of(
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
+    if scenario.closures:
+        payload["closures"] = [_closure(closure, scenario) for closure in scenario.closures]
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
@@ -150,6 +153,19 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
             }
             for blockage in no_plan.blockages[:LISTED_FAULTS]
         ],
+    }
+
+
+def _closure(closure: Closure, scenario: Scenario) -> dict[str, Any]:
+    """Return the vertices of a closure, along a lane in order, and when it is."""
+    tick = scenario.problem.clock.tick
+    places = [closure.at] if closure.edge is None else pieces_of(scenario.roadmap, closure.edge)
+    until = closure.until
+    return {
+        "vertices": list(places),
+        "from": floor(closure.from_ / tick),
+        "until": None if until is None else ceil(until / tick),
+        "radius": None if closure.radius is None else float(closure.radius),
     }
 
 

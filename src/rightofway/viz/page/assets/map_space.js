@@ -7,13 +7,14 @@ import { dot, haloed, line, ring } from "./shapes.js";
  * holder; and for the robot chosen what it excludes, and how near the next robot is.
  */
 export class MapSpace {
-  constructor(plan, motion, space, viewport, sizes, theme, choice, marks) {
-    Object.assign(this, { plan, motion, space, viewport, sizes, theme, choice, marks });
+  constructor(plan, motion, clock, space, viewport, sizes, theme, choice, marks) {
+    Object.assign(this, { plan, motion, clock, space, viewport, sizes, theme, choice, marks });
   }
 
   /** Paint in map units, below the robots. */
   paint(context, scale) {
     this.#zones(context, scale);
+    for (const closure of this.plan.closures) this.#closure(context, closure, scale);
     if (!this.choice.space) return;
     const { robot } = this.choice;
     if (robot) this.#excluded(context, robot, scale);
@@ -86,6 +87,36 @@ export class MapSpace {
     }
     context.globalAlpha = 1;
     context.lineCap = "butt";
+  }
+
+  /** A closed vertex or lane has a sign; while it is not closed, the sign is an outline. */
+  #closure(context, { vertices, from, until, radius }, scale) {
+    const { x, y, unit } = this.plan.roadmap;
+    const isNow = from <= this.clock.tick && this.clock.tick < until;
+    context.strokeStyle = context.fillStyle = this.theme.held;
+    context.lineCap = context.lineJoin = "round";
+    context.beginPath();
+    for (const vertex of vertices) context.lineTo(x[vertex], y[vertex]);
+    dot(context, x[vertices.at(-1)], y[vertices.at(-1)]);
+    if (isNow && radius) {
+      context.globalAlpha = 0.14;
+      context.lineWidth = (2 * radius) / unit;
+      context.stroke();
+    }
+    context.globalAlpha = isNow ? 1 : 0.35;
+    context.lineWidth = 2.5 / scale;
+    context.setLineDash([6 / scale, 5 / scale]);
+    context.stroke();
+    context.setLineDash([]);
+    context.lineCap = "butt";
+    const [one, other] = [vertices[(vertices.length - 1) >> 1], vertices[vertices.length >> 1]];
+    const [middleX, middleY] = [(x[one] + x[other]) / 2, (y[one] + y[other]) / 2];
+    const size = Math.max(this.sizes.sign, 7) / scale;
+    if (isNow) disc(context, middleX, middleY, size);
+    else ring(context, middleX, middleY, size);
+    context.fillStyle = isNow ? this.theme.paper : this.theme.held;
+    context.fillRect(middleX - 0.6 * size, middleY - 0.2 * size, 1.2 * size, 0.4 * size);
+    context.globalAlpha = 1;
   }
 
   #band(context, robot, scale) {

@@ -44,6 +44,7 @@ export class MapTip {
       ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
       ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
       ...(vertex < 0 ? [] : this.#aboutZones(vertex)),
+      ...this.plan.closures.filter(({ vertices }) => vertices.includes(vertex)).map((closure) => ({ text: this.words.closure(closure) })),
       ...(obstacle ? [{ text: obstacle.name, kind: "title" }] : []),
       { text: this.#position(x, y), kind: "position" },
     ];

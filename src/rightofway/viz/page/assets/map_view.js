@@ -42,7 +42,7 @@ export class MapView {
       this.names.refresh();
     });
     this.space = new Space(plan, motion);
-    this.bookings = new MapSpace(plan, motion, this.space, this.viewport, this.sizes, theme, choice, base.marks);
+    this.bookings = new MapSpace(plan, motion, clock, this.space, this.viewport, this.sizes, theme, choice, base.marks);
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);

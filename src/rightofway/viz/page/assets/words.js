@@ -72,6 +72,12 @@ export class Words {
     return `${quantities.length(rounded(distance))} apart, ${quantities.length(rounded(room))} needed`;
   }
 
+  /** When a place is closed. */
+  closure({ from, until, vertices }) {
+    const what = vertices.length > 1 ? `${this.vertex(vertices[0])} to ${this.vertex(vertices.at(-1))} closed` : "closed";
+    return `${what} from ${this.moment(from)} ${until === Infinity ? "on" : `until ${this.moment(until)}`}`;
+  }
+
   /** Why a robot never gets on. */
   stuck(behind) {
     if (!behind) return "never";
