@@ -101,6 +101,7 @@ PLANNERS = (
         "rightofway.planners.lacam:lacam",
         "Moves all robots together, step by step: a plan at once, also where there is hardly room.",
         options.LacamOptions,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "local-search",
