@@ -157,6 +157,10 @@ class Problem {
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
+    // Vertices, and edges after them. Only where robots have sizes, edges are booked.
+    std::int32_t n_resources() const {
+        return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
+    }
     // Only where robots have sizes: the rows from which a booking of a row excludes other robots.
     std::span<const std::int32_t> excluded(std::int32_t row) const {
         const auto begin = static_cast<std::size_t>(resources_.first[row]);
@@ -186,9 +190,6 @@ class Problem {
     void check_robots() const;
     void check_resources() const;
     void check_turns() const;
-    std::int32_t n_resources() const {
-        return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
-    }
 
     ProblemArrays arrays_;
     Roads roads_;

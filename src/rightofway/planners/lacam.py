@@ -35,9 +35,10 @@ from rightofway.planners.impossible import (
     refuse_stranded,
     refuse_the_impossible,
 )
+from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_on
-from rightofway.search import Distances, plan_by_lacam, untimed_lacam
+from rightofway.search import Distances, FleetSearch, plan_by_lacam, untimed_lacam
 
 SHARE_OF_TIME = 0.9
 """The part of the time for the timed search."""
@@ -71,10 +72,20 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
     status = "instant by instant"
-    if tracks is not None and scenario.problem.turns:
+    if scenario.problem.turns and scenario.problem.resources is not None:
+        tracks = None  # instants have no turns in them, and orders at vertices know no sizes
+    elif tracks is not None and scenario.problem.turns:
         visited = [track.vertices.tolist() for track in tracks]
         tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
-    if tracks is None:
+    if scenario.problem.resources is not None:
+        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
+        if tracks is None:
+            task.report("no end by instants: planning the order of single moves")
+            return plan_by_moves(task, search)
+        search.start(tracks)
+        search.retime()
+        tracks = list(search.tracks())
+    elif tracks is None:
         task.report("no end by instants: planning the order of moves without clocks")
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
         left = task.deadline.seconds_left()

@@ -107,6 +107,7 @@ PLANNERS = (
         "Moves all robots together, step by step: a plan at once, also where there is hardly room.",
         options.LacamOptions,
         knows_turns=True,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "local-search",
