@@ -13,6 +13,7 @@ import numpy as np
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
 from rightofway.model import Plan, PlannerRun, Scenario, checked_time_limit
+from rightofway.model.problem import refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners import (
     DEFAULT,
@@ -176,6 +177,9 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
             why = "it leaves swaps, and robots with a size collide in them"
             raise InputError.at("", f"planner {spec.name} is for points: {why} (choose {able})")
         refuse_sizes(task.scenario.problem.resources, f"planner {spec.name}", f"choose {able}")
+    if not spec.knows_turns:
+        able = " or ".join(one.name for one in registered().values() if one.knows_turns)
+        refuse_turn_rates(task.scenario.problem, f"planner {spec.name}", f"choose {able}")
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 

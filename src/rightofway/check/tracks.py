@@ -72,23 +72,40 @@ def judge_drives(  # noqa: C901 (a function for the message of each kind of faul
 
         collector.add_all(kind, times[where], (visits.robot[where],), fault)
 
-    def turn_cut_short(visit: int) -> str:
-        drive, turn = visits.drive[visit], visits.turn[visit]
-        angle = decimal(Fraction(int(visits.angle[visit]), MICRO), 6)
-        return (
-            f"{robot(visit)} turns {angle} degrees at {vertex(visit)} in"
-            f" {names.duration(stay[visit] - drive)}, it needs {names.duration(turn)} (enter"
-            f" {vertex(visit + 1)} at {names.moment(visits.enter[visit] + turn + drive)} or later)"
-        )
-
     stay, moves, joined = visits.leave - visits.enter, ~visits.last, visits.edge >= 0
     both_known = visits.known & np.roll(visits.known, -1)
     report("unknown vertex", ~visits.known, unknown)
     report("backwards", moves & (stay < 0), backwards)
     report("jump", moves & both_known & ~joined, jump)
     report("too fast", joined & (stay >= 0) & (stay < visits.drive), too_fast)
-    turns = joined & (stay >= visits.drive) & (stay < visits.drive + visits.turn)
-    report("turn cut short", turns, turn_cut_short)
+
+
+def judge_turns(visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find changes of heading that are too fast."""
+    stay = visits.leave - visits.enter
+    broken = (visits.edge >= 0) & (stay >= visits.drive) & (stay < visits.drive + visits.turn)
+    where = np.flatnonzero(broken)
+
+    def fault(position: int) -> Fault:
+        visit = int(where[position])
+        robot, ends = int(visits.robot[visit]), visits.vertex[visit : visit + 2].tolist()
+        at, to = map(names.vertex, ends)
+        least = visits.turn[visit] + visits.drive[visit]
+        message = (
+            f"{names.robot(robot)} turns {decimal(Fraction(int(visits.angle[visit]), MICRO), 6)}"
+            f" degrees at {at} in {names.duration(stay[visit] - visits.drive[visit])}, it needs"
+            f" {names.duration(visits.turn[visit])} (enter {to} at"
+            f" {names.moment(visits.enter[visit] + least)} or later)"
+        )
+        return Fault(
+            kind="turn cut short",
+            robots=(robot,),
+            vertices=(VertexId(ends[0]),),
+            tick=Tick(int(visits.leave[visit])),
+            message=message,
+        )
+
+    collector.add_all("turn cut short", visits.leave[where], (visits.robot[where],), fault)
 
 
 def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 
+from rightofway.errors import InputError
 from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, resources_of
 from rightofway.model.roadmap import Roadmap
@@ -126,6 +127,28 @@ class Problem:
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
+
+
+def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:
+    """Refuse a fleet in which a robot needs time to turn on the spot.
+
+    Parameters
+    ----------
+    problem
+        The fleet in ticks.
+    what
+        What does not know turn rates.
+    remedy
+        What to do instead.
+
+    Raises
+    ------
+    InputError
+        If a robot has a turn rate.
+    """
+    if problem.turns:
+        message = f"{what} does not know robots with a turn_rate ({remedy}, or leave it out)"
+        raise InputError.at("", message)
 
 
 def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:

@@ -63,6 +63,18 @@ class Turning:
     angles: Angles
     ticks: NDArray[np.int64]
 
+    def of(self, before: int, after: int) -> Tick:
+        """Return how long the robot turns between two edges [ticks]; before the first one, -1, 0.
+
+        Parameters
+        ----------
+        before, after
+            Two edges, the second of which begins where the first ends.
+        """
+        if before < 0:
+            return Tick(0)
+        return Tick(int(self.ticks[self.angles.kind[self.angles.offset[before] + after]]))
+
     def between(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
         """Return how long the robot turns between each edge and the next [ticks]; int64.
 
@@ -141,10 +153,10 @@ def angles_of(roadmap: Roadmap) -> Angles:
     angle = np.abs(heading[before] - heading[after])
     angle = np.rint(np.minimum(angle, 360 - angle) / float(ANGLE_STEP)).astype(np.int64)
     angle[~(has_heading[before] & has_heading[after])] = 0
-    angles, inverse = np.unique(angle, return_inverse=True)
-    kind = inverse.reshape(-1).astype(np.int32)  # NumPy 2.0 keeps an axis of length 1
-    offset.flags.writeable = kind.flags.writeable = False
-    return Angles(offset=offset, kind=kind, angles=tuple(angles.tolist()))
+    angles, kind = np.unique(angle, return_inverse=True)
+    kinds: NDArray[np.int32] = kind.reshape(-1).astype(np.int32)  # NumPy 2.0 keeps an axis
+    offset.flags.writeable = kinds.flags.writeable = False
+    return Angles(offset=offset, kind=kinds, angles=tuple(angles.tolist()))
 
 
 def _headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

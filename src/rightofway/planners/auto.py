@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp
 from rightofway.model import flowtime_of
+from rightofway.model.problem import refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
@@ -33,6 +34,7 @@ def auto(task: Task) -> Draft:
     """
     if task.options["swaps"] == "leave":
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
+        refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     explained = None
     if len(task.scenario.robots) <= FEW:

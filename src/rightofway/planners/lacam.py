@@ -13,6 +13,9 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
+Where turning on the spot takes time, the timed search orders visits without it, and the earliest
+timetable of that order has the turns.
+
 Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
 long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
@@ -68,6 +71,9 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
     status = "instant by instant"
+    if tracks is not None and scenario.problem.turns:
+        visited = [track.vertices.tolist() for track in tracks]
+        tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
     if tracks is None:
         task.report("no end by instants: planning the order of moves without clocks")
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)

@@ -113,19 +113,26 @@ def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: 
 class _Timed(NamedTuple):
     """A state with the earliest times of the moves that led there.
 
-    `ready` is when each robot has worked and turned where it is, `ends` when each robot's latest
-    booking that excludes others from a row has ended, by row and robot [ticks].
+    `ready` is when each robot has worked and turned where it is, but for the turn to the next edge;
+    `ends` when each robot's latest booking that excludes others from a row has ended, by row and
+    robot [ticks]; `edges` the edge along which each robot has come, -1 if it turns in no time.
     """
 
     state: _State
     ready: tuple[int, ...]
     ends: dict[tuple[int, int], int]
     moves: tuple[_Move, ...]
+    edges: tuple[int, ...]
 
     def is_as_early_as(self, other: _Timed) -> bool:
-        """Return whether no robot and no booking is later than in another one of this state."""
-        return all(a <= b for a, b in zip(self.ready, other.ready, strict=True)) and all(
-            end <= other.ends.get(key, 0) for key, end in self.ends.items()
+        """Return whether no robot and no booking is later than in another one of this state.
+
+        Headings differ where robots that turn in some time have come along different edges.
+        """
+        return (
+            self.edges == other.edges
+            and all(a <= b for a, b in zip(self.ready, other.ready, strict=True))
+            and all(end <= other.ends.get(key, 0) for key, end in self.ends.items())
         )
 
 
@@ -155,7 +162,7 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
         least_dwell(one.stages[:served], leaves=True)
         for one, served in zip(floor.itineraries, first.stages, strict=True)
     )
-    start = _Timed(first, ready, {}, ())
+    start = _Timed(first, ready, {}, (), (-1,) * len(ready))
     order = count()
     waiting = [(floor.least_flowtime(start), 0, start)]
     known: dict[_State, list[_Timed]] = {start.state: [start]}
@@ -289,7 +296,11 @@ class _Floor:
         for (row, other), end in timed.ends.items():
             if other != robot and row in needed:
                 begin = max(begin, end)
-        itinerary = self.itineraries[robot]
+        itinerary, edges = self.itineraries[robot], timed.edges
+        if itinerary.turning is not None:
+            turned = timed.ready[robot] + itinerary.turning.of(edges[robot], move.edge)
+            begin = max(begin, turned)
+            edges = (*edges[:robot], move.edge, *edges[robot + 1 :])
         enter = begin + itinerary.edge_ticks[self._roadmap.length_class[move.edge]]
         served = itinerary.stages[timed.state.stages[robot] : state.stages[robot]]
         ready = enter + least_dwell(served, leaves=True)
@@ -298,7 +309,7 @@ class _Floor:
             for row in resources.excluded_by(left).tolist():
                 ends[row, robot] = enter + self._headway
         by_robot = (*timed.ready[:robot], ready, *timed.ready[robot + 1 :])
-        return _Timed(state, by_robot, ends, (*timed.moves, move))
+        return _Timed(state, by_robot, ends, (*timed.moves, move), edges)
 
     def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
@@ -335,7 +346,7 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
     vertices = [[one.home] for one in itineraries]
     enter = [[Tick(0)] for _ in itineraries]
-    stages, now = [0] * len(itineraries), 0
+    stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:
         one, place = itineraries[robot], vertices[robot][-1]
         served = []
@@ -343,6 +354,9 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
             served.append(one.stages[stages[robot]])
             stages[robot] += 1
         ready = enter[robot][-1] + least_dwell(served, leaves=True)
+        if one.turning is not None:
+            ready += one.turning.of(edges[robot], edge)
+        edges[robot] = edge
         now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
         now += task.scenario.problem.headway
         vertices[robot].append(VertexId(head))

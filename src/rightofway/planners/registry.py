@@ -33,6 +33,8 @@ class PlannerSpec:
         Whether its plans may hold swaps; all other plans keep all rules.
     knows_sizes
         Whether it plans robots that have a size.
+    knows_turns
+        Whether it plans robots that need time to turn on the spot.
     """
 
     name: str
@@ -42,6 +44,7 @@ class PlannerSpec:
     improves: bool = False
     leaves_swaps: bool = False
     knows_sizes: bool = False
+    knows_turns: bool = False
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -82,6 +85,7 @@ PLANNERS = (
         "The default: a plan at once, then better plans until time is up.",
         options.AutoOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "two-level",
@@ -89,6 +93,7 @@ PLANNERS = (
         "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "paper",
@@ -101,6 +106,7 @@ PLANNERS = (
         "rightofway.planners.lacam:lacam",
         "Moves all robots together, step by step: a plan at once, also where there is hardly room.",
         options.LacamOptions,
+        knows_turns=True,
     ),
     PlannerSpec(
         "local-search",
@@ -109,6 +115,7 @@ PLANNERS = (
         options.LocalSearchOptions,
         improves=True,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "fixed-priority",
@@ -116,6 +123,7 @@ PLANNERS = (
         "Right of way in the order of the scenario: the first robot goes first.",
         options.PriorityOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "random-priority",
@@ -123,6 +131,7 @@ PLANNERS = (
         "Right of way by random orders of the robots; the best plan is kept.",
         options.RandomPriorityOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "priority-search",
@@ -130,6 +139,7 @@ PLANNERS = (
         "Right of way by an order of the robots that hill climbing improves.",
         options.PrioritySearchOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "prioritized",
@@ -137,6 +147,7 @@ PLANNERS = (
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
         knows_sizes=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "lns",
@@ -145,6 +156,7 @@ PLANNERS = (
         options.LnsOptions,
         improves=True,
         knows_sizes=True,
+        knows_turns=True,
     ),
 )
 

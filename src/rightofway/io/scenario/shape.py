@@ -39,7 +39,7 @@ RETURN = "home, or none"
 BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
-TURN_RATE = "degrees per time unit of turns on the spot, above 0; by default turns take no time"
+TURN_RATE = "how fast it turns on the spot [degrees per time unit]; by default in no time"
 
 YAxis = Literal["down", "up"]
 
@@ -284,7 +284,6 @@ class TripDocument(Document):
     turn: Turning = optional(TURNING)
     ends: TripEnd = optional(RETURN, alias="return")
     laps: Count = optional(LAPS)
-    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotDocument(TripDocument):
@@ -308,6 +307,7 @@ class RobotDocument(TripDocument):
     radius: NotNegative = optional("radius of the circle that it needs [length unit]")
     size: Size = optional("[length, width] instead of a radius: the circle around it [length unit]")
     type: Name = optional("the name of its type, for edges and vertices that are barred for types")
+    turn_rate: Positive = optional(TURN_RATE)
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -344,6 +344,7 @@ class FleetDocument(TripDocument):
     )
     work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
     radius: NotNegative = optional("radius of the circle that each of them needs [length unit]")
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotTableDocument(Document):
@@ -361,6 +362,7 @@ class RulesDocument(TripDocument):
     clearance: NotNegative = optional(
         "least distance between two robots of which one has a radius [length unit]"
     )
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class ClosureDocument(Document):

@@ -190,6 +190,7 @@ def _robots(
                 [stage.vertex, stage.work, stage.turn, visit]
                 for stage, visit in zip(trip.stages, trip.served, strict=True)
             ],
+            **({"turns": _sparse(trip.turns)} if any(trip.turns) else {}),
             **({} if min(trip.served) >= 0 else {"stands": True}),
         }
         for index, (robot, trip, edges) in enumerate(
@@ -269,8 +270,10 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
         trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
     ):
         is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
+        stages, turns = _executed_duties(planned if is_planned else taken, dwell)
         robot = {
-            "stages": _executed_stages(planned if is_planned else taken, dwell),
+            "stages": stages,
+            **({"turns": turns} if planned.turns or taken.turns else {}),
             **({} if is_planned else {"vertices": differences(taken.vertices)}),
             "enter": differences(taken.enter),
             "drive": drive.tolist(),
@@ -308,20 +311,30 @@ def _executed_stays(
     )
 
 
-def _executed_stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
-    """Return the stages; each takes its share of the executed duration of its visit."""
+def _executed_duties(
+    trip: Trip, dwell: NDArray[np.int64]
+) -> tuple[list[list[int]], list[list[int]]]:
+    """Return stages and turns; each takes its share of the executed duration of its visit."""
     reached, last = len(dwell), len(trip.vertices) - 1
     planned = np.zeros(reached, np.int64)
+    planned[: len(trip.turns)] = trip.turns[:reached]
     for stage, visit in zip(trip.stages, trip.served, strict=True):
         if 0 <= visit < reached:
             planned[visit] += stage.work + (stage.turn if visit < last else 0)
     pace = [ticks / least if least else 1 for ticks, least in zip(dwell, planned, strict=True)]
-    return [
+    stages = [
         [stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit]
         if 0 <= visit < reached
         else [stage.vertex, stage.work, stage.turn, -1]
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
+    scaled = (round(ticks * each) for ticks, each in zip(trip.turns, pace, strict=False))
+    return stages, _sparse(scaled)
+
+
+def _sparse(numbers: Iterable[int]) -> list[list[int]]:
+    """Return the index and the value of each number that is not 0."""
+    return [[index, number] for index, number in enumerate(numbers) if number]
 
 
 def _loss(loss: Loss) -> list[int | None]:

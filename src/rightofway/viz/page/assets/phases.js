@@ -32,6 +32,7 @@ export function phasesOf(robot) {
       add(robot.stages[stage].work, WORK);
       if (visit < last || robot.ending !== DONE) add(robot.stages[stage].turn, TURN);
     }
+    if (visit < last) add(robot.turns.get(visit) ?? 0, TURN);
     if (visit === last) pushEnd(phases, now, robot);
     else {
       if (go > now) pushStill(phases, now, go, WAIT, visit, robot);

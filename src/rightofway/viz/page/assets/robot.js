@@ -15,6 +15,7 @@ export class Robot {
       ? new Float64Array(this.vertices.length).fill(raw.drive)
       : Float64Array.from(raw.drive);
     this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
+    this.turns = new Map(raw.turns); // on the spot between two edges, by visit [ticks]
     this.completion = raw.completion;
     this.alone = raw.alone;
     this.lost = { detours: raw.lost[0], makingRoom: raw.lost[1], waiting: raw.lost[2] };
