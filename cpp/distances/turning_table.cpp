@@ -83,6 +83,9 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
                                           " ticks do not fit int32 (use a larger tick)");
             }
             least[edge] = static_cast<std::int32_t>(ticks);
+            if (problem.drive(robot, edge) < 0) {
+                continue;  // barred
+            }
             const VertexId tail = into.tail[edge];
             const Tick before = ticks + problem.drive(robot, edge);
             for (EdgeId k = into.first[tail]; k < into.first[tail + 1]; ++k) {
@@ -96,7 +99,7 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
         Tick at_home = itinerary.home == target ? served(-1) : never;
         for (EdgeId e = graph.indptr[itinerary.home];
              e < graph.indptr[itinerary.home + 1] && itinerary.home != target; ++e) {
-            if (least[e] >= 0) {
+            if (least[e] >= 0 && problem.drive(robot, e) > 0) {
                 at_home = std::min(at_home, problem.drive(robot, e) + Tick{least[e]});
             }
         }

@@ -57,7 +57,9 @@ def _sized(seed: int, robots: int, headway: int) -> Scenario:
     return with_radii(random_fleet(seed, robots=robots, walls=0.05, rules=rules), radii)
 
 
-def crowded_roadmap(draw: random.Random, *, vertices: int = 9, edges: int = 14) -> Roadmap:
+def crowded_roadmap(
+    draw: random.Random, *, vertices: int = 9, edges: int = 14, one_way: float = 0.2
+) -> Roadmap:
     """Return vertices anywhere and lanes anyhow: many cross, or pass near other vertices."""
     places = draw.sample([(x, y) for x in range(7) for y in range(7)], vertices)
     names = [f"V{k}" for k in range(vertices)]
@@ -70,7 +72,7 @@ def crowded_roadmap(draw: random.Random, *, vertices: int = 9, edges: int = 14) 
         square = sum((a - b) ** 2 for a, b in zip(at[tail], at[head], strict=True))
         length = next(Fraction(n, 4) for n in range(1, 99) if n**2 >= 16 * square)
         found += [Edge(tail=tail, head=head, length=length)]
-        if draw.random() < 0.8:
+        if draw.random() < 1 - one_way:
             found += [Edge(tail=head, head=tail, length=length)]
     return roadmap_of_edges({name: (float(x), float(y)) for name, (x, y) in at.items()}, found)
 

@@ -16,10 +16,8 @@ from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId, decimal
 
 
-def judge_drives(  # noqa: C901 (a function for the message of each kind of fault)
-    visits: Visits, names: Names, collector: FaultCollector
-) -> None:
-    """Find unknown vertices, jumps, drives too fast, cut turns, times that go backwards."""
+def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
 
     def robot(visit: int) -> str:
         return names.robot(int(visits.robot[visit]))

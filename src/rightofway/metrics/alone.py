@@ -181,10 +181,9 @@ def _drives_and_turns(roadmap: Roadmap, itinerary: Itinerary, turning: Turning) 
             if here == target:
                 continue
             for after in range(int(roadmap.indptr[here]), int(roadmap.indptr[here + 1])):
-                if after not in settled:
-                    turn = turning.of(edge, after)
-                    drive = itinerary.edge_ticks[roadmap.length_class[after]]
-                    heappush(heap, (ticks + turn + drive, after))
+                drive = itinerary.edge_ticks[roadmap.length_class[after]]
+                if after not in settled and drive > 0:
+                    heappush(heap, (ticks + turning.of(edge, after) + drive, after))
         reached = {edge: settled[edge] for edge in into[target] if edge in settled}
     return min(reached.values())
 

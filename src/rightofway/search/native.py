@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Problem, Tick, Track
+from rightofway.model.turning import Turning
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
@@ -65,9 +66,13 @@ def bound(problem: Problem) -> _core.Problem:
 def _turning(problem: Problem) -> dict[str, Any]:
     """Return how long robots turn; robots of one turn rate are a class."""
     robots = problem.itineraries
-    classes = list({one.turning: None for one in robots if one.turning is not None})
-    if not classes:
+    number: dict[Turning, int] = {}
+    class_of = [
+        -1 if one.turning is None else number.setdefault(one.turning, len(number)) for one in robots
+    ]
+    if not number:
         return {}
+    classes = list(number)
     angles = classes[0].angles
     ticks = np.concatenate([one.ticks for one in classes])
     if ticks.max(initial=0) > np.iinfo(np.int32).max:
@@ -75,9 +80,7 @@ def _turning(problem: Problem) -> dict[str, Any]:
     return {
         "turn_offset": angles.offset,
         "turn_kind": angles.kind,
-        "turn_class": np.array(
-            [-1 if one.turning is None else classes.index(one.turning) for one in robots], np.int32
-        ),
+        "turn_class": np.array(class_of, np.int32),
         "turn_ticks": ticks.astype(np.int32),
         "n_turn_kinds": len(angles.angles),
     }

@@ -6,7 +6,7 @@ route these are small and repeat, so the file is a fraction of the size. ``plan.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
