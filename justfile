@@ -33,6 +33,10 @@ test *args:
 thorough *args:
     pytest -m slow -n 2 {{ args }}
 
+# Open broken layouts: 100 000 take about half an hour
+fuzz-layouts *args:
+    python -m tests.fuzz.layouts {{ args }}
+
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:
     cmake --preset sanitize

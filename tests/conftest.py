@@ -15,6 +15,7 @@ SLOW = (
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_mixed_scenarios.py",  # a thousand scenarios
+    "conformance/test_samples.py",  # plans on 36 real layouts
     "docs/test_examples.py",  # runs every command on every page
     "laws/test_best_timetable.py",
     "laws/test_periodic_search.py",

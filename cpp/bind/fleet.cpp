@@ -100,16 +100,22 @@ class FleetSearch {
                std::span<const Tick> enter) {
         clear();
         for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            const Turns turns = problem_.turns(robot);
+            EdgeId before = -1;
             TimedTrack track;
             for (auto k = static_cast<std::size_t>(first_visit[robot]);
                  k < static_cast<std::size_t>(first_visit[robot + 1]); ++k) {
-                const bool is_first = track.visits.empty();
-                const std::int32_t drive =
-                    is_first ? 0 : problem_.drive(robot, vertices[k - 1], vertices[k]);
-                if (drive < 0) {
+                if (track.visits.empty()) {
+                    track.visits.push_back({enter[k], vertices[k], 0});
+                    continue;
+                }
+                const EdgeId edge = problem_.graph().edge(vertices[k - 1], vertices[k]);
+                if (edge < 0) {
                     reject_entry("vertices", k, vertices[k], "is not next to the one before");
                 }
-                track.visits.push_back({enter[k], vertices[k], drive});
+                track.visits.push_back({enter[k], vertices[k], problem_.drive(robot, edge),
+                                        turns.between(before, edge)});
+                before = edge;
             }
             const Tick done =
                 track.visits.empty() ? -1 : completion(problem_.itinerary(robot), track.visits);

@@ -21,7 +21,9 @@ namespace {
 constexpr auto class_doc =
     R"(Bookings of vertices with a period or none, and when one more robot can make given visits.
 
-All bookings come again after ``period`` ticks; None for a line of time.)";
+All bookings come again after ``period`` ticks; None for a line of time. Where robots have sizes,
+vertices are rows, ``edge`` of consecutive visits holds the row of the edge driven into each, int32[N],
+and a booking of row ``r`` excludes others from ``excluded[first[r]:first[r + 1]]``, int32.)";
 
 constexpr auto add_doc =
     R"(Book consecutive visits of a robot, with a period all those of one period.
@@ -95,13 +97,13 @@ std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<Edge
                                 const ArrayIn<VertexId>& stage_vertex,
                                 const ArrayIn<Tick>& stage_work, const ArrayIn<Tick>& stage_turn,
                                 const std::vector<ArrayIn<std::int32_t>>& stage_tables, Tick phase,
-                                std::optional<double> time_limit) {
+                                std::optional<double> time_limit, std::int32_t first_row) {
     const Roads roads{{view(indptr), view(indices)}, view(length_class)};
     const VertexId home = stage_vertex.size() == 0 ? 0 : view(stage_vertex).back();
     Trip trip{home, view(stage_vertex), view(stage_work), view(stage_turn), view(pace), {}};
     for (std::size_t k = 0; k < stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),
-                       static_cast<std::size_t>(self.n_vertices()));
+                       indptr.size() == 0 ? 0 : indptr.size() - 1);
         trip.to_stage.emplace_back(stage_tables[k].data(), 1);
     }
     const Deadline deadline(time_limit);
@@ -109,7 +111,7 @@ std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<Edge
     bool is_found = false;
     {
         const nb::gil_scoped_release released;
-        is_found = PeriodicSearch(roads, self).run(trip, phase, found, deadline);
+        is_found = PeriodicSearch(roads, self).run(trip, phase, found, deadline, first_row);
     }
     if (!is_found) {
         return std::nullopt;
@@ -118,15 +120,24 @@ std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<Edge
                  to_numpy(std::move(found.drive)), to_numpy(std::move(found.enter))};
 }
 
+using Rows = std::optional<ArrayIn<std::int32_t>>;
+
 Visits visits_of(const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& dwell,
-                 const ArrayIn<Tick>& drive) {
-    return {view(vertex), view(dwell), view(drive)};
+                 const ArrayIn<Tick>& drive, const Rows& edge) {
+    return {view(vertex), view(dwell), view(drive), view_or_empty(edge)};
+}
+
+void init(PeriodicBookings* self, std::int32_t n_rows, std::optional<Tick> period, Tick headway,
+          bool books_ahead, const Rows& first, const Rows& excluded) {
+    const ExcludedRows rows{view_or_empty(first), view_or_empty(excluded)};
+    new (self) PeriodicBookings(n_rows, period, headway, books_ahead, rows);
 }
 
 std::optional<ArrayOut<Tick>> search(PeriodicBookings& self, const ArrayIn<VertexId>& vertex,
                                      const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
-                                     Tick phase, std::optional<double> time_limit) {
-    const Visits visits = visits_of(vertex, dwell, drive);
+                                     Tick phase, std::optional<double> time_limit,
+                                     const Rows& edge) {
+    const Visits visits = visits_of(vertex, dwell, drive, edge);
     const Deadline deadline(time_limit);
     std::vector<Tick> enter;
     bool is_found = false;
@@ -139,10 +150,10 @@ std::optional<ArrayOut<Tick>> search(PeriodicBookings& self, const ArrayIn<Verte
 
 std::optional<ArrayOut<Tick>> connect(PeriodicBookings& self, const ArrayIn<VertexId>& vertex,
                                       const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive,
-                                      Tick begins, Tick until, Tick leave) {
+                                      Tick begins, Tick until, Tick leave, const Rows& edge) {
     std::vector<Tick> enter;
     const bool is_found =
-        self.connect(visits_of(vertex, dwell, drive), begins, until, leave, enter);
+        self.connect(visits_of(vertex, dwell, drive, edge), begins, until, leave, enter);
     return is_found ? std::optional(to_numpy(std::move(enter))) : std::nullopt;
 }
 
@@ -150,19 +161,20 @@ std::optional<ArrayOut<Tick>> connect(PeriodicBookings& self, const ArrayIn<Vert
 
 void bind_periodic_bookings(nb::module_& module) {
     nb::class_<PeriodicBookings>(module, "PeriodicBookings", class_doc)
-        .def(nb::init<VertexId, std::optional<Tick>, Tick, bool>(), nb::arg("n_vertices"),
-             nb::arg("period").none(), nb::arg("headway"), nb::arg("books_ahead"))
+        .def("__init__", &init, nb::arg("n_vertices"), nb::arg("period").none(), nb::arg("headway"),
+             nb::arg("books_ahead"), array("first").none() = nb::none(),
+             array("excluded").none() = nb::none())
         .def_prop_ro("reached", &PeriodicBookings::reached,
                      "The last visit that the latest search could enter; it got stuck at the next.")
         .def(
             "add",
             [](PeriodicBookings& self, RobotId robot, const ArrayIn<VertexId>& vertex,
                const ArrayIn<Tick>& dwell, const ArrayIn<Tick>& drive, const ArrayIn<Tick>& enter,
-               std::optional<Tick> leave) {
-                return self.add(robot, visits_of(vertex, dwell, drive), view(enter), leave);
+               std::optional<Tick> leave, const Rows& edge) {
+                return self.add(robot, visits_of(vertex, dwell, drive, edge), view(enter), leave);
             },
             nb::arg("robot"), array("vertex"), array("dwell"), array("drive"), array("enter"),
-            nb::arg("leave") = nb::none(), add_doc)
+            nb::arg("leave") = nb::none(), array("edge").none() = nb::none(), add_doc)
         .def("remove", &PeriodicBookings::remove, nb::arg("robot"),
              "Remove all bookings of a robot; nothing happens if it has none.")
         .def(
@@ -171,13 +183,14 @@ void bind_periodic_bookings(nb::module_& module) {
                Tick ends) { return to_numpy(self.users(view(vertices), begins, ends)); },
             array("vertices"), nb::arg("begins") = -never, nb::arg("ends") = never, users_doc)
         .def("search", &search, array("vertex"), array("dwell"), array("drive"), nb::arg("phase"),
-             nb::arg("time_limit").none(), search_doc)
+             nb::arg("time_limit").none(), array("edge").none() = nb::none(), search_doc)
         .def("connect", &connect, array("vertex"), array("dwell"), array("drive"),
-             nb::arg("begins"), nb::arg("until"), nb::arg("leave"), connect_doc)
+             nb::arg("begins"), nb::arg("until"), nb::arg("leave"),
+             array("edge").none() = nb::none(), connect_doc)
         .def("find_route", &find_route, array("indptr"), array("indices"), array("length_class"),
              array("pace"), array("stage_vertex"), array("stage_work"), array("stage_turn"),
              nb::arg("stage_tables"), nb::arg("phase"), nb::arg("time_limit").none(),
-             find_route_doc);
+             nb::arg("first_row") = 0, find_route_doc);
 }
 
 }  // namespace rightofway::bind

@@ -48,6 +48,12 @@ surcharges : int64[C]
 closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
     Rows of the booking table that are closed, and when; None without closures. Where no robot has
     a size, row ``V + e`` is edge ``e``. [ticks]
+turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
+    How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
+    edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
+    ``turn_ticks[t * K + kind]`` ticks, and in no time where its class is -1.
+n_turn_kinds : int
+    K.
 
 Raises
 ------
@@ -62,9 +68,11 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
           const Ints& stage_vertex, const Ticks& stage_work, const Ticks& stage_turn,
           std::int32_t n_classes, Tick headway, bool books_ahead, bool rotations,
           const std::optional<Ints>& size_of, const std::optional<Ints>& first,
-          const std::optional<Ints>& excluded, const std::optional<Ticks>& surcharges,
-          const std::optional<Ints>& closed_row, const std::optional<Ticks>& closed_from,
-          const std::optional<Ticks>& closed_until) {
+          const std::optional<Ints>& excluded, const std::optional<Ticks>& turn_offset,
+          const std::optional<Ints>& turn_kind, const std::optional<Ints>& turn_class,
+          const std::optional<Ints>& turn_ticks, std::int32_t n_turn_kinds,
+          const std::optional<Ticks>& surcharges, const std::optional<Ints>& closed_row,
+          const std::optional<Ticks>& closed_from, const std::optional<Ticks>& closed_until) {
     const ProblemArrays arrays{view(indptr),      view(heads),        view(length_class),
                                view(paces),       view(pace_of),      view(home),
                                view(first_stage), view(stage_vertex), view(stage_work),
@@ -75,7 +83,12 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
     }
     const Closures closures{view_or_empty(closed_row), view_or_empty(closed_from),
                             view_or_empty(closed_until)};
-    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources, closures);
+    TurnArrays turns;
+    if (turn_offset && turn_kind && turn_class && turn_ticks) {
+        turns = {view(*turn_offset), view(*turn_kind), view(*turn_class), view(*turn_ticks),
+                 n_turn_kinds};
+    }
+    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources, turns, closures);
 }
 
 }  // namespace
@@ -87,15 +100,18 @@ void bind_problem(nb::module_& module) {
              array("stage_vertex"), array("stage_work"), array("stage_turn"), nb::arg("n_classes"),
              nb::arg("headway"), nb::arg("books_ahead"), nb::arg("rotations"),
              array("size_of").none() = nb::none(), array("first").none() = nb::none(),
-             array("excluded").none() = nb::none(), array("surcharges").none() = nb::none(),
-             array("closed_row").none() = nb::none(), array("closed_from").none() = nb::none(),
-             array("closed_until").none() = nb::none(), nb::keep_alive<1, 2>(),
-             nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
-             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(),
-             nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(), nb::keep_alive<1, 11>(),
-             nb::keep_alive<1, 16>(), nb::keep_alive<1, 17>(), nb::keep_alive<1, 18>(),
-             nb::keep_alive<1, 19>(), nb::keep_alive<1, 20>(), nb::keep_alive<1, 21>(),
-             nb::keep_alive<1, 22>())
+             array("excluded").none() = nb::none(), array("turn_offset").none() = nb::none(),
+             array("turn_kind").none() = nb::none(), array("turn_class").none() = nb::none(),
+             array("turn_ticks").none() = nb::none(), nb::arg("n_turn_kinds") = 0,
+             array("surcharges").none() = nb::none(), array("closed_row").none() = nb::none(),
+             array("closed_from").none() = nb::none(), array("closed_until").none() = nb::none(),
+             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
+             nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(),
+             nb::keep_alive<1, 11>(), nb::keep_alive<1, 16>(), nb::keep_alive<1, 17>(),
+             nb::keep_alive<1, 18>(), nb::keep_alive<1, 19>(), nb::keep_alive<1, 20>(),
+             nb::keep_alive<1, 21>(), nb::keep_alive<1, 22>(), nb::keep_alive<1, 24>(),
+             nb::keep_alive<1, 25>(), nb::keep_alive<1, 26>(), nb::keep_alive<1, 27>())
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.");
 }

@@ -43,6 +43,31 @@ std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target, RobotI
     return table;
 }
 
+std::shared_ptr<const TurningTable> SharedDistances::with_turns(RobotId robot) {
+    if (!problem_.turns(robot).take_time()) {
+        return nullptr;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = turning_.find(robot); found != turning_.end()) {
+            return found->second;
+        }
+    }
+    auto table = std::make_shared<const TurningTable>(problem_, robot);
+    const std::lock_guard lock(mutex_);
+    if (turning_.emplace(robot, table).second) {
+        turning_by_age_.push_back(robot);
+        turning_bytes_ += table->bytes();
+    }
+    while (turning_bytes_ > budget_ && turning_by_age_.size() > 1) {
+        const auto oldest = turning_.find(turning_by_age_.front());
+        turning_bytes_ -= oldest->second->bytes();
+        turning_.erase(oldest);
+        turning_by_age_.pop_front();
+    }
+    return table;
+}
+
 Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
     if (!is_uniform_) {
         return to(target, robot)->view(1).from(from);
@@ -71,6 +96,9 @@ void SharedDistances::take_alone(std::span<const Tick> alone) {
 }
 
 Tick SharedDistances::least_completion(RobotId robot) {
+    if (const auto table = with_turns(robot)) {
+        return table->from(-1, 0);
+    }
     const Itinerary itinerary = problem_.itinerary(robot);
     const std::size_t first_at_end = itinerary.first_stage_at_end();
     Tick sum = 0;

@@ -17,6 +17,7 @@
 
 #include "distances/alt_distance.hpp"
 #include "distances/distance_tables.hpp"
+#include "distances/turning_table.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {
@@ -46,6 +47,9 @@ class SharedDistances {
     // The least ticks of a robot from a vertex to the target, -1 if no path exists. Needs no table
     // if all edges have equal length.
     Tick between(VertexId from, VertexId target, RobotId robot);
+
+    // The table of a robot that turns in some time, else null. Thread-safe.
+    std::shared_ptr<const TurningTable> with_turns(RobotId robot);
 
     // The completion time of a robot that drives alone, -1 if it cannot reach a stage. Cached;
     // thread-safe.
@@ -85,6 +89,9 @@ class SharedDistances {
     std::unordered_map<Key, std::shared_ptr<const DistanceTable>, Hash> known_;
     std::deque<Key> by_age_;
     std::size_t bytes_ = 0;
+    std::unordered_map<RobotId, std::shared_ptr<const TurningTable>> turning_;
+    std::deque<RobotId> turning_by_age_;
+    std::size_t turning_bytes_ = 0;
     std::vector<std::atomic<Tick>> alone_;  // value + 2; 0: not computed
 };
 

@@ -38,6 +38,7 @@ const Trip& TripReader::read(RobotId robot) {
     const Problem& problem = distances_.problem();
     static_cast<Itinerary&>(trip_) = problem.itinerary(robot);
     trip_.first_row = problem.first_row(robot);
+    trip_.with_turns = distances_.with_turns(robot);
     tables_.clear();
     trip_.to_stage.clear();
     for (const VertexId stage : trip_.stage_vertex) {
@@ -58,8 +59,8 @@ Tick completion(const Itinerary& itinerary, std::span<const Visit> track,
         const VertexId vertex = track[visit].vertex;
         if (visit + 1 < track.size()) {
             const Visit& next = track[visit + 1];
-            stage =
-                itinerary.stage_after(stage, vertex, next.enter - track[visit].enter - next.drive);
+            const Tick spare = next.enter - track[visit].enter - next.drive - next.turn;
+            stage = itinerary.stage_after(stage, vertex, spare);
         } else {
             for (; stage < itinerary.n_stages() && itinerary.stage_vertex[stage] == vertex;
                  ++stage) {

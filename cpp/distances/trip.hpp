@@ -7,6 +7,7 @@
 
 #include "distances/distance_tables.hpp"
 #include "distances/shared_distances.hpp"
+#include "distances/turning_table.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {
@@ -14,6 +15,7 @@ namespace rightofway {
 struct Trip : Itinerary {
     std::vector<DistanceView> to_stage;  // distances to each stage's vertex
     std::int32_t first_row = 0;          // of the robot's size class in a booking table
+    std::shared_ptr<const TurningTable> with_turns = nullptr;  // where turning takes time
 };
 
 // Throws std::invalid_argument if the arrays of a trip do not fit each other or the roads, or if

@@ -41,11 +41,12 @@ std::uint64_t mix(std::uint64_t x) { return Random(x).next(); }
 FleetState::FleetState(const Problem& problem)
     : problem_(&problem),
       robots_(static_cast<std::size_t>(problem.n_robots())),
-      vertices_(static_cast<std::size_t>(problem.graph().n_vertices()),
-                {nobody, nobody, -problem.rules().headway}) {
+      resources_(static_cast<std::size_t>(problem.has_sizes() ? problem.n_resources()
+                                                              : problem.n_vertices()),
+                 {nobody, nobody, -problem.rules().headway}) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         robots_[r] = {problem.home(r), problem.home(r), problem.first_stage(r), busy, 0, 0};
-        vertices_[problem.home(r)].here = r;
+        resources_[problem.home(r)].here = r;
         begin_stage(r);
     }
 }
@@ -89,6 +90,11 @@ void FleetState::take_off_list(RobotId robot) {
     }
 }
 
+// The edge of a robot on the move.
+FleetState::Resource& FleetState::edge_of(const Robot& robot) {
+    return resources_[problem_->n_vertices() + problem_->graph().edge(robot.at, robot.to)];
+}
+
 // Begins the work of the stage if its vertex is here; skips stages of 0 ticks. The last stage has
 // no work here, because no move follows.
 void FleetState::begin_stage(RobotId robot) {
@@ -113,7 +119,10 @@ void FleetState::decide(const Decision& decision) {
     }
     take_off_list(robot);
     robots_[robot].to = decision.vertex;
-    vertices_[decision.vertex].comes = robot;
+    resources_[decision.vertex].comes = robot;
+    if (problem_->has_sizes()) {
+        edge_of(robots_[robot]).here = robot;
+    }
     set_busy(robot, decision.arrival);
 }
 
@@ -135,16 +144,19 @@ bool FleetState::advance() {
         const Robot& r = robots_[robot];
         sum_busy_ -= key(robot) * base_to_now_;
         if (r.at != r.to) {
-            vertices_[r.at].here = nobody;
-            vertices_[r.at].left = now_;
+            resources_[r.at].here = nobody;
+            resources_[r.at].left = now_;
+            if (problem_->has_sizes()) {
+                edge_of(r) = {nobody, nobody, now_};
+            }
         }
     }
     for (const RobotId robot : finished_) {
         Robot& r = robots_[robot];
         if (r.at != r.to) {
             r.at = r.to;
-            vertices_[r.at].here = robot;
-            vertices_[r.at].comes = nobody;
+            resources_[r.at].here = robot;
+            resources_[r.at].comes = nobody;
         } else {  // the work is complete
             ++r.stage;
             r.since = now_;

@@ -1,6 +1,8 @@
 // The state of a fleet at an instant: the position, the move and the ready tick of each robot.
 //
-// A decision books a move as a whole: the robot keeps its vertex until it arrives at the next one.
+// A decision books a move as a whole: the robot keeps its vertex until it arrives at the next one,
+// and, where robots have sizes, the edge between them. A resource is a vertex or an edge, see
+// Resources (problem.hpp).
 // Only robots that are not busy decide. The state changes in two ways: a robot decides, or the
 // clock advances to the next instant at which a robot finishes a move or its work. The time of both
 // grows with the number of changed robots, not with the fleet.
@@ -38,9 +40,10 @@ class FleetState {
     bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
     bool has_arrived(RobotId robot) const { return robots_[robot].place == arrived; }
 
-    RobotId here(VertexId vertex) const { return vertices_[vertex].here; }    // until its leave
-    RobotId comes(VertexId vertex) const { return vertices_[vertex].comes; }  // by a booked move
-    Tick left(VertexId vertex) const { return vertices_[vertex].left; }  // latest leave or -headway
+    // The robot at a vertex until its leave, or on an edge.
+    RobotId here(std::int32_t resource) const { return resources_[resource].here; }
+    RobotId comes(VertexId vertex) const { return resources_[vertex].comes; }  // by a booked move
+    Tick left(std::int32_t resource) const { return resources_[resource].left; }  // or -headway
 
     // The robots that are neither busy nor arrived, in no particular order.
     std::span<const RobotId> undecided() const { return undecided_; }
@@ -67,7 +70,7 @@ class FleetState {
         Tick ready;
         Tick since;
     };
-    struct Vertex {
+    struct Resource {
         RobotId here;
         RobotId comes;
         Tick left;
@@ -82,12 +85,13 @@ class FleetState {
     void set_busy(RobotId robot, Tick until);
     void set_free(RobotId robot);
     void take_off_list(RobotId robot);
+    Resource& edge_of(const Robot& robot);
     void begin_stage(RobotId robot);
 
     const Problem* problem_;
     Tick now_ = 0;
     std::vector<Robot> robots_;
-    std::vector<Vertex> vertices_;
+    std::vector<Resource> resources_;  // edges only where robots have sizes
     std::vector<RobotId> undecided_;
     std::vector<Event> events_;  // a heap
     std::vector<RobotId> finished_;

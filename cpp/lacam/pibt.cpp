@@ -35,9 +35,13 @@ Pibt::Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& p
       paths_(paths),
       outlook_(static_cast<std::size_t>(problem.n_robots())),
       draw_(seed),
-      claim_(static_cast<std::size_t>(problem.graph().n_vertices()), nobody),
+      claim_(static_cast<std::size_t>(problem.has_sizes() ? problem.n_resources()
+                                                          : problem.n_vertices()),
+             nobody),
       next_(static_cast<std::size_t>(problem.n_robots()), nowhere),
-      arrival_(static_cast<std::size_t>(problem.n_robots()), unsettled) {
+      arrival_(static_cast<std::size_t>(problem.n_robots()), unsettled),
+      rank_(arrival_.size()),
+      seen_by_(arrival_.size(), 0) {
     for (std::size_t stage = 0; stage < problem.n_stages(); ++stage) {
         const VertexId target = problem.stage_vertex(static_cast<std::int32_t>(stage));
         stage_table_.push_back(tables.table_of(target));
@@ -65,7 +69,7 @@ bool Pibt::take_fixed(const FleetState& now) {
         if (!is_open(now, fixed.robot, fixed.vertex)) {
             return false;
         }
-        take(fixed.robot, fixed.vertex);
+        take(now, fixed.robot, fixed.vertex);
         return true;
     });
 }
@@ -74,39 +78,140 @@ bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
     const auto choose_next = [&](RobotId r) { return next_[r] != nowhere || choose_one(now, r); };
     return std::all_of(order.begin(), order.end(), choose_next) &&
            std::all_of(fixed_.begin(), fixed_.end(), [&](const Fixed& fixed) {
-               const RobotId other = now.here(fixed.vertex);  // maybe a robot that has arrived
-               return other == nobody || now.is_busy(other) || choose_next(other);
+               // Maybe a robot that has arrived.
+               return !any_ahead(now, fixed.robot, fixed.vertex, [&](RobotId other) {
+                   return !now.is_busy(other) && !choose_next(other);
+               });
            });
 }
 
-void Pibt::take(RobotId robot, VertexId vertex) {
+// Calls `use` with the resources that robots may not hold or drive to if this robot is to drive to a
+// place, or stay there: use(resource, first row of the size class of these robots, whether only the
+// drive is near to it). Ends when `use` returns true.
+template <class Use>
+bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
+    if (!problem_.has_sizes()) {
+        return use(place, 0, false);
+    }
+    const std::int32_t n_resources = problem_.n_resources();
+    const auto any_of = [&](std::int32_t own_row, bool is_drive) {
+        const auto rows = problem_.excluded(own_row);
+        return std::any_of(rows.begin(), rows.end(), [&](std::int32_t row) {
+            const std::int32_t resource = row % n_resources;
+            return use(resource, row - resource, is_drive);
+        });
+    };
+    return any_of(problem_.vertex_row(robot, place), false) ||
+           (place != now.at(robot) &&
+            any_of(problem_.edge_row(robot, edge_to(now, robot, place)), true));
+}
+
+// Calls `use` with each robot that has to leave before this robot drives to a place.
+template <class Use>
+bool Pibt::any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
+    const auto n_vertices = problem_.n_vertices();
+    return any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool is_drive) {
+        const auto is_other = [&](RobotId other) {
+            return other != nobody && other != robot && problem_.first_row(other) == size;
+        };
+        const RobotId other = now.here(resource);
+        if (is_other(other) && use(other)) {
+            return true;
+        }
+        const RobotId crosses = resource < n_vertices ? nobody : claim_[resource];
+        return is_other(crosses) && (!is_drive || goes_first(now, crosses, robot)) && use(crosses);
+    });
+}
+
+// Of two robots that chose edges near to each other: a robot whose vertex is in the way goes first,
+// else the robot that chose first.
+bool Pibt::goes_first(const FleetState& now, RobotId other, RobotId robot) const {
+    const auto is_in_the_way_of = [&](RobotId one, RobotId mover) {
+        return any_near(now, mover, next_[mover], [&](std::int32_t resource, std::int32_t size, bool) {
+            return resource == now.at(one) && size == problem_.first_row(one);
+        });
+    };
+    return !is_in_the_way_of(robot, other) &&
+           (is_in_the_way_of(other, robot) || rank_[other] < rank_[robot]);
+}
+
+void Pibt::take(const FleetState& now, RobotId robot, VertexId vertex) {
     if (next_[robot] == nowhere) {
+        rank_[robot] = static_cast<std::int32_t>(chosen_.size());
         chosen_.push_back(robot);
+    } else {
+        release(now, robot);
     }
     claim_[vertex] = robot;
     next_[robot] = vertex;
+    if (problem_.has_sizes() && moves(now, robot)) {
+        claim_[problem_.n_vertices() + edge_to(now, robot, vertex)] = robot;
+    }
 }
 
-// Whether no other robot enters the place, and the robot there neither works nor wants to swap.
+// Gives up the place that the robot chose.
+void Pibt::release(const FleetState& now, RobotId robot) {
+    const VertexId place = next_[robot];
+    if (claim_[place] == robot) {
+        claim_[place] = nobody;
+    }
+    if (problem_.has_sizes() && moves(now, robot)) {
+        claim_[problem_.n_vertices() + edge_to(now, robot, place)] = nobody;
+    }
+}
+
+bool Pibt::moves(const FleetState& now, RobotId robot) const {
+    return next_[robot] != nowhere && next_[robot] != now.at(robot);
+}
+
+// Whether no other robot enters a vertex near to the place, and no robot near to it works or wants
+// to swap. Where a robot wants to stay, no other may pass.
 bool Pibt::is_open(const FleetState& now, RobotId robot, VertexId place) const {
-    if (now.comes(place) != nobody || claim_[place] != nobody) {
-        return false;
-    }
-    const RobotId other = now.here(place);
-    if (other == nobody || other == robot) {
-        return true;
-    }
-    const bool is_at_work = now.is_busy(other) && now.to(other) == place;
-    return !is_at_work && next_[other] != now.at(robot);
+    const auto n_vertices = problem_.n_vertices();
+    return !any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool) {
+        const auto is_other = [&](RobotId other) {
+            return other != nobody && other != robot && problem_.first_row(other) == size;
+        };
+        if (resource >= n_vertices) {
+            return place == now.at(robot) && is_other(claim_[resource]);
+        }
+        if (is_other(now.comes(resource)) || is_other(claim_[resource])) {
+            return true;
+        }
+        const RobotId other = now.here(resource);
+        const bool is_at_work = is_other(other) && now.is_busy(other) && now.to(other) == resource;
+        return is_at_work || (is_other(other) && next_[other] == now.at(robot));
+    });
 }
 
-bool Pibt::closes_circle(const FleetState& now, RobotId robot, VertexId place) const {
-    RobotId other = now.here(place);
-    while (other != nobody && other != robot && next_[other] != nowhere &&
-           next_[other] != now.at(other)) {
-        other = now.here(next_[other]);
+// Whether a robot that moves has booked the place.
+bool Pibt::is_booked(const FleetState& now, RobotId robot, VertexId place) const {
+    const auto n_vertices = problem_.n_vertices();
+    return any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool) {
+        const RobotId other = resource < n_vertices ? now.comes(resource) : nobody;
+        return other != nobody && problem_.first_row(other) == size;
+    });
+}
+
+// Whether the robot waits for a robot that waits for it, directly or not.
+bool Pibt::closes_circle(const FleetState& now, RobotId robot) {
+    ++n_circles_;
+    queue_.assign(1, robot);
+    while (!queue_.empty()) {
+        const RobotId next = queue_.back();
+        queue_.pop_back();
+        const bool meets = any_ahead(now, next, next_[next], [&](RobotId other) {
+            if (other != robot && moves(now, other) && seen_by_[other] != n_circles_) {
+                seen_by_[other] = n_circles_;
+                queue_.push_back(other);
+            }
+            return other == robot;
+        });
+        if (meets) {
+            return true;
+        }
     }
-    return other == robot;
+    return false;
 }
 
 bool Pibt::choose_one(const FleetState& now, RobotId robot) {
@@ -116,7 +221,7 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
         draw_ +=
             draw_step * (problem_.graph().heads(here).size() + 1);  // as after a ranking of places
         const bool may_stay = is_open(now, robot, here);
-        take(robot, here);
+        take(now, robot, here);
         return may_stay;
     }
     const std::size_t first = places_.size();
@@ -129,7 +234,7 @@ bool Pibt::choose_one(const FleetState& now, RobotId robot) {
     const bool found = try_places(now, robot, first, partner);
     places_.resize(first);
     if (!found) {
-        take(robot, here);
+        take(now, robot, here);
     }
     return found;
 }
@@ -148,7 +253,7 @@ bool Pibt::has_to_wait(const FleetState& now, RobotId robot) {
             if (is_open(now, robot, heads[k])) {
                 return false;
             }
-            are_booked = are_booked && now.comes(heads[k]) != nobody;
+            are_booked = are_booked && is_booked(now, robot, heads[k]);
         }
     }
     if (is_open(now, robot, ahead.here)) {
@@ -176,19 +281,25 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
     const std::size_t end = places_.size();
     for (std::size_t k = first; k < end; ++k) {
         const VertexId place = places_[k].vertex;
-        const RobotId other = now.here(place);
-        if (!is_open(now, robot, place) ||
-            (!problem_.may_rotate() && place != here && closes_circle(now, robot, place))) {
+        if (!is_open(now, robot, place)) {
             continue;
         }
-        take(robot, place);
-        if (other != robot && other != nobody && is_idle(now, other) && !choose_one(now, other)) {
-            continue;  // `other` stays, so the place is occupied
+        take(now, robot, place);
+        if (!problem_.may_rotate() && place != here && closes_circle(now, robot)) {
+            release(now, robot);
+            continue;
+        }
+        const bool is_held = any_ahead(now, robot, place, [&](RobotId other) {
+            return (is_idle(now, other) && !choose_one(now, other)) ||
+                   next_[other] == now.at(other);  // `other` stays
+        });
+        if (is_held) {
+            continue;
         }
         const bool pulls = partner != nobody && k == first && place != here;
-        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
-            problem_.graph().edge(now.at(partner), here) >= 0) {
-            take(partner, here);
+        if (pulls && !problem_.has_sizes() && is_idle(now, partner) && claim_[here] == nobody &&
+            edge_to(now, partner, here) >= 0) {
+            take(now, partner, here);
         }
         return true;
     }
@@ -205,9 +316,16 @@ std::int32_t Pibt::way(const FleetState& now, RobotId robot, VertexId vertex) {
 
 // The earliest arrival at a place if a free robot there leaves at once.
 Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const {
-    const RobotId other = now.here(place);
-    const bool drives_away = other != nobody && other != robot && now.is_busy(other);
-    const Tick left = drives_away ? now.ready(other) : other == nobody ? now.left(place) : 0;
+    Tick left = -problem_.rules().headway;
+    any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool) {
+        const RobotId other = now.here(resource);
+        const bool is_held =
+            other != nobody && other != robot && problem_.first_row(other) == size;
+        left = std::max(left, !is_held               ? now.left(resource)
+                              : now.is_busy(other) ? now.ready(other)
+                                                   : 0);
+        return false;
+    });
     return std::max(now.now() + drive, left + problem_.gap(drive));
 }
 
@@ -278,31 +396,48 @@ bool Pibt::settle_arrivals(const FleetState& now) {
     return true;
 }
 
-// Follows the queue to its front and computes the arrivals from there. False if the queue is a
-// circle and rotations are forbidden.
+// Follows the queues to their fronts and computes the arrivals from there. False if a robot ahead
+// stays, or if a queue is a circle and rotations are forbidden.
 bool Pibt::settle_queue(const FleetState& now, RobotId last) {
-    queue_.clear();
-    RobotId robot = last;
-    while (robot != nobody && next_[robot] != nowhere && arrival_[robot] == unsettled) {
-        arrival_[robot] = in_queue;
-        queue_.push_back(robot);
-        robot = now.here(next_[robot]);
-    }
-    if (robot != nobody && arrival_[robot] == in_queue && !settle_circle(now, robot)) {
-        return false;
-    }
-    for (; !queue_.empty(); queue_.pop_back()) {
-        const RobotId next = queue_.back();
-        if (arrival_[next] != in_queue) {
+    queue_.assign(1, last);
+    arrival_[last] = in_queue;
+    while (!queue_.empty()) {
+        const RobotId robot = queue_.back();
+        const VertexId place = next_[robot];
+        RobotId in_circle = nobody;
+        const bool is_behind = any_ahead(now, robot, place, [&](RobotId other) {
+            if (now.is_busy(other) || arrival_[other] >= 0) {
+                return false;
+            }
+            if (arrival_[other] == in_queue || !moves(now, other)) {
+                in_circle = other;
+                return false;
+            }
+            arrival_[other] = in_queue;
+            queue_.push_back(other);
+            return true;
+        });
+        if (is_behind) {
+            continue;
+        }
+        if (in_circle != nobody && (!moves(now, in_circle) || !settle_circle(now, robot))) {
+            return false;
+        }
+        queue_.pop_back();
+        if (arrival_[robot] != in_queue) {
             continue;  // part of a circle
         }
-        const VertexId place = next_[next];
-        const RobotId ahead = now.here(place);
-        const Tick left = ahead == nobody      ? now.left(place)
-                          : now.is_busy(ahead) ? now.ready(ahead)
-                                               : arrival_[ahead];
-        const Tick drive = problem_.drive(next, problem_.graph().edge(now.at(next), place));
-        arrival_[next] = std::max(now.now() + drive, left + problem_.gap(drive));
+        const Tick drive = problem_.drive(robot, edge_to(now, robot, place));
+        Tick left = -problem_.rules().headway;
+        any_near(now, robot, place, [&](std::int32_t resource, std::int32_t, bool) {
+            left = std::max(left, now.left(resource));
+            return false;
+        });
+        any_ahead(now, robot, place, [&](RobotId other) {
+            left = std::max(left, now.is_busy(other) ? now.ready(other) : arrival_[other]);
+            return false;
+        });
+        arrival_[robot] = std::max(now.now() + drive, left + problem_.gap(drive));
     }
     return true;
 }
@@ -329,6 +464,9 @@ void Pibt::forget(const FleetState& now) {
     for (const RobotId robot : chosen_) {
         claim_[next_[robot]] = nobody;
         claim_[now.at(robot)] = nobody;
+        if (problem_.has_sizes() && moves(now, robot)) {
+            claim_[problem_.n_vertices() + edge_to(now, robot, next_[robot])] = nobody;
+        }
         next_[robot] = nowhere;
         arrival_[robot] = unsettled;
     }

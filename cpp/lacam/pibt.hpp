@@ -8,6 +8,10 @@
 // front of each queue to its end; a rotation arrives at one instant, the arrival of its slowest
 // robot.
 //
+// Robots with sizes: a place is blocked, or held, by the robots near to it, and near to the edge that
+// leads there. A robot pushes each of them, and waits for each of them to leave. For points the only
+// such place is the vertex itself.
+//
 // With one speed, no work and no booking ahead this is PIBT (references: untimed_pibt.hpp).
 #pragma once
 
@@ -68,9 +72,20 @@ class Pibt {
     bool has_to_wait(const FleetState& now, RobotId robot);
     bool has_partner(const FleetState& now, RobotId robot);
     bool try_places(const FleetState& now, RobotId robot, std::size_t first, RobotId partner);
+    template <class Use>
+    bool any_near(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
+    template <class Use>
+    bool any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
+    bool goes_first(const FleetState& now, RobotId other, RobotId robot) const;
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
-    bool closes_circle(const FleetState& now, RobotId robot, VertexId place) const;
-    void take(RobotId robot, VertexId vertex);
+    bool is_booked(const FleetState& now, RobotId robot, VertexId place) const;
+    bool moves(const FleetState& now, RobotId robot) const;
+    bool closes_circle(const FleetState& now, RobotId robot);
+    void take(const FleetState& now, RobotId robot, VertexId vertex);
+    void release(const FleetState& now, RobotId robot);
+    EdgeId edge_to(const FleetState& now, RobotId robot, VertexId place) const {
+        return problem_.graph().edge(now.at(robot), place);
+    }
     const Outlook& outlook(const FleetState& now, RobotId robot);
     const std::int32_t* steps_beside(RobotId robot) const {
         return steps_beside_.data() + static_cast<std::size_t>(robot) * most_heads_;
@@ -95,11 +110,14 @@ class Pibt {
     std::size_t most_heads_ = 0;              // greatest out-degree
     std::vector<std::int32_t> steps_beside_;  // per robot: most_heads_ neighbours
     std::uint64_t draw_;                      // state of the random numbers for ties
-    std::vector<RobotId> claim_;              // of each vertex: robot that chose it at this instant
+    std::vector<RobotId> claim_;  // of each resource (FleetState): robot that chose it now
     std::vector<VertexId> next_;              // of each robot: its choice
     std::vector<Tick> arrival_;               // of each robot, once computed
     std::vector<RobotId> chosen_;             // robots with a choice
+    std::vector<std::int32_t> rank_;  // of each robot with a choice: its index in chosen_
     std::vector<RobotId> queue_;
+    std::vector<std::int64_t> seen_by_;  // of each robot: the latest search for a circle
+    std::int64_t n_circles_ = 0;         // searches
     std::vector<Place> places_;  // a stack: candidates of each robot that is choosing
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;

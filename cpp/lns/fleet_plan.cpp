@@ -131,7 +131,7 @@ Tracks FleetPlan::retimed_with_sizes() const {
         completion(problem_->itinerary(robot), visits, &stage_after);
         for (std::size_t k = 1; k < visits.size(); ++k) {
             const VisitId x = first + static_cast<VisitId>(k);
-            least[x - 1] = visits[k].drive;
+            least[x - 1] = visits[k].turn + visits[k].drive;
             for (std::int32_t stage = k == 1 ? 0 : stage_after[k - 2]; stage < stage_after[k - 1];
                  ++stage) {
                 least[x - 1] += problem_->stage_dwell(problem_->first_stage(robot) + stage);

@@ -464,10 +464,14 @@ void retime(const Problem& problem, Tracks& tracks) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         const Itinerary itinerary = problem.itinerary(r);
         std::size_t stage = 0;
+        EdgeId before = -1;
         for (VisitId x = tracks.first_visit[r]; x + 1 < tracks.first_visit[r + 1]; ++x) {
-            const Tick drive = problem.drive(r, tracks.vertex[x], tracks.vertex[x + 1]);
-            const Tick spare = tracks.enter[x + 1] - tracks.enter[x] - drive;
-            least[x] = drive;
+            const EdgeId edge = problem.graph().edge(tracks.vertex[x], tracks.vertex[x + 1]);
+            const Tick drive = problem.drive(r, edge);
+            const Tick turn = itinerary.turns.between(before, edge);
+            const Tick spare = tracks.enter[x + 1] - tracks.enter[x] - drive - turn;
+            before = edge;
+            least[x] = turn + drive;
             for (const std::size_t end = itinerary.stage_after(stage, tracks.vertex[x], spare);
                  stage < end; ++stage) {
                 least[x] += itinerary.stage_work[stage] + itinerary.stage_turn[stage];

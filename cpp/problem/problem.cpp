@@ -31,11 +31,12 @@ void require_durations(const char* name, std::span<const Tick> ticks) {
 }  // namespace
 
 Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources,
-                 const Closures& closures)
+                 const TurnArrays& turns, const Closures& closures)
     : arrays_(arrays),
       roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
       rules_(rules),
       resources_(resources),
+      turns_(turns),
       closures_(closures) {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
@@ -61,6 +62,9 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     if (has_sizes()) {
         check_resources();
     }
+    if (!turns_.class_of.empty()) {
+        check_turns();
+    }
     check_closures();
 }
 
@@ -76,6 +80,33 @@ void Problem::check_closures() {
             closures_.end[k] > never) {
             reject_entry("closed_until", k, closures_.end[k],
                          "is not after closed_from, or later than never");
+        }
+    }
+}
+
+void Problem::check_turns() const {
+    const auto n_kinds = static_cast<std::size_t>(turns_.n_kinds);
+    const std::size_t n_classes = n_kinds == 0 ? 0 : turns_.ticks.size() / n_kinds;
+    require_length("turn_ticks", turns_.ticks.size(), n_classes * n_kinds);
+    require_length("turn_class", turns_.class_of.size(), arrays_.home.size());
+    for (std::size_t r = 0; r < turns_.class_of.size(); ++r) {
+        if (turns_.class_of[r] != -1) {
+            require_id("turn_class[" + std::to_string(r) + "]", turns_.class_of[r],
+                       static_cast<std::int64_t>(n_classes));
+        }
+    }
+    require_length("turn_offset", turns_.offset.size(), arrays_.heads.size());
+    require_ids("turn_kind", turns_.kind, turns_.n_kinds);
+    for (std::size_t e = 0; e < arrays_.heads.size(); ++e) {
+        const std::int64_t first = turns_.offset[e] + graph().indptr[arrays_.heads[e]];
+        const std::int64_t end = turns_.offset[e] + graph().indptr[arrays_.heads[e] + 1];
+        if (first < 0 || end > static_cast<std::int64_t>(turns_.kind.size())) {
+            reject_entry("turn_offset", e, turns_.offset[e], "leads out of turn_kind");
+        }
+    }
+    for (std::size_t k = 0; k < turns_.ticks.size(); ++k) {
+        if (turns_.ticks[k] < 0) {
+            reject_entry("turn_ticks", k, turns_.ticks[k], "is negative");
         }
     }
 }
@@ -145,7 +176,17 @@ Itinerary Problem::itinerary(RobotId robot) const {
             arrays_.stage_work.subspan(first, n),
             arrays_.stage_turn.subspan(first, n),
             pace(robot),
+            turns(robot),
             arrays_.surcharges};
+}
+
+Turns Problem::turns(RobotId robot) const {
+    if (turns_.class_of.empty() || turns_.class_of[robot] < 0) {
+        return {};
+    }
+    const auto n = static_cast<std::size_t>(turns_.n_kinds);
+    const auto first = static_cast<std::size_t>(turns_.class_of[robot]) * n;
+    return {turns_.offset, turns_.kind, turns_.ticks.subspan(first, n)};
 }
 
 Tick Problem::quickest_edge(RobotId robot) const {

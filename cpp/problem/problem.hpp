@@ -56,20 +56,46 @@ struct Closures {
     std::span<const Tick> end;
 };
 
+// How long robots turn on the spot between two edges that follow each other; empty where turning
+// takes no time. The angle from edge e to edge f is of kind kind[offset[e] + f], and robot r turns
+// an angle of kind k in ticks[class_of[r] * n_kinds + k] ticks; in no time if class_of[r] is -1.
+struct TurnArrays {
+    std::span<const std::int64_t> offset;
+    std::span<const std::int32_t> kind;
+    std::span<const std::int32_t> class_of;
+    std::span<const std::int32_t> ticks;
+    std::int32_t n_kinds = 0;
+};
+
+// The turns of one robot.
+struct Turns {
+    std::span<const std::int64_t> offset;
+    std::span<const std::int32_t> kind;
+    std::span<const std::int32_t> ticks;  // by kind; empty: turning takes no time
+
+    bool take_time() const { return !ticks.empty(); }
+    // Ticks from the heading of one edge to that of the next; 0 for the first drive (`in` is -1).
+    std::int32_t between(EdgeId in, EdgeId out) const {
+        return ticks.empty() || in < 0 ? 0 : ticks[kind[offset[in] + out]];
+    }
+};
+
 // The stages of one robot and its pace. A visit serves a stage if it is at the stage's vertex and
-// lasts for work plus turn; the last visit of the robot needs no turn.
+// lasts for work plus turn, besides the turn to the next edge and the drive; the last visit of the
+// robot needs no turn.
 struct Itinerary {
     VertexId home = 0;
     std::span<const VertexId> stage_vertex;
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
     std::span<const std::int32_t> pace;  // ticks per edge of each length class; -1: barred
-    std::span<const Tick> surcharges;    // of each length class; empty: all 0
+    Turns turns = {};
+    std::span<const Tick> surcharges = {};  // of each length class; empty: all 0
 
     std::size_t n_stages() const { return stage_vertex.size(); }
 
     // The first stage not served after a visit, where `stage` is the first not served before it.
-    // `spare` is the duration of the visit without the drive that follows. A visit serves as many
+    // `spare` is the duration of the visit without the turn and the drive that follow. A visit serves as many
     // stages as fit into `spare`; only the last visit serves the last stage.
     std::size_t stage_after(std::size_t stage, VertexId vertex, Tick spare) const {
         while (stage + 1 < n_stages() && stage_vertex[stage] == vertex &&
@@ -94,7 +120,7 @@ class Problem {
   public:
     // Borrows the arrays. Throws std::invalid_argument if the arrays do not fit together.
     Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources = {},
-            const Closures& closures = {});
+            const TurnArrays& turns = {}, const Closures& closures = {});
 
     const Graph& graph() const { return roads_.graph; }
     const Roads& roads() const { return roads_; }
@@ -122,6 +148,7 @@ class Problem {
         const auto n = static_cast<std::size_t>(arrays_.n_classes);
         return arrays_.paces.subspan(static_cast<std::size_t>(pace_of(robot)) * n, n);
     }
+    Turns turns(RobotId robot) const;
     // The ticks of a robot's quickest edge, and of its slowest edge; 1 without an edge.
     Tick quickest_edge(RobotId robot) const;
     Tick slowest_edge(RobotId robot) const;
@@ -155,6 +182,10 @@ class Problem {
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
+    // Vertices, and edges after them. Only where robots have sizes, edges are booked.
+    std::int32_t n_resources() const {
+        return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
+    }
     // Only where robots have sizes: the rows from which a booking of a row excludes other robots.
     std::span<const std::int32_t> excluded(std::int32_t row) const {
         const auto begin = static_cast<std::size_t>(resources_.first[row]);
@@ -183,15 +214,14 @@ class Problem {
   private:
     void check_robots() const;
     void check_resources() const;
+    void check_turns() const;
     void check_closures();
-    std::int32_t n_resources() const {
-        return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
-    }
 
     ProblemArrays arrays_;
     Roads roads_;
     BookingRules rules_;
     Resources resources_;
+    TurnArrays turns_;
     Closures closures_;
     bool closes_edges_ = false;
     bool is_barred_ = false;
@@ -201,7 +231,8 @@ class Problem {
 struct Visit {
     Tick enter;
     VertexId vertex;
-    std::int32_t drive;  // ticks of the drive in; 0 for the first visit
+    std::int32_t drive;     // ticks of the drive in; 0 for the first visit
+    std::int32_t turn = 0;  // ticks of the turn on the spot before that drive
 };
 
 // The visits of all robots, concatenated by robot.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/reject.hpp"
 
@@ -10,14 +11,18 @@ namespace {
 
 constexpr Tick longest = Tick{1} << 50;
 
-void require_visits(const Visits& visits, VertexId n_vertices, std::size_t least) {
+void require_visits(const Visits& visits, const PeriodicBookings& bookings, std::size_t least) {
     require_length("dwell", visits.dwell.size(), visits.vertex.size());
     require_length("drive", visits.drive.size(), visits.vertex.size());
+    require_length("edge", visits.edge.size(), bookings.has_sizes() ? visits.vertex.size() : 0);
+    for (std::size_t k = 0; k < visits.edge.size(); ++k) {
+        require_id("edge[" + std::to_string(k) + "]", visits.edge[k], bookings.n_rows());
+    }
     if (visits.vertex.size() < least) {
         reject("vertex", static_cast<std::int64_t>(visits.vertex.size()), "visits are too few");
     }
     for (std::size_t k = 0; k < visits.vertex.size(); ++k) {
-        require_id("vertex[" + std::to_string(k) + "]", visits.vertex[k], n_vertices);
+        require_id("vertex[" + std::to_string(k) + "]", visits.vertex[k], bookings.n_rows());
         if (visits.dwell[k] < 0 || visits.dwell[k] > longest) {
             reject_entry("dwell", k, visits.dwell[k], "is negative or too long");
         }
@@ -35,11 +40,15 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
-PeriodicBookings::PeriodicBookings(VertexId n_vertices, std::optional<Tick> period, Tick headway,
-                                   bool books_ahead)
-    : period_(period.value_or(never)), headway_(headway), books_ahead_(books_ahead) {
-    if (n_vertices < 0) {
-        reject("n_vertices", n_vertices, "is negative");
+PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> period, Tick headway,
+                                   bool books_ahead, const ExcludedRows& rows)
+    : period_(period.value_or(never)),
+      headway_(headway),
+      books_ahead_(books_ahead),
+      first_(rows.first.begin(), rows.first.end()),
+      excluded_(rows.excluded.begin(), rows.excluded.end()) {
+    if (n_rows < 0) {
+        reject("n_vertices", n_rows, "is negative");
     }
     if (period && (*period <= 0 || *period > longest)) {
         reject("period", *period, "is not above 0, or too long");
@@ -47,7 +56,16 @@ PeriodicBookings::PeriodicBookings(VertexId n_vertices, std::optional<Tick> peri
     if (headway < 0 || headway > longest) {
         reject("headway", headway, "is negative or too long");
     }
-    at_.resize(static_cast<std::size_t>(n_vertices));
+    at_.resize(static_cast<std::size_t>(n_rows));
+    if (has_sizes()) {
+        require_length("first", first_.size(), at_.size() + 1);
+        require_length("excluded", excluded_.size(), static_cast<std::size_t>(first_.back()));
+        for (std::size_t k = 0; k < excluded_.size(); ++k) {
+            require_id("excluded[" + std::to_string(k) + "]", excluded_[k], n_rows);
+        }
+        joined_.resize(at_.size());
+        is_changed_.assign(at_.size(), 0);
+    }
 }
 
 Tick PeriodicBookings::fold(Tick tick) const {
@@ -58,9 +76,42 @@ Tick PeriodicBookings::fold(Tick tick) const {
     return rest < 0 ? rest + period_ : rest;
 }
 
-// Bookings of a vertex begin and end in one order, so only the two neighbours can overlap.
-bool PeriodicBookings::is_free(VertexId vertex, const Booking& booking) const {
-    const auto& row = at_[static_cast<std::size_t>(vertex)];
+const PeriodicBookings::Row& PeriodicBookings::gaps_of(std::int32_t row) const {
+    const auto index = static_cast<std::size_t>(row);
+    if (!has_sizes()) {
+        return at_[index];
+    }
+    if (is_changed_[index] != 0) {
+        join(row);
+        is_changed_[index] = 0;
+    }
+    return joined_[index];
+}
+
+void PeriodicBookings::join(std::int32_t row) const {
+    Row& joined = joined_[static_cast<std::size_t>(row)];
+    joined.clear();
+    for (const Booking& mark : at_[static_cast<std::size_t>(row)]) {
+        if (!joined.empty() && mark.start <= joined.back().end) {
+            joined.back().end = std::max(joined.back().end, mark.end);
+        } else {
+            joined.push_back({mark.start, mark.end, nobody});
+        }
+    }
+    // With a period, the last may reach into the first ones of the next round.
+    std::size_t n_covered = 0;
+    while (has_period() && n_covered + 1 < joined.size() &&
+           joined.back().end >= joined[n_covered].start + period_) {
+        joined.back().end = std::max(joined.back().end, joined[n_covered].end + period_);
+        ++n_covered;
+    }
+    joined.erase(joined.begin(), joined.begin() + static_cast<std::ptrdiff_t>(n_covered));
+}
+
+// Bookings of a row (or joined marks) begin and end in one order, so only the two neighbours can
+// overlap.
+bool PeriodicBookings::is_free(std::int32_t of, const Booking& booking) const {
+    const Row& row = gaps_of(of);
     if (row.empty()) {
         return true;
     }
@@ -72,17 +123,17 @@ bool PeriodicBookings::is_free(VertexId vertex, const Booking& booking) const {
 
 bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const Tick> enter,
                            std::optional<Tick> leave) {
-    require_visits(visits, n_vertices(), has_period() ? 2 : 0);
+    require_visits(visits, *this, has_period() ? 2 : 0);
     const std::size_t n = visits.vertex.size();
     require_length("enter", enter.size(), n);
-    if (has_period() && vertices_of_.contains(robot)) {
+    if (has_period() && rows_of_.contains(robot)) {
         reject("robot", robot, "is there already");
     }
     if (has_period() == leave.has_value()) {
         reject("leave", leave.value_or(0), "is needed without a period, and only then");
     }
     const Tick last_leave = leave ? *leave : enter[0] + period_;
-    std::vector<Booking> bookings;
+    std::vector<std::pair<std::int32_t, Booking>> bookings;
     for (std::size_t k = 0; k < n; ++k) {
         const Tick ends = k + 1 < n ? enter[k + 1] : last_leave;
         if (ends <= enter[k]) {
@@ -90,39 +141,61 @@ bool PeriodicBookings::add(RobotId robot, const Visits& visits, std::span<const 
         }
         const Tick start = enter[k] - approach(visits, k);
         const Tick folded = fold(start);
-        bookings.push_back({folded, folded + (ends + headway_ - start), robot});
-        if (has_period() && !is_free(visits.vertex[k], bookings.back())) {
-            return false;
+        bookings.push_back({visits.vertex[k], {folded, folded + (ends + headway_ - start), robot}});
+        if (has_sizes()) {
+            const Tick arrives = folded + (enter[k] + headway_ - start);
+            bookings.push_back({visits.edge[k], {folded, arrives, robot}});
         }
     }
-    for (std::size_t k = 0; k < n; ++k) {
-        auto& row = at_[static_cast<std::size_t>(visits.vertex[k])];
-        row.insert(std::upper_bound(row.begin(), row.end(), bookings[k]), bookings[k]);
+    if (has_period() && !std::all_of(bookings.begin(), bookings.end(), [this](const auto& one) {
+            return is_free(one.first, one.second);
+        })) {
+        return false;
     }
-    std::vector<VertexId>& vertices = vertices_of_[robot];
-    vertices.insert(vertices.end(), visits.vertex.begin(), visits.vertex.end());
-    sort_unique(vertices);
+    std::vector<std::int32_t>& rows = rows_of_[robot];
+    const auto insert = [&](std::int32_t row, const Booking& booking) {
+        Row& bookings_there = at_[static_cast<std::size_t>(row)];
+        bookings_there.insert(
+            std::upper_bound(bookings_there.begin(), bookings_there.end(), booking), booking);
+        rows.push_back(row);
+    };
+    for (const auto& [row, booking] : bookings) {
+        if (!has_sizes()) {
+            insert(row, booking);
+            continue;
+        }
+        for (auto k = first_[static_cast<std::size_t>(row)];
+             k < first_[static_cast<std::size_t>(row) + 1]; ++k) {
+            const std::int32_t marked = excluded_[static_cast<std::size_t>(k)];
+            insert(marked, booking);
+            is_changed_[static_cast<std::size_t>(marked)] = 1;
+        }
+    }
+    sort_unique(rows);
     return true;
 }
 
 void PeriodicBookings::remove(RobotId robot) {
-    const auto found = vertices_of_.find(robot);
-    if (found == vertices_of_.end()) {
+    const auto found = rows_of_.find(robot);
+    if (found == rows_of_.end()) {
         return;
     }
-    for (const VertexId vertex : found->second) {
-        std::erase_if(at_[static_cast<std::size_t>(vertex)],
+    for (const std::int32_t row : found->second) {
+        std::erase_if(at_[static_cast<std::size_t>(row)],
                       [robot](const Booking& one) { return one.robot == robot; });
+        if (has_sizes()) {
+            is_changed_[static_cast<std::size_t>(row)] = 1;
+        }
     }
-    vertices_of_.erase(found);
+    rows_of_.erase(found);
 }
 
-std::vector<RobotId> PeriodicBookings::users(std::span<const VertexId> vertices, Tick from,
+std::vector<RobotId> PeriodicBookings::users(std::span<const std::int32_t> rows, Tick from,
                                              Tick to) const {
     std::vector<RobotId> found;
-    for (const VertexId vertex : vertices) {
-        require_id("vertex", vertex, n_vertices());
-        for (const Booking& one : at_[static_cast<std::size_t>(vertex)]) {
+    for (const std::int32_t row : rows) {
+        require_id("vertex", row, n_rows());
+        for (const Booking& one : at_[static_cast<std::size_t>(row)]) {
             if (one.start < to && from < one.end) {
                 found.push_back(one.robot);
             }
@@ -132,9 +205,25 @@ std::vector<RobotId> PeriodicBookings::users(std::span<const VertexId> vertices,
     return found;
 }
 
+// The earliest enter in [enter, last] after a drive of some ticks along an edge that is free.
+Tick PeriodicBookings::drives(std::int32_t edge, Tick enter, Tick last, Tick ticks) const {
+    Tick found = never;
+    for_each_gap(edge, enter - ticks, last - ticks, [&](const Gap& gap) {
+        const Tick soonest = gap.start == -never ? enter : std::max(enter, gap.start + ticks);
+        if (soonest <= last && (gap.end == never || soonest + headway_ <= gap.end)) {
+            found = soonest;
+        }
+        return found == never;
+    });
+    return found;
+}
+
 Tick PeriodicBookings::enters(const Gap& here, const Gap& there, Tick soonest, Tick last,
-                              Tick approach) const {
-    const Tick enter = there.start == -never ? soonest : std::max(soonest, there.start + approach);
+                              Tick approach, std::int32_t edge) const {
+    Tick enter = there.start == -never ? soonest : std::max(soonest, there.start + approach);
+    if (edge != none && enter <= last) {
+        enter = drives(edge, enter, last, approach);
+    }
     const bool fits = there.end == never || enter + headway_ < there.end;
     const bool swaps = headway_ == 0 && approach == 0 && there.start == enter &&
                        here.end == enter && there.before == here.after;
@@ -156,7 +245,7 @@ bool PeriodicBookings::search(const Visits& visits, Tick phase, std::vector<Tick
     if (!has_period()) {
         reject("period", 0, "is needed for visits that repeat");
     }
-    require_visits(visits, n_vertices(), 2);
+    require_visits(visits, *this, 2);
     prepare(visits, visits.vertex.size());
     if (rest_[0] > period_) {
         return false;
@@ -199,7 +288,7 @@ bool PeriodicBookings::close_from(const Visits& visits, const Gap& home, Tick st
 
 bool PeriodicBookings::connect(const Visits& visits, Tick from, Tick until, Tick leave,
                                std::vector<Tick>& enter) {
-    require_visits(visits, n_vertices(), 1);
+    require_visits(visits, *this, 1);
     const std::size_t last = visits.vertex.size() - 1;
     prepare(visits, last);
     std::optional<Gap> first;
@@ -247,7 +336,8 @@ const std::vector<PeriodicBookings::Stay>& PeriodicBookings::spread(const Visits
                 continue;
             }
             for_each_gap(visits.vertex[next], soonest, latest_enter - ahead, [&](const Gap& gap) {
-                const Tick enter = enters(here.gap, gap, soonest, latest_enter, ahead);
+                const Tick enter =
+                    enters(here.gap, gap, soonest, latest_enter, ahead, visits.edge_into(next));
                 if (enter == never) {
                     return true;
                 }

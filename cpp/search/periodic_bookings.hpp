@@ -15,6 +15,11 @@
 // phase is tried.
 //
 // Without a period, time is a line; example: the ticks around the closing of a simulated run.
+//
+// Where robots have sizes, bookings are in rows (see Resources in problem.hpp). A robot marks all
+// rows that its bookings exclude, and a search reads the rows that it needs: that of each vertex,
+// and for each drive that of the edge. Marks of several robots may overlap; the gaps of a row are
+// between its joined marks.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +40,17 @@ struct Visits {
     std::span<const VertexId> vertex;
     std::span<const Tick> dwell;  // least duration of each visit, without the next drive
     std::span<const Tick> drive;  // ticks of the drive into each visit; above 0
+    // Where robots have sizes, `vertex` holds rows, and this the rows of the edges driven into each
+    // visit; else empty.
+    std::span<const std::int32_t> edge = {};
+
+    std::int32_t edge_into(std::size_t k) const { return edge.empty() ? none : edge[k]; }
+};
+
+// The rows that a booking of each row excludes, as in `Resources`; borrowed, empty without sizes.
+struct ExcludedRows {
+    std::span<const std::int32_t> first;
+    std::span<const std::int32_t> excluded;
 };
 
 class PeriodicBookings {
@@ -49,10 +65,11 @@ class PeriodicBookings {
     };
 
     // Throws std::invalid_argument if an argument is out of range.
-    PeriodicBookings(VertexId n_vertices, std::optional<Tick> period, Tick headway,
-                     bool books_ahead);
+    PeriodicBookings(std::int32_t n_rows, std::optional<Tick> period, Tick headway,
+                     bool books_ahead, const ExcludedRows& rows = {});
 
-    VertexId n_vertices() const { return static_cast<VertexId>(at_.size()); }
+    std::int32_t n_rows() const { return static_cast<std::int32_t>(at_.size()); }
+    bool has_sizes() const { return !first_.empty(); }
     bool has_period() const { return period_ != never; }
     Tick period() const { return period_; }  // `never`: no period
     Tick headway() const { return headway_; }
@@ -71,9 +88,9 @@ class PeriodicBookings {
     // Removes all bookings of a robot.
     void remove(RobotId robot);
 
-    // The robots with a booking of one of these vertices that overlaps [from, to), each once. With
-    // a period, a booking counts in the period of its start.
-    std::vector<RobotId> users(std::span<const VertexId> vertices, Tick from, Tick to) const;
+    // The robots with a booking (with sizes: a mark) in one of these rows that overlaps [from, to),
+    // each once. With a period, a booking counts in the period of its start.
+    std::vector<RobotId> users(std::span<const std::int32_t> rows, Tick from, Tick to) const;
 
     // Finds the enters of one period of repeated visits. Tries the gaps of the first vertex in
     // order, from the gap at `phase` on. False if no enters exist (none from `phase`, if no other
@@ -88,14 +105,16 @@ class PeriodicBookings {
     // The last visit that the latest search could enter; the search failed at the next visit.
     std::size_t reached() const { return reached_; }
 
-    // Calls use(gap) for each gap of a vertex that begins before `to` and ends after `from`, in
+    // Calls use(gap) for each gap of a row that begins before `to` and ends after `from`, in
     // order, until `use` returns false. A gap is empty if one robot follows another at once.
     template <class Use>
-    void for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const;
+    void for_each_gap(std::int32_t row, Tick from, Tick to, Use&& use) const;
 
     // The enter of a robot that drives from gap `here` into gap `there`, in [soonest, last], with
-    // the booking `approach` ticks ahead; `never` if no enter is possible.
-    Tick enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach) const;
+    // the booking `approach` ticks ahead, along an edge with a row or `none`; `never` if no enter
+    // is possible.
+    Tick enters(const Gap& here, const Gap& there, Tick soonest, Tick last, Tick approach,
+                std::int32_t edge) const;
 
   private:
     struct Booking {
@@ -116,7 +135,12 @@ class PeriodicBookings {
     Tick approach(const Visits& visits, std::size_t k) const {
         return books_ahead_ ? visits.drive[k] : 0;
     }
-    bool is_free(VertexId vertex, const Booking& booking) const;
+    using Row = std::vector<Booking>;
+
+    const Row& gaps_of(std::int32_t row) const;
+    void join(std::int32_t row) const;
+    bool is_free(std::int32_t row, const Booking& booking) const;
+    Tick drives(std::int32_t edge, Tick enter, Tick last, Tick ticks) const;
     void prepare(const Visits& visits, std::size_t last);
     bool close_from(const Visits& visits, const Gap& home, Tick start, std::vector<Tick>& enter,
                     const StopCondition& is_over);
@@ -127,16 +151,20 @@ class PeriodicBookings {
     Tick period_;
     Tick headway_;
     bool books_ahead_;
-    std::vector<std::vector<Booking>> at_;  // of each vertex, sorted by start
-    std::unordered_map<RobotId, std::vector<VertexId>> vertices_of_;  // each once
-    std::vector<Tick> rest_;                // least ticks from each enter to the last enter
-    std::vector<std::vector<Stay>> stays_;  // of each visit, then of visit 0 a period later
+    std::vector<Row> at_;  // bookings or marks of each row, sorted by start
+    std::unordered_map<RobotId, std::vector<std::int32_t>> rows_of_;  // each once
+    std::vector<std::int32_t> first_;                                 // see `ExcludedRows`
+    std::vector<std::int32_t> excluded_;
+    mutable std::vector<Row> joined_;               // marks joined, with sizes only
+    mutable std::vector<std::uint8_t> is_changed_;  // since the marks were joined
+    std::vector<Tick> rest_;                        // least ticks from each enter to the last enter
+    std::vector<std::vector<Stay>> stays_;          // of each visit, then of visit 0 a period later
     std::size_t reached_ = 0;
 };
 
 template <class Use>
-void PeriodicBookings::for_each_gap(VertexId vertex, Tick from, Tick to, Use&& use) const {
-    const auto& row = at_[static_cast<std::size_t>(vertex)];
+void PeriodicBookings::for_each_gap(std::int32_t of, Tick from, Tick to, Use&& use) const {
+    const Row& row = gaps_of(of);
     const bool wraps = has_period() && !row.empty();
     Tick shift = wraps ? from - fold(from) : 0;
     // The first gap ends at the first booking with start >= `from`.

@@ -12,8 +12,13 @@ constexpr std::int64_t expansions_between_looks = 512;
 }  // namespace
 
 PeriodicSearch::PeriodicSearch(const Roads& roads, const PeriodicBookings& circle)
-    : roads_(roads), circle_(circle), at_(static_cast<std::size_t>(circle.n_vertices()), none) {
-    require_length("indptr", roads.graph.indptr.size(), at_.size() + 1);
+    : roads_(roads),
+      circle_(circle),
+      at_(roads.graph.indptr.empty() ? 0 : roads.graph.indptr.size() - 1, none) {
+    if (!circle.has_sizes()) {
+        require_length("indptr", roads.graph.indptr.size(),
+                       static_cast<std::size_t>(circle.n_rows()) + 1);
+    }
     if (!circle.has_period()) {
         reject("period", 0, "is needed for a trip that repeats");
     }
@@ -32,8 +37,13 @@ Tick PeriodicSearch::rest(VertexId vertex, std::int32_t stage) const {
 }
 
 bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
-                         const StopCondition& is_over) {
+                         const StopCondition& is_over, std::int32_t first_row) {
     require_trip(roads_, trip);
+    if (circle_.has_sizes()) {
+        const std::size_t n_own = at_.size() + roads_.graph.indices.size();
+        require_id("first_row", first_row, circle_.n_rows() - static_cast<std::int32_t>(n_own) + 1);
+    }
+    first_row_ = first_row;
     trip_ = &trip;
     is_over_ = &is_over;
     is_stopped_ = false;
@@ -44,11 +54,12 @@ bool PeriodicSearch::run(const Trip& trip, Tick phase, PeriodicRoundTrip& found,
     }
     const Tick first = circle_.fold(phase);
     bool is_found = false;
-    circle_.for_each_gap(
-        trip.home, first, first + circle_.period(), [&](const PeriodicBookings::Gap& home) {
-            is_found = close_from(home, home.start == -never ? first : home.start, found);
-            return !is_found && !is_stopped_;
-        });
+    circle_.for_each_gap(first_row_ + trip.home, first, first + circle_.period(),
+                         [&](const PeriodicBookings::Gap& home) {
+                             is_found =
+                                 close_from(home, home.start == -never ? first : home.start, found);
+                             return !is_found && !is_stopped_;
+                         });
     return is_found;
 }
 
@@ -143,13 +154,16 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
         return;
     }
     const Tick approach = circle_.books_ahead() ? ticks : 0;
-    circle_.for_each_gap(next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
-        const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach);
-        if (enter < never) {
-            reach({enter, gap, next, stage, from, ticks, none});
-        }
-        return true;
-    });
+    const std::int32_t row =
+        circle_.has_sizes() ? first_row_ + static_cast<std::int32_t>(at_.size()) + edge : none;
+    circle_.for_each_gap(
+        first_row_ + next, soonest, last - approach, [&](const PeriodicBookings::Gap& gap) {
+            const Tick enter = circle_.enters(here.gap, gap, soonest, last, approach, row);
+            if (enter < never) {
+                reach({enter, gap, next, stage, from, ticks, none});
+            }
+            return true;
+        });
 }
 
 void PeriodicSearch::reach(const Node& node) {

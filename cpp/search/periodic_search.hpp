@@ -36,8 +36,10 @@ class PeriodicSearch {
 
     // Finds a route and its enters; false as in `PeriodicBookings::search`. Tries the gaps of the
     // home in order, from the gap at `phase` on; in the first possible gap the return is earliest.
-    // Throws std::invalid_argument if roads and circle do not fit together.
-    bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over);
+    // Throws std::invalid_argument if roads and circle do not fit together. Where robots have
+    // sizes, the robot's rows begin at `first_row`.
+    bool run(const Trip& trip, Tick phase, PeriodicRoundTrip& found, const StopCondition& is_over,
+             std::int32_t first_row = 0);
 
   private:
     struct Node {
@@ -64,6 +66,7 @@ class PeriodicSearch {
     const PeriodicBookings& circle_;
     const Trip* trip_ = nullptr;
     const StopCondition* is_over_ = nullptr;
+    std::int32_t first_row_ = 0;
     std::vector<Tick> to_go_;  // least ticks from the enter of each stage's vertex to home
     std::vector<Node> nodes_;
     OpenList open_;  // least return first, then least remaining ticks

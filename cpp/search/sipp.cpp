@@ -91,6 +91,13 @@ Tick SafeIntervalSearch::rest(VertexId vertex, std::int32_t stage) const {
     return way < 0 ? way : way + to_go_[static_cast<std::size_t>(stage)];
 }
 
+Tick SafeIntervalSearch::rest(const Node& node) const {
+    if (node.stage == n_stages() || !trip_->with_turns) {
+        return rest(node.vertex, node.stage);
+    }
+    return trip_->with_turns->from(node.edge, node.stage);
+}
+
 SearchEnd SafeIntervalSearch::run(const SearchRequest& errand, const StopCondition& is_over) {
     begin(errand);
     if (least_f_ >= never || least_f_ > limit_) {
@@ -129,7 +136,7 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
     if (first.cost >= never) {
         return SearchEnd::proven_none;  // another robot books the home at tick 0
     }
-    first_f_ = rest(first.vertex, 0);
+    first_f_ = rest(first);
     reach(first, first_f_);
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();
@@ -183,7 +190,7 @@ void SafeIntervalSearch::finish(std::int32_t node) {
     after.stage = n_stages();
     after.parent = node;
     after.drive = 0;
-    reach(after, rest(after.vertex, after.stage));
+    reach(after, rest(after));
 }
 
 // Serves the next stage if the vertex is right and the gap is long enough.
@@ -205,7 +212,7 @@ void SafeIntervalSearch::serve(std::int32_t node) {
     ++after.stage;
     after.parent = node;
     after.drive = 0;
-    reach(after, rest(after.vertex, after.stage));
+    reach(after, rest(after));
 }
 
 // Stays past the start of the next booking and pays its price.
@@ -224,7 +231,7 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
     ++after.gap;
     after.parent = node;
     after.drive = 0;
-    reach(after, rest(after.vertex, after.stage));
+    reach(after, rest(after));
 }
 
 // Drives along an edge into each gap of its head that the robot can enter before this gap ends.
@@ -239,12 +246,13 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     Node candidate = here;
     candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[length_class];
     candidate.vertex = roads_.graph.indices[edge];
-    candidate.ready += ticks;
+    candidate.ready += trip_->turns.between(here.edge, edge) + ticks;
     candidate.parent = node;
     candidate.drive = ticks;
+    candidate.edge = edge;
     const bool never_ends = static_cast<std::size_t>(here.gap) == from.size();
     const Tick latest = never_ends ? never : from[here.gap].time.start - rules_.headway;
-    const Tick way = rest(candidate.vertex, candidate.stage);
+    const Tick way = rest(candidate);
     if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
         return;
     }
@@ -429,9 +437,11 @@ SafeIntervalSearch::Slot& SafeIntervalSearch::slot_of(const Node& node) {
     if (2 * nodes_.size() > mask_) {
         enlarge_slots();
     }
-    const auto place = static_cast<std::uint64_t>(node.stage) *
-                           static_cast<std::uint64_t>(roads_.graph.n_vertices()) +
-                       static_cast<std::uint64_t>(node.vertex);
+    const bool turns = trip_->turns.take_time();
+    const std::size_t n_places =
+        turns ? roads_.graph.indices.size() + 1 : roads_.graph.indptr.size() - 1;
+    const auto place = static_cast<std::uint64_t>(node.stage) * n_places +
+                       static_cast<std::uint64_t>(turns ? node.edge + 1 : node.vertex);
     const auto gap = static_cast<std::uint64_t>(node.gap);
     const std::uint64_t state = (place << 24) ^ gap;
     // Neighbouring slots for the gaps of one vertex.
@@ -470,8 +480,12 @@ void SafeIntervalSearch::track(std::vector<Visit>& visits) const {
     visits.clear();
     for (std::int32_t node = goal_; node != none; node = nodes_[node].parent) {
         const Node& one = nodes_[node];
-        if (one.drive > 0 || one.parent == none) {
-            visits.push_back({one.ready, one.vertex, one.drive});
+        if (one.parent == none) {
+            visits.push_back({one.ready, one.vertex, 0});
+        } else if (one.drive > 0) {
+            const EdgeId before = nodes_[one.parent].edge;
+            visits.push_back(
+                {one.ready, one.vertex, one.drive, trip_->turns.between(before, one.edge)});
         }
     }
     std::reverse(visits.begin(), visits.end());

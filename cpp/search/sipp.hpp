@@ -1,6 +1,7 @@
 // Safe interval path planning (SIPP): the best track of one robot among bookings of other robots.
 //
-// A state is (vertex, gap, stage). In one gap an earlier enter is never worse than a later one,
+// A state is (vertex, gap, stage); for a robot that turns in some time, the edge driven in, which
+// gives the heading, stands for the vertex. In one gap an earlier enter is never worse than a later one,
 // because the robot can wait. The itinerary is a list of stages (stops, work, turns, way home); a
 // move of the search drives, waits or serves the next stage.
 //
@@ -79,6 +80,7 @@ class SafeIntervalSearch {
         std::int32_t next;   // next node of this state
         std::int32_t drive;  // ticks of the drive in; 0: a wait or a served stage
         bool is_beaten;
+        EdgeId edge = -1;  // latest edge driven, -1 before the first drive
     };
     struct Slot {
         std::uint64_t state;
@@ -95,6 +97,7 @@ class SafeIntervalSearch {
     Tick free_end(std::span<const BookedBy> before) const;
     bool is_worth_aiming() const;
     SearchEnd aim(const StopCondition& is_over);
+    Tick rest(const Node& node) const;
     Tick rest(VertexId vertex, std::int32_t stage) const;
     void expand(std::int32_t node);
     void finish(std::int32_t node);

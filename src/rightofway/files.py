@@ -67,7 +67,10 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
 def _replace(target: Path, content: bytes) -> None:
     beside = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        beside.write_bytes(content)
+        with beside.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())  # or a machine that goes down could leave an empty file
         beside.replace(target)
     except BaseException:
         with suppress(OSError):

@@ -28,7 +28,7 @@ from rightofway.model import (
 )
 from rightofway.model.places import as_place, is_cell, vertex_at
 from rightofway.model.resources import circle_around
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.values import Number, coordinate
 from rightofway.model.values import length as exact_length
 from rightofway.model.zones import NamedZone
@@ -63,7 +63,7 @@ class FleetBuilder:
         Edges that are longer are split into pieces of at most that length [length unit].
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
-        ``ends``, ``laps``, ``rotations``, ``clearance``.
+        ``ends``, ``laps``, ``rotations``, ``clearance``, ``turn_rate``.
 
     Raises
     ------
@@ -245,6 +245,7 @@ class FleetBuilder:
         laps: int | None = None,
         radius: Number | None = None,
         size: tuple[Number, Number] | None = None,
+        turn_rate: Number | None = None,
     ) -> Self:
         """Add a robot; the map must be complete.
 
@@ -267,6 +268,8 @@ class FleetBuilder:
             Radius of the circle that it needs [length unit]; a point by default.
         size
             Its length and width [length unit] instead of ``radius``: the circle around it.
+        turn_rate
+            How fast it turns on the spot [degrees per time unit], if that differs from the rules.
 
         Raises
         ------
@@ -296,6 +299,7 @@ class FleetBuilder:
                 ends=ends,
                 laps=laps,
                 radius=_radius(radius, size),
+                turn_rate=turn_rate,  # type: ignore[arg-type]
             )
         except InputError as error:
             raise InputError(error.faults, source) from None
@@ -342,13 +346,13 @@ class FleetBuilder:
                 )
                 for tail, head, given, limit in self._edges
             ]
-            positions = self._positions
-            if self._spacing is not None and self._zones:
-                raise InputError.at("spacing", "does not know zones yet (take one of them out)")
+            split = SplitLanes(self._positions, edges, {})
             if self._spacing is not None:
-                positions, edges = split_lanes(positions, edges, self._spacing)
-            drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-            self._roadmap = roadmap_of_edges(drawn, edges, y_up=self._y_up, zones=self._zones)
+                split = split_lanes(self._positions, edges, self._spacing)
+            drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
+            self._roadmap = roadmap_of_edges(
+                drawn, split.edges, y_up=self._y_up, zones=self._zones, pieces=split.pieces
+            )
         return self._roadmap
 
     def _square(self, tail: str, head: str) -> Fraction:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from numbers import Integral
 from typing import Any
 
@@ -12,13 +13,15 @@ import numpy as np
 
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
-from rightofway.model import Plan, PlannerRun, Problem, Scenario, checked_time_limit
-from rightofway.model.problem import refuse_closures
+from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
+from rightofway.model.zones import listed_only
 from rightofway.planners import (
     DEFAULT,
     IMPROVER,
     Deadline,
+    Draft,
     PlannerOptions,
     PlannerSpec,
     Task,
@@ -43,6 +46,7 @@ def solve(
     *,
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    on_plan: Callable[[Plan], None] | None = None,
     keep_best: bool = False,
     seconds_per_visit: float = JUDGING,
     **named: Any,
@@ -65,6 +69,8 @@ def solve(
         with values.
     report
         Takes sentences on the progress.
+    on_plan
+        Takes each better plan while the planner goes on. The judge has not seen it.
     keep_best
         Whether Ctrl-C returns the best plan so far, where there is one. By default
         `KeyboardInterrupt` is raised.
@@ -94,7 +100,7 @@ def solve(
     spec, limit = find(planner), checked_time_limit(time_limit)
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
-    return _run(spec, task, limit, seconds_per_visit)
+    return _run(spec, task, limit, seconds_per_visit, on_plan)
 
 
 def improve(
@@ -105,6 +111,7 @@ def improve(
     *,
     options: PlannerOptions | Mapping[str, Any] | None = None,
     report: Callable[[str], None] | None = None,
+    on_plan: Callable[[Plan], None] | None = None,
     keep_best: bool = False,
     seconds_per_visit: float = JUDGING,
     **named: Any,
@@ -117,7 +124,7 @@ def improve(
         A plan that keeps the rules.
     planner
         Name of a planner that can start from a plan.
-    time_limit, seed, options, report, keep_best, seconds_per_visit, named
+    time_limit, seed, options, report, on_plan, keep_best, seconds_per_visit, named
         As for `solve`.
 
     Returns
@@ -141,7 +148,7 @@ def improve(
         raise InputError.at("planner", f"{spec.name} cannot start from a plan (choose {able})")
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
-    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit)
+    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
 
 
 def _silent(_: str) -> None:
@@ -165,7 +172,13 @@ def _settled(
     return {"options": settled, "seed": int(seed)}
 
 
-def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_visit: float) -> Plan:
+def _run(
+    spec: PlannerSpec,
+    task: Task,
+    time_limit: float | None,
+    seconds_per_visit: float,
+    on_plan: Callable[[Plan], None] | None,
+) -> Plan:
     # These load the native core: not for help.
     from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
     from rightofway.search import alone_completions
@@ -196,9 +209,11 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
             deadline=deadline.earlier(seconds_per_visit * least_visits),
             has_plan=keep,
         )
+        if on_plan is not None:
+            task = replace(task, better=partial(_hand_over, on_plan, spec, task))
         if task.start is not None:
             keep()
-        draft = spec.load()(task)
+        draft = _drafted(spec, task)
     keep()
     run = PlannerRun(
         name=spec.name,
@@ -220,7 +235,10 @@ def _run(spec: PlannerSpec, task: Task, time_limit: float | None, seconds_per_vi
 
 
 def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
-    """Refuse closures and barred edges to planners that do not know them."""
+    """Refuse turn rates, closures and barred edges to planners that do not know them."""
+    if not spec.knows_turns:
+        able = " or ".join(one.name for one in registered().values() if one.knows_turns)
+        refuse_turn_rates(problem, f"planner {spec.name}", f"choose {able}")
     if not spec.knows_closures:
         able = " or ".join(one.name for one in registered().values() if one.knows_closures)
         refuse_closures(problem, f"planner {spec.name}", f"choose {able}")
@@ -228,6 +246,52 @@ def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
         able = " or ".join(one.name for one in registered().values() if one.knows_types)
         message = f"planner {spec.name} does not know edges that are barred for types of robots"
         raise InputError.at("", f"{message} (choose {able})")
+
+
+def _drafted(spec: PlannerSpec, task: Task) -> Draft:
+    """Return the draft of a planner; if it gives up, the draft for zones of listed vertices only.
+
+    Planners take a vertex between two edges of a zone as in the zone for all visits, or for none.
+    Without it there is more room: what is proven to have no plan has none, and the judge decides
+    whether a plan keeps the zones.
+    """
+    from rightofway.planners.impossible import refuse_passed_zones
+
+    scenario, plan_with = task.scenario, spec.load()
+    if not any(zone.passed for zone in scenario.roadmap.zones):
+        return plan_with(task)
+    gave_up = GaveUp("better plans have robots wait where others pass a zone (keep the plan)")
+    if task.start is None:
+        try:
+            refuse_passed_zones(scenario)
+            return plan_with(task)
+        except GaveUp as error:
+            gave_up = error
+        task.report("no plan keeps robots clear of zones: planning as if they did not pass any")
+    zones = listed_only(scenario.roadmap.zones)
+    looser = replace(scenario, roadmap=replace(scenario.roadmap, zones=zones))
+    draft = plan_with(replace(task, scenario=looser))
+    if check(Plan(scenario=scenario, tracks=draft.tracks, run=PlannerRun(name=spec.name))).ok:
+        return draft
+    raise gave_up
+
+
+def _hand_over(
+    on_plan: Callable[[Plan], None],
+    spec: PlannerSpec,
+    task: Task,
+    tracks: Callable[[], Sequence[Track]],
+) -> None:
+    """Hand a plan of a planner that goes on to the caller of `solve`."""
+    assert task.alone is not None, "it is measured before planning"
+    run = PlannerRun(
+        name=spec.name,
+        options=task.options,
+        seed=task.seed,
+        status="so far",
+        alone=tuple(task.alone.tolist()),
+    )
+    on_plan(Plan(scenario=task.scenario, tracks=tuple(tracks()), run=run))
 
 
 def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:

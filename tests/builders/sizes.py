@@ -17,9 +17,10 @@ from rightofway.model import (
     VertexId,
     roadmap_of_edges,
 )
+from rightofway.model.zones import Zone
 from tests.builders.fleets import random_fleet
 
-__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii"]
+__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
 
 
 def with_radii(
@@ -56,7 +57,9 @@ def _sized(seed: int, robots: int, headway: int) -> Scenario:
     return with_radii(random_fleet(seed, robots=robots, walls=0.05, rules=rules), radii)
 
 
-def crowded_roadmap(draw: random.Random, *, vertices: int = 9, edges: int = 14) -> Roadmap:
+def crowded_roadmap(
+    draw: random.Random, *, vertices: int = 9, edges: int = 14, one_way: float = 0.2
+) -> Roadmap:
     """Return vertices anywhere and lanes anyhow: many cross, or pass near other vertices."""
     places = draw.sample([(x, y) for x in range(7) for y in range(7)], vertices)
     names = [f"V{k}" for k in range(vertices)]
@@ -69,7 +72,7 @@ def crowded_roadmap(draw: random.Random, *, vertices: int = 9, edges: int = 14) 
         square = sum((a - b) ** 2 for a, b in zip(at[tail], at[head], strict=True))
         length = next(Fraction(n, 4) for n in range(1, 99) if n**2 >= 16 * square)
         found += [Edge(tail=tail, head=head, length=length)]
-        if draw.random() < 0.8:
+        if draw.random() < 1 - one_way:
             found += [Edge(tail=head, head=tail, length=length)]
     return roadmap_of_edges({name: (float(x), float(y)) for name, (x, y) in at.items()}, found)
 
@@ -132,6 +135,40 @@ def _tiny(seed: int, robots: int) -> Scenario:
         ),
         rules=Rules(ends="none"),
     )
+
+
+def zoned(seed: int) -> Scenario:
+    """Return two robots on six vertices, some of them points, with zones of a few edges.
+
+    Most zones do not list the vertices that robots pass inside.
+    """
+    fleets = (_zoned(seed + 1000 * k) for k in range(1000))
+    return next(fleet for fleet in fleets if fleet.problem.clock.tick >= Fraction(1, 8))
+
+
+def _zoned(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    fleet = _tiny(seed, 2)
+    roadmap = fleet.roadmap
+    edges = [
+        (VertexId(tail), VertexId(int(head)))
+        for tail in range(roadmap.n_vertices)
+        for head in roadmap.heads[roadmap.indptr[tail] : roadmap.indptr[tail + 1]]
+    ]
+    zones = tuple(
+        Zone(
+            name=f"Z{k}",
+            vertices=tuple(map(VertexId, draw.sample(range(6), draw.choice([0, 1])))),
+            edges=tuple(draw.sample(edges, draw.choice([2, 3, 4]))),
+        )
+        for k in range(draw.choice([1, 2]))
+    )
+    points = [draw.random() < 0.5 for _ in fleet.robots]
+    robots = tuple(
+        replace(robot, radius=Fraction(0) if is_point else robot.radius)
+        for robot, is_point in zip(fleet.robots, points, strict=True)
+    )
+    return replace(fleet, roadmap=replace(roadmap, zones=zones), robots=robots)
 
 
 def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:

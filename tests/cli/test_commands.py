@@ -286,6 +286,20 @@ def test_convert_there_and_back_keeps_the_scenario(cli: Cli, door: Path) -> None
     assert Path("door.json").read_bytes() == Path("twice.json").read_bytes()
 
 
+def test_convert_writes_a_plan_for_a_program_on_the_site(cli: Cli, door: Path) -> None:
+    assert cli("plan", str(door), "-o", "plan.json").code == 0
+    done = cli("convert", "plan.json", "--to", "nav2", "-o", "paths.json")
+    assert done.code == 0
+    assert set(json.loads(Path("paths.json").read_text("utf-8"))["robots"]) == {"R1", "R2"}
+    assert "paths.json: y is negated" in done.err
+
+
+def test_convert_refuses_an_unknown_format_before_it_asks_for_a_file(cli: Cli) -> None:
+    done = cli("convert", "plan.json", "--to", "event")
+    assert (done.code, done.out) == (2, "")
+    assert "'event' is no format (did you mean events?)" in done.err
+
+
 def test_convert_to_a_scen_names_what_it_leaves_out(cli: Cli, door: Path) -> None:
     ended = cli("convert", door, "door.scen")
     assert ended.code == 0

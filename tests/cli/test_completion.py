@@ -76,7 +76,7 @@ def test_examples_are_offered_by_name(offered: Offered) -> None:
 def test_rules_routes_and_formats_are_offered_by_name(offered: Offered) -> None:
     assert offered("laps", "--rule", "t") == ["two-level", "timetable"]
     assert offered("laps", "--routes", "") == ["clear", "direct", "shortest"]
-    assert offered("convert", "--to", "l") == ["lacam", "lns2"]
+    assert offered("convert", "--to", "l") == ["lacam", "lns2", "lif"]
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no Bash here")

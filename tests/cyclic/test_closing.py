@@ -108,7 +108,7 @@ def long_runs(draw: st.DrawFn) -> GroupResult:
         routes = cyclic_routes(scenario, draw(st.sampled_from(["clear", "direct"])))
     except (InputError, NoPlanExists):
         assume(False)
-    group = max(independent_groups(routes), key=len)
+    group = max(independent_groups(scenario, routes), key=len)
     assume(len(group) > 1)
     context = GroupContext(scenario=scenario, routes=tuple(group))
     simulation = CyclicSimulator(context, draw(st.sampled_from(["first-come", "least-loss"])))

@@ -90,7 +90,7 @@ def test_robots_that_share_no_place_have_no_common_period() -> None:
 
 def test_a_robot_between_two_others_joins_them_in_one_group() -> None:
     scenario = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2"), ("N1", "N2")])
-    groups = independent_groups(cyclic_routes(scenario, "shortest"))
+    groups = independent_groups(scenario, cyclic_routes(scenario, "shortest"))
     assert [[endless.robot for endless in group] for group in groups] == [[0, 1, 2]]
 
 

@@ -35,7 +35,7 @@ def groups_of(
     grid = random_grid(draw, size=size, walls=walls)
     try:
         scenario: Scenario = fleet_on(grid, draw, robots=robots, rules=rules)
-        groups = independent_groups(cyclic_routes(scenario, draw.choice(ROUTES)))
+        groups = independent_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
         assume(False)
     return [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]

@@ -8,14 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rightofway.errors import InputError
-from rightofway.io import example_of_layout, load_either, read_layout
-from rightofway.io.layouts.formats import refuse_layout
 from rightofway.io.text import parse_yaml
-from rightofway.model.layout import Layout
+from tests.fuzz.layouts import BOMBS, failures, limited, opened
 
 HERE = Path(__file__).parents[1] / "data" / "layouts"
 FILES = sorted(path for path in HERE.iterdir() if path.suffix != ".md")
@@ -45,23 +43,6 @@ def steps_in(value: Any) -> Iterator[tuple[Any, ...]]:
         yield (key,)
         if isinstance(child, dict | list):
             yield from ((key, *rest) for rest in steps_in(child))
-
-
-def opened(path: Path) -> None:
-    """Open a layout in every way that a user has; only InputErrors are raised."""
-    try:
-        found = read_layout(path)
-        if isinstance(found, Layout):
-            assert all(vertex.name for level in found.levels for vertex in level.vertices)
-        scenario = path.with_name("scenario.yaml")
-        scenario.write_text(example_of_layout(path, scenario), encoding="utf-8")
-        load_either(scenario)
-    except InputError as error:
-        str(error).encode()
-    try:
-        refuse_layout(path)
-    except InputError as error:
-        str(error).encode()
 
 
 @settings(max_examples=150, deadline=None)
@@ -98,3 +79,19 @@ def test_files_that_are_cut_or_swapped_are_refused(data: st.DataObject) -> None:
         path = Path(folder) / source.name
         path.write_bytes(text[:begin] + swapped + text[begin + length :])
         opened(path.with_name("room.yaml") if path.name == "room.pgm" else path)
+
+
+def test_broken_files_are_refused_soon() -> None:
+    """The first files of the large run, `just fuzz-layouts`."""
+    *failed, (_, _, longest) = failures(seed=0, numbers=range(150))
+    assert failed == []
+    assert longest < 10
+
+
+@pytest.mark.parametrize("number", range(len(BOMBS)))
+@pytest.mark.parametrize("name", ["bomb.json", "bomb.yaml", "bomb.xml", "nodes.csv", "bomb.map"])
+def test_bombs_are_refused_soon(tmp_path: Path, name: str, number: int) -> None:
+    path = tmp_path / name
+    path.write_bytes(BOMBS[number])
+    with limited(5):
+        assert not opened(path)

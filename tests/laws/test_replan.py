@@ -81,7 +81,7 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
         [one.vertex for one in kept],
         goals,
         forecast.broken,
-        closures_of(forecast),
+        closures_of(forecast).vertices,
         may_rotate=may_rotate,
     )
 

@@ -12,7 +12,7 @@ from rightofway import FleetBuilder
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, scenario_of
 from rightofway.model import Edge, Scenario
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.planners import registered
 
 
@@ -62,20 +62,24 @@ def test_both_directions_of_a_lane_share_its_pieces() -> None:
         Edge(tail="B", head="A", length=Fraction(5)),
         Edge(tail="A", head="B", length=Fraction(6)),
     ]
-    positions, pieces = split_lanes(at, edges, Fraction(2))
+    positions, split, pieces = split_lanes(at, edges, Fraction(2))
     assert list(positions) == ["A", "B", "B-A/1", "B-A/2"]
     assert positions["B-A/1"] == (Fraction(8, 3), Fraction(2))
-    assert [(one.tail, one.head, one.length) for one in pieces[3:]] == [
+    assert [(one.tail, one.head, one.length) for one in split[3:]] == [
         ("A", "B-A/2", Fraction(2)),
         ("B-A/2", "B-A/1", Fraction(2)),
         ("B-A/1", "B", Fraction(2)),
     ]
+    assert pieces == {
+        ("B", "A"): [("B", "B-A/1"), ("B-A/1", "B-A/2"), ("B-A/2", "A")],
+        ("A", "B"): [("A", "B-A/2"), ("B-A/2", "B-A/1"), ("B-A/1", "B")],
+    }
 
 
 def test_a_lane_that_is_short_enough_stays_whole() -> None:
     at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(2), Fraction(0))}
     edges = [Edge(tail="A", head="B", length=Fraction(2))]
-    assert split_lanes(at, edges, Fraction(2)) == (at, edges)
+    assert split_lanes(at, edges, Fraction(2)) == SplitLanes(at, edges, {})
 
 
 def test_the_name_of_a_piece_may_not_be_taken() -> None:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from rightofway.model import Scenario
 from tests.oracles.closures import begins, ends, is_shut
-from tests.oracles.space import Shape, drive, incompatible
+from tests.oracles.space import Shape, drive, incompatible, zones_around, zones_with
 
 
 class State(NamedTuple):
@@ -26,6 +26,8 @@ class State(NamedTuple):
     head: int = -1
     left: int = 0  # ticks of the drive to the head
     is_done: bool = False
+    came: frozenset[int] = frozenset()  # zones with the edge driven in that do not list the vertex
+    passes: frozenset[int] = frozenset()  # those with the edge that is driven out, decided before
 
 
 class _Fleet:
@@ -40,12 +42,13 @@ class _Fleet:
 
     def is_closed(self, robot: int, booked: list[Shape], tick: int) -> bool:
         """Return whether something that a robot books in a tick is closed."""
-        for shape in booked:
+        places = [shape for shape in booked if shape[0] >= 0]  # the others are zones
+        for shape in places:
             key = (robot, shape, tick)
             if key not in self.closed:
                 now = Fraction(tick)
                 self.closed[key] = is_shut(self.scenario, robot, shape, now, now + 1)
-        return any(self.closed[robot, shape, tick] for shape in booked)
+        return any(self.closed[robot, shape, tick] for shape in places)
 
     def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:
         """Return whether robots i and j book shapes that exclude each other."""
@@ -59,23 +62,34 @@ class _Fleet:
 
     def actions(self, robot: int, state: State) -> Iterator[tuple[State, list[Shape], int]]:
         """Yield the next state, what is booked in the tick, and what the tick costs."""
-        here: list[Shape] = [(state.vertex,)]
+        roadmap = self.scenario.roadmap
+        inside = zones_around(roadmap, state.vertex) | state.passes
+        here: list[Shape] = [(state.vertex,), *((-1 - zone,) for zone in inside)]
         if state.is_done:
             yield state, here, 0
         elif state.left:
-            left = state.left - 1
-            after = state._replace(left=left) if left else State(state.head)
-            ahead: list[Shape] = [(state.head,)] if self.books_ahead else []
-            yield after, [*here, *ahead, (state.vertex, state.head)], 1
+            left, edge = state.left - 1, (state.vertex, state.head)
+            along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
+            booked = [*here, edge, *((-1 - zone,) for zone in along | ahead)]
+            booked += [(state.head,)] if self.books_ahead else []
+            if left:
+                yield state._replace(left=left), booked, 1
+                return
+            came = frozenset(along - ahead)
+            for size in range(len(came) + 1):
+                for passes in combinations(sorted(came), size):
+                    after = State(state.head, came=came, passes=frozenset(passes))
+                    yield after, booked, 1
         else:
-            if state.vertex == self.scenario.problem.itineraries[robot].last:
+            if state.vertex == self.scenario.problem.itineraries[robot].last and not state.passes:
                 yield state._replace(is_done=True), here, 0
             yield state, here, 1
-            roadmap = self.scenario.roadmap
             first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
             for head in roadmap.heads[first:end].tolist():
+                if state.came & zones_with(roadmap, (state.vertex, head)) != state.passes:
+                    continue
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
-                yield from self.actions(robot, State(state.vertex, head, ticks))
+                yield from self.actions(robot, state._replace(head=head, left=ticks))
 
 
 def least_flowtime(scenario: Scenario) -> int | None:

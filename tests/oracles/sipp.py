@@ -1,12 +1,12 @@
 """The earliest track of one robot among bookings, found by trying every tick.
 
 Slow and obvious: a breadth-first search over (tick, vertex, stages done, since when at the vertex
-it has been free to go), one tick after the other, up to a horizon.
+it has been free to go, the vertex before), one tick after the other, up to a horizon.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from rightofway.model import Itinerary, Roadmap
@@ -27,6 +27,7 @@ class _State(NamedTuple):
     vertex: int
     stage: int
     busy_until: int
+    before: int = -1  # the vertex before, where the robot turns in some time
 
 
 def earliest_completion(
@@ -37,9 +38,14 @@ def earliest_completion(
     headway: int,
     books_ahead: bool,
     horizon: int,
+    turn: Callable[[int, int, int], int] | None = None,
 ) -> int | None:
-    """Return the first tick at which the trip can be complete, None if not before the horizon."""
+    """Return the first tick at which the trip can be complete, None if not before the horizon.
+
+    ``turn`` gives the ticks to turn at a vertex between the vertex before and the one after.
+    """
     search = _Ticks(roadmap, itinerary, booked, headway, books_ahead)
+    search.turn = turn
     if not search.free(itinerary.home, 0, 1):
         return None
     layers: list[set[_State]] = [set() for _ in range(horizon + 1)]
@@ -69,6 +75,7 @@ class _Ticks:
         books_ahead: bool,
     ) -> None:
         self.roadmap, self.itinerary, self.booked = roadmap, itinerary, booked
+        self.turn: Callable[[int, int, int], int] | None = None
         self.headway, self.books_ahead = headway, books_ahead
 
     def free(self, vertex: int, start: int, end: int) -> bool:
@@ -112,10 +119,12 @@ class _Ticks:
         for edge in range(self.roadmap.indptr[state.vertex], self.roadmap.indptr[state.vertex + 1]):
             head = int(self.roadmap.heads[edge])
             ticks = self.itinerary.edge_ticks[self.roadmap.length_class[edge]]
-            enter, approach = tick + ticks, ticks if self.books_ahead else 0
+            turned = self.turn(state.before, state.vertex, head) if self.turn else 0
+            enter, approach = tick + turned + ticks, ticks if self.books_ahead else 0
             if (
                 self.free(state.vertex, tick, enter + self.headway)
                 and self.free(head, enter - approach, enter + 1 + self.headway)
                 and not self.is_swap(state.vertex, head, enter)
             ):
-                yield enter, _State(head, state.stage, 0)
+                before = state.vertex if self.turn else -1
+                yield enter, _State(head, state.stage, 0, before)

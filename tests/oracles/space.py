@@ -12,7 +12,7 @@ from rightofway.model import Roadmap, Scenario, Track
 
 Point = tuple[Fraction, Fraction]
 Shape = tuple[int, ...]
-"""A vertex (v,), or an edge (tail, head)."""
+"""A vertex (v,), an edge (tail, head), or a zone (-1 - number,)."""
 
 FAR_AWAY = Fraction(10**9)
 """The end of last visits [ticks]."""
@@ -70,6 +70,8 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
     """Return whether robot i on one shape excludes robot j from another, as DESIGN has it."""
     if one == other:
         return len(one) == 1  # two robots on one edge have booked its ends
+    if one[0] < 0 or other[0] < 0:
+        return False
     if one == other[::-1]:
         return True
     if set(one) & set(other):
@@ -86,16 +88,36 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     return Fraction(-(-(roadmap.lengths[roadmap.length_class[edge]] / speed) // tick))
 
 
+def zones_with(roadmap: Roadmap, edge: Shape) -> set[int]:
+    """Return the numbers of the zones that have an edge."""
+    return {number for number, zone in enumerate(roadmap.zones) if edge in zone.edges}
+
+
+def zones_around(roadmap: Roadmap, vertex: int) -> set[int]:
+    """Return the numbers of the zones that list a vertex."""
+    return {number for number, zone in enumerate(roadmap.zones) if vertex in zone.vertices}
+
+
 def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
-    """Yield what a robot books: vertices with approach and headway, edges while it drives."""
+    """Yield what a robot books: vertices with approach and headway, edges while it drives, zones.
+
+    A visit between two edges of a zone books the zone.
+    """
+    roadmap = scenario.roadmap
     headway = Fraction(scenario.problem.headway)
     vertices, enter = track.vertices.tolist(), [Fraction(t) for t in track.enter.tolist()]
     ends = [*(tick + headway for tick in enter[1:]), FAR_AWAY]
     for k, vertex in enumerate(vertices):
         approach = drive(scenario, robot, vertices[k - 1], vertex) if k else Fraction(0)
         yield Booked((vertex,), enter[k] - approach, ends[k])
+        into = zones_with(roadmap, tuple(vertices[k - 1 : k + 1])) if k else set()
+        passed = into & zones_with(roadmap, tuple(vertices[k : k + 2]))
+        for zone in zones_around(roadmap, vertex) | passed:
+            yield Booked((-1 - zone,), enter[k] - approach, ends[k])
         if k:
             yield Booked((vertices[k - 1], vertex), enter[k] - approach, enter[k] + headway)
+            for zone in into:
+                yield Booked((-1 - zone,), enter[k] - approach, enter[k] + headway)
 
 
 def overlaps(scenario: Scenario, tracks: list[Track]) -> set[tuple[int, int]]:

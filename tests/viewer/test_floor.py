@@ -74,7 +74,7 @@ def test_lateness_is_told_as_it_grows(show: Opener, tick: int, lateness: list[st
 
 def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Viewer) -> None:
     late.ask("clock.seek(30)")
-    late.wait_for("frames.told === 30")
+    late.wait_for("frames.written === 30")
     assert late.page.locator("#robot-list .state").all_inner_texts()[:2] == ["stuck", "broken down"]
     assert late.ask("motion.counts[BROKEN]") == 1
     late.page.click("#robot-list .row:has-text('R1')")
@@ -97,10 +97,10 @@ def test_who_was_planned_anew_goes_another_way(show: Opener) -> None:
     first = viewer.page.locator("#robot-list .late").first
     assert first.inner_text() == "on time"
     viewer.ask("clock.seek(5)")
-    viewer.wait_for("frames.told === 5")
+    viewer.wait_for("frames.written === 5")
     assert first.inner_text() == "2 late"  # by plan it leaves N1 at 3
     viewer.ask("clock.seek(6)")
-    viewer.wait_for("frames.told === 6")
+    viewer.wait_for("frames.written === 6")
     assert viewer.ask("plan.robots[0].lateness(6, 2)") is None
     assert viewer.complaints == []
 

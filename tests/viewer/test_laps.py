@@ -61,7 +61,9 @@ def test_the_first_period_is_played_for_ever(steady: Viewer) -> None:
 def test_robots_are_where_the_next_period_has_them(steady: Viewer) -> None:
     places = "motion.moveTo({}), [...motion.x, ...motion.activity]"
     for tick in (6, 7.5, 10.25, 15.9):
-        assert steady.ask(places.format(tick)) == steady.ask(places.format(tick + 10))
+        assert steady.ask(places.format(tick)) == pytest.approx(
+            steady.ask(places.format(tick + 10))
+        )
 
 
 def test_the_loop_is_entered_from_the_transient_and_left_by_going_beyond(steady: Viewer) -> None:
@@ -77,10 +79,10 @@ def test_laps_are_counted_and_go_on_in_the_loop(steady: Viewer) -> None:
     first = steady.page.locator("#robot-list .row").first
     for tick, lap in ((5, "lap 1"), (17, "lap 3"), (26, "lap 4")):
         steady.ask(f"clock.seek({tick})")
-        steady.wait_for(f"frames.told === {tick}")
+        steady.wait_for(f"frames.written === {tick}")
         assert lap in first.inner_text()
     steady.ask("clock.seek(6), loop.toggle(), clock.pause(), clock.advance(103 / clock.rate)")
-    steady.wait_for("clock.turns === 10 && frames.told === 9")
+    steady.wait_for("clock.turns === 10 && frames.written === 9")
     assert "lap 12" in first.inner_text()
 
 

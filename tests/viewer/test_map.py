@@ -77,7 +77,7 @@ def test_names_of_robots_that_meet_do_not_cover_each_other(show: Opener) -> None
 def test_robots_can_be_seen_on_every_screen(show: Opener, width: int, height: int) -> None:
     viewer = show(crowd(50), viewport={"width": width, "height": height})
     assert viewer.ask("mapView.sizes.robot") >= 4.5
-    assert viewer.ask("mapView.sizes.home > mapView.sizes.robot")
+    assert viewer.ask("mapView.sizes.homeOf(plan.robots[0]) > mapView.sizes.robot")
 
 
 def test_a_small_grid_fills_the_height_of_its_pane(show: Opener) -> None:

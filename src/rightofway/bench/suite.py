@@ -257,7 +257,7 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
 
 def _fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
-    given = document.given("occupancy", "headway", "turn", "laps", "rotations")
+    given = document.given("occupancy", "headway", "turn", "laps", "rotations", "turn_rate")
     if document.ends is not None:
         given["return"] = document.ends
     rules = {

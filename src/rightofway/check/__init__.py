@@ -9,7 +9,7 @@ from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
 from rightofway.check.space import judge_space
-from rightofway.check.tracks import judge_drives, judge_trips
+from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import visits_of
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan, Quantities
@@ -40,6 +40,9 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     into the vertex where robots book both ends of an edge, else nothing; a first visit has none,
     and a last visit never ends. Bookings of one vertex by different robots must not overlap.
 
+    A robot with a turn rate turns on the spot between two edges before it drives on, and does no
+    work meanwhile.
+
     Stops are matched to visits greedily: a robot works as early as it can, on several stops in one
     visit if they follow each other at one vertex. A visit too short for that is only passing.
 
@@ -53,6 +56,7 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     names = Names(plan.scenario, quantities or plan.scenario.quantities)
     collector = FaultCollector(limit, names)
     judge_drives(visits, names, collector)
+    judge_turns(visits, names, collector)
     judge_trips(plan, visits, names, collector)
     judge_bookings(plan, visits, names, collector)
     judge_swaps(visits, names, collector)

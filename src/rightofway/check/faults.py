@@ -18,6 +18,7 @@ FaultKind = Literal[
     "backwards",
     "jump",
     "too fast",
+    "turn cut short",
     "work cut short",
     "stop missed",
     "wrong end",
@@ -39,6 +40,7 @@ FaultKind = Literal[
 ``backwards``        a visit ends before it begins
 ``jump``             no edge joins two visits, or one vertex is entered twice in a row
 ``too fast``         an edge is driven in less than the robot's ticks for it
+``turn cut short``   a change of heading takes less than the robot's ticks for it
 ``work cut short``   a stop is visited, but never for long enough to work and turn
 ``stop missed``      a stop is not visited after the one before it
 ``wrong end``        the last visit is not where the trip ends

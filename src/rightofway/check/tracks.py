@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
 from heapq import heappop, heappush
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names
+from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
-from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId
+from rightofway.model import Itinerary, Plan, Stage, Tick, VertexId, decimal
 
 
 def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> None:
@@ -76,9 +78,37 @@ def judge_drives(visits: Visits, names: Names, collector: FaultCollector) -> Non
     report("too fast", joined & (stay >= 0) & (stay < visits.drive), too_fast)
 
 
+def judge_turns(visits: Visits, names: Names, collector: FaultCollector) -> None:
+    """Find changes of heading that are too fast."""
+    stay = visits.leave - visits.enter
+    broken = (visits.edge >= 0) & (stay >= visits.drive) & (stay < visits.drive + visits.turn)
+    where = np.flatnonzero(broken)
+
+    def fault(position: int) -> Fault:
+        visit = int(where[position])
+        robot, ends = int(visits.robot[visit]), visits.vertex[visit : visit + 2].tolist()
+        at, to = map(names.vertex, ends)
+        least = visits.turn[visit] + visits.drive[visit]
+        message = (
+            f"{names.robot(robot)} turns {decimal(Fraction(int(visits.angle[visit]), MICRO), 6)}"
+            f" degrees at {at} in {names.duration(stay[visit] - visits.drive[visit])}, it needs"
+            f" {names.duration(visits.turn[visit])} (enter {to} at"
+            f" {names.moment(visits.enter[visit] + least)} or later)"
+        )
+        return Fault(
+            kind="turn cut short",
+            robots=(robot,),
+            vertices=(VertexId(ends[0]),),
+            tick=Tick(int(visits.leave[visit])),
+            message=message,
+        )
+
+    collector.add_all("turn cut short", visits.leave[where], (visits.robot[where],), fault)
+
+
 def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
-    spare = np.maximum(visits.leave - visits.enter - visits.drive, 0).tolist()
+    spare = np.maximum(visits.leave - visits.enter - visits.drive - visits.turn, 0).tolist()
     begin = 0
     for robot, track in enumerate(plan.tracks):
         end = begin + len(track)
@@ -99,9 +129,10 @@ def judge_trips(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
 class _Trip:
     """A robot's track against its itinerary.
 
-    `spare` is how long each visit lasts beyond the drive that ends it, less what has been worked
-    there so far [ticks]; the last visit's counts for nothing, it never ends. `too_short` holds, for
-    each stage, which may recur in every lap, the visits that were: a heap of (-spare, visit).
+    `spare` is how long each visit lasts beyond the drive that ends it and the turn before, less
+    what has been worked there so far [ticks]; the last visit's counts for nothing, it never ends.
+    `too_short` holds, for each stage, which may recur in every lap, the visits that were: a heap of
+    (-spare, visit).
     """
 
     robot: int

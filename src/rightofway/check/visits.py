@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.check.turning import turns_of
 from rightofway.model import Plan, Roadmap
 
 SAFE = 2**60
@@ -34,6 +35,8 @@ class Visits:
     edge: NDArray[np.int64]  # to the robot's next visit, -1 without one
     drive: NDArray[Any]  # of that edge for that robot, 0 without one or if barred [ticks]
     barred: NDArray[np.bool_]  # whether that edge is barred for that robot
+    angle: NDArray[np.int64]  # that the robot turns before that drive [1e-6 degrees]
+    turn: NDArray[Any]  # how long that turn takes [ticks]
 
 
 def visits_of(plan: Plan) -> Visits:
@@ -48,6 +51,7 @@ def visits_of(plan: Plan) -> Visits:
     roadmap = plan.scenario.roadmap
     edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
     drive = _drives(plan, robot, edge, enter.dtype)
+    angle, turn = turns_of(plan, robot, vertex, edge)
     return Visits(
         robot=robot,
         vertex=vertex,
@@ -58,6 +62,8 @@ def visits_of(plan: Plan) -> Visits:
         edge=edge,
         drive=np.maximum(drive, 0),
         barred=np.array(drive < 0, bool),
+        angle=angle,
+        turn=turn.astype(enter.dtype),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -25,7 +26,9 @@ Examples:
   rightofway convert hall.yaml -o hall.scen
   rightofway convert paths.txt --map hall.map -o plan.json
   rightofway convert plan.json --to lns2 -o paths.txt
+  rightofway convert plan.json --to nav2 -o paths.json
   rightofway convert hall.lif.json -o hall.yaml
+  rightofway convert room.yaml --radius 0.3 -o hall.yaml
   rightofway convert hall.lif.json --to nav2 -o hall.geojson
 """
 
@@ -33,18 +36,32 @@ SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
 
 def _list_formats(formatter: click.HelpFormatter) -> None:
-    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS
+    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS, SITE_PLAN_FORMATS
 
+    with formatter.section("Formats of plans for programs on the site (metres, seconds)"):
+        formatter.write_dl([(name, each.summary) for name, each in SITE_PLAN_FORMATS.items()])
     with formatter.section("Formats of plans of other programs"):
         formatter.write_dl([(name, each.summary) for name, each in FOREIGN_FORMATS.items()])
     with formatter.section("Formats of layouts of other programs"):
         formatter.write_dl([(name, each.summary) for name, each in LAYOUT_WRITERS.items()])
 
 
-def _foreign_names() -> Iterable[str]:
-    from rightofway.io import FOREIGN_FORMATS
+def _names() -> Iterable[str]:
+    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS, SITE_PLAN_FORMATS
 
-    return FOREIGN_FORMATS
+    return dict.fromkeys((*SITE_PLAN_FORMATS, *FOREIGN_FORMATS, *LAYOUT_WRITERS))
+
+
+def _radius(
+    _context: click.Context, _parameter: click.Parameter, given: str | None
+) -> Fraction | None:
+    """Return the radius as an exact number."""
+    from rightofway.io.fields import positive
+
+    try:
+        return None if given is None else positive(given)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 @click.command(
@@ -58,31 +75,45 @@ def _foreign_names() -> Iterable[str]:
 @click.option("-o", "--output", metavar="TARGET", callback=writable(),
               help="File to write, the same as the argument TARGET; - for standard output.",
               )  # fmt: skip
-@click.option("--to", "name", metavar="FORMAT", shell_complete=words(_foreign_names),
+@click.option("--to", "name", metavar="FORMAT", shell_complete=words(_names),
               help="Write a plan or a layout for another program; see below.")  # fmt: skip
+@click.option("--radius", metavar="LENGTH", callback=_radius,
+              help="Radius of the robots of the scenario that is written for a layout [m].",
+              )  # fmt: skip
 @count_option
 @foreign_options
 def convert(
-    *, source: str, target: str | None, output: str | None, name: str | None, count: int | None
+    *,
+    source: str,
+    target: str | None,
+    output: str | None,
+    name: str | None,
+    radius: Fraction | None,
+    count: int | None,
 ) -> None:
     """Write the scenario, plan or layout SOURCE in another format.
 
     A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or .xlsx
     file contains the map. A .scen file has no speeds, work times, turning times and ways home; the
-    command reports which of these it left out. A plan is written as .json, or with --to. A layout
-    of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a scenario,
-    .yaml or .json, that has the layout as its map and a few robots to begin with; with --to it is
-    written for another program, and a message names what its format cannot say.
+    command reports which of these it left out. A plan is written as .json, or with --to for a
+    program on the site or another planner. A layout of another program (LIF, Nav2, Open-RMF, ROS
+    map, openTCS, GraphML, CSV) becomes a scenario, .yaml or .json, that has the layout as its map
+    and a few robots to begin with; with --to it is written for another program, and a message names
+    what its format cannot say.
     """
     from rightofway.model import Plan
 
+    _check_format(name)
     if (target is None) == (output is None):
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
-    _check_target(path, name)
+    if name is None:
+        _check_ending(path)
     if _is_layout(source):
-        _write_layout(source, path, name)
+        _write_layout(source, path, name, radius)
         return
+    if radius is not None:
+        raise click.UsageError(f"--radius is for layouts, and {source} is none")
     _refuse_layout_format(source, name)
     found = read_either(source, count)
     if isinstance(found, Plan):
@@ -93,20 +124,21 @@ def convert(
         _write_scenario(found, path)
 
 
-def _check_target(path: str, name: str | None) -> None:
-    """Refuse, before any work, a format or an ending that is not known."""
-    from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS
-
-    known = (*FOREIGN_FORMATS, *LAYOUT_WRITERS)
-    if name is None:
-        if path != "-" and Path(path).suffix.lower() not in SUFFIXES:
-            endings = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
-            remedy = "give a name that does, or with --to the format of another program"
-            raise click.UsageError(f"{path!r} does not end in {endings} ({remedy})")
-    elif name not in known:
+def _check_format(name: str | None) -> None:
+    """Refuse, before any work, a format that is not known."""
+    known = tuple(_names())
+    if name is not None and name not in known:
         meant = nearest(name, known)
         hint = f"did you mean {meant}?" if meant else f"give one of {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
+
+
+def _check_ending(path: str) -> None:
+    """Refuse, before any work, an ending that is not known."""
+    if path != "-" and Path(path).suffix.lower() not in SUFFIXES:
+        endings = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        remedy = "give a name that does, or with --to the format of another program"
+        raise click.UsageError(f"{path!r} does not end in {endings} ({remedy})")
 
 
 def _is_layout(source: str) -> bool:
@@ -117,20 +149,22 @@ def _is_layout(source: str) -> bool:
 
 
 def _refuse_layout_format(source: str, name: str | None) -> None:
-    from rightofway.io import LAYOUT_WRITERS
+    from rightofway.io import LAYOUT_WRITERS, SITE_PLAN_FORMATS
 
-    if name in LAYOUT_WRITERS:
+    if name in LAYOUT_WRITERS and name not in SITE_PLAN_FORMATS:
         raise click.UsageError(f"--to {name} is for layouts, and {source} is none")
 
 
-def _write_layout(source: str, path: str, name: str | None) -> None:
+def _write_layout(source: str, path: str, name: str | None, radius: Fraction | None) -> None:
     """Write a layout in another format, or without one a scenario that has it as its map."""
     from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
     from rightofway.model.layout import Layout
 
     if name is None:
-        _write_example(source, path)
+        _write_example(source, path, radius or Fraction(0))
         return
+    if radius is not None:
+        raise click.UsageError(f"--radius is for a scenario, and --to {name} writes none")
     layout = read_layout(source)
     if name not in LAYOUT_WRITERS or not isinstance(layout, Layout):
         what = "a layout" if isinstance(layout, Layout) else "a map in cells or pixels"
@@ -145,13 +179,13 @@ def _write_layout(source: str, path: str, name: str | None) -> None:
         say(f"{path}: {note}")
 
 
-def _write_example(source: str, path: str) -> None:
+def _write_example(source: str, path: str, radius: Fraction) -> None:
     from rightofway.files import write_whole
     from rightofway.io import example_of_layout
 
     if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
         raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
-    text = example_of_layout(source, path)
+    text = example_of_layout(source, path, radius)
     if path == "-":
         click.echo(text, nl=False)
         return
@@ -160,9 +194,14 @@ def _write_example(source: str, path: str) -> None:
 
 
 def _write_plan(plan: Plan, path: str, name: str | None) -> None:
-    from rightofway.io import foreign_text
+    from rightofway.io import SITE_PLAN_FORMATS, foreign_text, site_plan_text
 
-    if name is not None:
+    if name in SITE_PLAN_FORMATS:
+        text, notes = site_plan_text(plan, name)
+        put_text(text, path)
+        for note in notes:
+            say(f"{path}: {note}")
+    elif name is not None:
         put_text(foreign_text(plan, name), path)
         stages = [each.stages for each in plan.scenario.problem.itineraries]
         if any(len(own) > 1 or own[0].work for own in stages):

@@ -11,10 +11,9 @@ import click
 
 from rightofway.cli.completion import SCENARIOS, files
 from rightofway.cli.inputs import point_to_examples
-from rightofway.cli.options import as_json_option
-from rightofway.cli.terminal import counted, put_json, put_report, wrapped
-from rightofway.errors import listed
-from rightofway.model.quantities import decimal
+from rightofway.cli.options import as_json_option, writable
+from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
+from rightofway.cli.terminal import file_title, json_text, put_json, put_report, say, wrapped
 
 if TYPE_CHECKING:
     from rightofway.io.sites import Sites
@@ -24,17 +23,9 @@ EXAMPLES = """\b
 Examples:
   rightofway inspect hall.lif.json
   rightofway inspect hall.lif.json --robots fleet.csv
+  rightofway inspect hall.lif.json --page hall.html
   rightofway inspect examples/door.yaml --json
 """
-
-HEADINGS = {
-    "error": "Errors (some work cannot be done)",
-    "warning": "Warnings (robots will wait)",
-    "note": "Notes",
-}
-
-LISTED_PARTS = 8
-"""Sizes of strongly connected parts that a report lists."""
 
 
 @click.command(epilog=EXAMPLES, short_help="List what will hurt on a layout, map or scenario.")
@@ -68,7 +59,11 @@ LISTED_PARTS = 8
     metavar="N",
     help="Findings to list of each kind; all are counted.",
 )
-@as_json_option("report")  # fmt: skip
+@click.option("-o", "--output", metavar="FILE", callback=writable(".json", ".txt"),
+              help="Write the report (.json, .txt); - for standard output.")  # fmt: skip
+@click.option("--page", metavar="FILE", callback=writable(*PAGE_SUFFIXES, stdout=False),
+              help="Write a page that shows the findings on the map (.html).")  # fmt: skip
+@as_json_option("report")
 def inspect(
     *,
     source: str,
@@ -77,6 +72,8 @@ def inspect(
     vehicle_type: str | None,
     cell_size: Fraction | None,
     limit: int,
+    output: str | None,
+    page: str | None,
     as_json: bool,
 ) -> None:
     """Say what FILE is, how large, what was repaired in it, and what will hurt.
@@ -90,18 +87,32 @@ def inspect(
     from rightofway.metrics import inspect as inspected
 
     point_to_examples(source)
+    refuse_outputs(source, output, as_json=as_json)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
     found = read_sites(source, choice, fleet)
     results = [(name, site, inspected(site)) for name, site in found.sites]
-    if as_json:
-        put_json(_data(source, found, results))
+    data = _data(source, found, results)
+    if page is not None:
+        from rightofway.viz import write_inspection
+
+        title = file_title(source)
+        write_inspection(results, page, title=title, what=found.what, notes=found.notes)
+        say(f"wrote {page}")
+    if as_json or (output or "").lower().endswith(".json"):
+        if as_json:
+            put_json(data)
+        if output not in (None, "-"):
+            put_text(f"{json_text(data)}\n", output)
         return
     lines = wrapped(f"{source}: {found.what}")
     for note in found.notes:
         lines += wrapped(note, "  ")
     for name, site, result in results:
         lines += ["", *([f"Level {name}"] if name else []), *_report(site, result, limit)]
-    put_report("\n".join(lines))
+    if output not in (None, "-"):
+        put_text("\n".join((*lines, "")), output)
+    else:
+        put_report("\n".join(lines))
 
 
 def _size(given: str | None) -> Fraction | None:
@@ -117,22 +128,9 @@ def _size(given: str | None) -> Fraction | None:
 
 
 def _report(site: Site, result: Inspection, limit: int) -> list[str]:
-    one_way = f", {result.one_way} of them one-way" if result.one_way else ""
-    vertices = "1 vertex" if result.vertices == 1 else f"{result.vertices} vertices"
-    size = f"{vertices}, {counted(result.edges, 'directed edge')}{one_way}"
-    lines = wrapped(f"{size}, {_extent(site)}; {counted(result.places, 'place')}.")
-    if len(result.parts) == 1:
-        lines += wrapped("All vertices reach each other.")
-    else:
-        sizes = [str(part) for part in result.parts[:LISTED_PARTS]]
-        more = len(result.parts) - len(sizes)
-        cut = [*sizes, f"{more} more"] if more else sizes
-        lines += wrapped(
-            f"{len(result.parts)} strongly connected parts, of {listed(cut)} vertices."
-        )
-    if result.sampled:
-        some, all_of = result.sampled
-        lines += wrapped(f"Shortest routes are counted from {some} of {all_of} vertices only.")
+    from rightofway.metrics import HEADINGS, sentences
+
+    lines = [line for sentence in sentences(site, result) for line in wrapped(sentence)]
     if not result.findings:
         return [*lines, "Nothing was found that will hurt."]
     shown: Counter[tuple[str, str]] = Counter()
@@ -149,14 +147,6 @@ def _report(site: Site, result: Inspection, limit: int) -> list[str]:
             more = sum((one.severity, one.kind) == (severity, each.kind) for one in result.findings)
             lines += wrapped(f"and {more - limit} more: {each.kind} (see --limit)", "  ")
     return lines
-
-
-def _extent(site: Site) -> str:
-    """Return width and height of a site."""
-    roadmap = site.roadmap
-    spans = (roadmap.positions.max(axis=0) - roadmap.positions.min(axis=0)).tolist()
-    width, height = (Fraction(repr(span)) for span in spans)
-    return f"{decimal(width)} x {site.units.written_length(height)}"
 
 
 def _data(source: str, found: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:

@@ -45,8 +45,8 @@ MAX_VISITS = 1_000_000
 MAX_VISITS_OF_SENSITIVITY = 200_000
 """Visits of a period whose sensitivity is computed; each parameter takes a search."""
 
-Sites = dict[tuple[int, int, int], list[Tick]]
-"""Waits by vertex, waiting robot and awaited robot: their times [ticks]."""
+Sites = dict[tuple[int, int | None, int, int], list[Tick]]
+"""Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
 
 
 def laps_data(run: CyclicResult) -> dict[str, Any]:
@@ -79,6 +79,7 @@ def _group_data(scenario: Scenario, group: GroupResult) -> dict[str, Any]:
         return [
             {
                 "vertex": place(wait.vertex),
+                **({} if wait.beside is None else {"beside": place(wait.beside)}),
                 "robots": [robots[robot].name for robot in wait.pair],
                 "waits": robots[wait.waits].name,
                 when: written(time(wait.tick)),
@@ -273,8 +274,9 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
     robots, place = scenario.robots, scenario.roadmap.name
     sites = list(periodic | first)
     for site in sites[:MAX_LINES]:
-        vertex, waiting, awaited = site
-        text = f"{place(vertex)}: {robots[waiting].name} waits for {robots[awaited].name}"
+        vertex, beside, waiting, awaited = site
+        where = place(vertex) if beside is None else f"{place(vertex)} beside {place(beside)}"
+        text = f"{where}: {robots[waiting].name} waits for {robots[awaited].name}"
         when = [
             f"{words} at {_moments(quantities, found[site])}"
             for words, found in (("first lap", first), ("each period", periodic))
@@ -288,7 +290,8 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
 def _sites(waits: Sequence[LapWait]) -> Sites:
     found: Sites = {}
     for wait in waits:
-        found.setdefault((wait.vertex, wait.waits, wait.for_robot), []).append(wait.tick)
+        site = wait.vertex, wait.beside, wait.waits, wait.for_robot
+        found.setdefault(site, []).append(wait.tick)
     return found
 
 

@@ -33,6 +33,7 @@ from rightofway.cli.laps import laps
 from rightofway.cli.paper import paper
 from rightofway.cli.planning import bound, improve, plan
 from rightofway.cli.simulate import simulate
+from rightofway.cli.studio import studio
 from rightofway.cli.tables import table
 from rightofway.cli.terminal import complain, quiet_option, speak_utf8
 from rightofway.cli.views import check, show
@@ -56,7 +57,7 @@ Start with:
 """
 
 GROUPS: dict[str, tuple[click.Command, ...]] = {
-    "Begin": (new, examples, inspect),
+    "Begin": (new, examples, inspect, studio),
     "Plan": (plan, improve, bound),
     "Look at plans": (check, show, table, collisions),
     "Repeated work and delays": (laps, simulate),

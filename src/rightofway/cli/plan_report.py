@@ -146,7 +146,7 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     for loss in chain.from_iterable(one.losses for one in lost):
         groups.setdefault((loss.kind, loss.robot, loss.for_robot), []).append(loss)
     sentences: list[tuple[int, int, str]] = [
-        (sum(loss.ticks for loss in group), group[0].tick, _sentence(words, group))
+        (sum(loss.ticks for loss in group), group[0].tick, sentence_on(words, group))
         for group in groups.values()
     ]
     sentences.sort(key=lambda sentence: (-sentence[0], sentence[1]))
@@ -175,7 +175,8 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[str]:
     yield from wrapped(f"Detours: {', '.join(listed)}{more}.")
 
 
-def _sentence(words: Words, group: Sequence[Loss]) -> str:
+def sentence_on(words: Words, group: Sequence[Loss]) -> str:
+    """Return where and why a robot loses time to another one; all losses are of that pair."""
     first, times = group[0], len(group)
     robot, other = words.robot(first.robot), words.robot(first.for_robot)
     place, freed = words.place(first.vertex), words.place(first.freed)
@@ -289,8 +290,8 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
     words = Words(plan=plan, quantities=quantities)
     lines: list[str] = []
     for decision in plan.run.decisions:
-        lines += wrapped(_decision(words, decision))
-        lines += wrapped(_reason(words, decision), "    ")
+        lines += wrapped(decision_in_words(words, decision))
+        lines += wrapped(reason_in_words(words, decision), "    ")
     for reroute in plan.run.reroutes:
         lines += wrapped(f"{words.robot(reroute.robot)} is rerouted: {reroute.because}.")
     if lines:
@@ -302,7 +303,8 @@ def decision_log(plan: Plan, quantities: Quantities) -> str:
     return "\n".join(wrapped(f"{records}; `rightofway table PLAN --events` lists each wait."))
 
 
-def _decision(words: Words, decision: Decision) -> str:
+def decision_in_words(words: Words, decision: Decision) -> str:
+    """Return which robot waits where, by a decision of the planner."""
     vertices = decision.vertices
     where = words.place(vertices[0])
     if decision.kind != "vertex":
@@ -321,7 +323,8 @@ def _goes_first(decision: Decision) -> int:
     return one if decision.waits == other else other
 
 
-def _reason(words: Words, decision: Decision) -> str:
+def reason_in_words(words: Words, decision: Decision) -> str:
+    """Return why the planner decided so."""
     i, j = map(words.robot, decision.robots)
     if_i, if_j = decision.conflicts_left
     left = f"conflicts left {if_i} if {i} waits, {if_j} if {j} does"

@@ -19,7 +19,11 @@ from rightofway.errors import InputError
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
+    from rightofway.model.drawing import Picture
     from rightofway.viz import Background
+
+LAYOUTS_WITH_PICTURES = (".yaml", ".yml")
+"""How the names of layouts end that may name a picture: ROS maps, buildings of Open-RMF."""
 
 LIMIT = 10
 """Time limit of planning a scenario that is to be shown [s]."""
@@ -28,6 +32,7 @@ SHOW_EXAMPLES = """\b
 Examples:
   rightofway show plan.json --page plan.html
   rightofway show plan.json -o moment.png --at 12
+  rightofway show plan.json --page plan.html --background hall.yaml
   rightofway show examples/door.yaml -o door.gif
 """
 
@@ -116,11 +121,12 @@ def _report_data(found: Plan, report: Report) -> dict[str, Any]:
               )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0), metavar="TICK", help="The same as a tick.")
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
-@click.option("--background", type=click.Path(), metavar="PICTURE",
-              help="Picture under the map of the page, its lower left corner on the map's.",
+@click.option("--background", type=click.Path(), metavar="FILE",
+              help="Under the map of the page: a ROS map or a building (.yaml), whose picture lies"
+              " where the file says; or a picture, its lower left corner on the map's.",
               )  # fmt: skip
 @click.option("--background-scale", type=float, metavar="LENGTH",
-              help="Length of a pixel of the background; by default it is as wide as the map.",
+              help="Length of a pixel of a picture; by default it is as wide as the map.",
               )  # fmt: skip
 def show(
     *,
@@ -150,7 +156,7 @@ def show(
     _check_picture(is_picture, at, tick, diagram=diagram)
     if other and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
         raise click.UsageError("two plans are compared on a page (give --page FILE)")
-    under = _background(background, background_scale, [page, output])
+    _check_background(background, background_scale, [page, output])
     found = read_either(plan, count)
     if isinstance(found, Scenario):
         with progress(LIMIT) as report:
@@ -158,7 +164,7 @@ def show(
         say(f"{plan}: {planning(found, found.scenario.quantities)}")
     extras: dict[str, Any] = {
         "title": file_title(plan),
-        "background": under,
+        "background": _background(background, background_scale, found),
         "other": (read_plan(other), file_title(other)) if other else None,
     }
     if page:
@@ -189,18 +195,39 @@ def _check_picture(
         raise click.UsageError("--at and --tick say the same: choose one")
 
 
-def _background(
-    picture: str | None, scale: float | None, outputs: list[str | None]
-) -> Background | None:
-    from rightofway.viz import Background
-
+def _check_background(picture: str | None, scale: float | None, outputs: list[str | None]) -> None:
+    """Refuse options of a background where there is no page, and a scale that is not needed."""
     if picture is None:
         if scale is not None:
             raise click.UsageError("--background-scale needs --background PICTURE")
-        return None
+        return
     if not any(it and (it == "-" or it.lower().endswith(PAGE_SUFFIXES)) for it in outputs):
         raise click.UsageError("--background is for pages (give --page FILE)")
-    return Background(picture=picture, scale=scale)
+    if scale is not None and picture.lower().endswith(LAYOUTS_WITH_PICTURES):
+        raise click.UsageError(f"--background-scale is for pictures; {picture} says its own scale")
+
+
+def _background(path: str | None, scale: float | None, plan: Plan) -> Background | None:
+    """Return a picture, or where a layout says that its picture lies."""
+    from rightofway.viz import Background
+
+    if path is None:
+        return None
+    if not path.lower().endswith(LAYOUTS_WITH_PICTURES):
+        return Background(picture=path, scale=scale)
+    from rightofway.io import read_layout
+    from rightofway.model.layout import Layout
+    from rightofway.model.occupancy import Occupancy
+
+    layout, found = read_layout(path), list[Picture]()
+    if isinstance(layout, Layout):
+        found = [level.picture for level in layout.levels if level.picture]
+    elif isinstance(layout, Occupancy) and layout.picture:
+        found = [layout.picture]
+    if len(found) != 1:
+        message = f"names {len(found)} pictures (give a ROS map, or a building of one level)"
+        raise InputError.at("", message, path)
+    return Background.of(found[0].scaled(1 / (plan.scenario.units.metres or Fraction(1))))
 
 
 def _write(found: Plan, path: str, extras: dict[str, Any]) -> None:

@@ -21,7 +21,7 @@ from rightofway.cyclic.simulator import Deadlock
 from rightofway.cyclic.window import NumberedRight, Window, WindowRule
 from rightofway.model import Tick
 from rightofway.planners.conflict_resolution import Right, rights_if_waits
-from rightofway.precedence import Meeting, Segment
+from rightofway.precedence import Meeting
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,6 @@ class RightOfWaySearch:
         """
         window, number = self.window, self.window.number
         segment = window.fleet.segment_of(meeting)
-        assert isinstance(segment, Segment), "laps refuse robots with a size"
         if window.is_endless(meeting, segment):
             raise self._deadlock(meeting, meeting.robots)
         waits = rule(window, meeting, segment)

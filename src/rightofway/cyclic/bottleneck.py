@@ -27,7 +27,8 @@ class Piece:
     robot
         The robot that works, drives, or waits for the right of way.
     places
-        The vertex; of a way: all vertices in order.
+        The vertex; of a way: all vertices in order; of a right of way where robots have a size:
+        also the vertex that the other robot leaves, if it is another one.
     ticks
         Its duration; of a right of way: headway and approach [ticks].
     """
@@ -109,7 +110,9 @@ def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
         robot = robots[graph.robot[head]]
         if arcs.first[arc] >= 0:
             ticks = Tick(int(arcs.length[arc]))
-            yield Piece(kind="right of way", robot=robot, places=(there,), ticks=ticks)
+            left = VertexId(int(graph.vertex[arcs.first[arc]]))
+            places = (there,) if left == there else (there, left)
+            yield Piece(kind="right of way", robot=robot, places=places, ticks=ticks)
             continue
         if graph.dwell[tail]:
             ticks = Tick(int(graph.dwell[tail]))
@@ -166,7 +169,7 @@ def _steps(run: Sequence[Piece], scenario: Scenario) -> Iterator[str]:
     arrivals: list[int] = []  # how many steps have been made when the robot is home
     for piece in run:
         if piece.kind == "right of way":
-            steps.append(f"enters {place(piece.places[0])}")
+            steps.append(f"enters {' beside '.join(map(place, piece.places))}")
         elif piece.kind == "work":
             steps.append(f"turns at {place(home)}" if piece.places[0] == home else "works")
         else:

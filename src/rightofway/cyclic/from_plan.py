@@ -10,10 +10,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
+from rightofway.cyclic.route import rows_of
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Scenario, Track, lap_of, route_of
 from rightofway.planners import Task
 from rightofway.planners.lacam import lacam
+from rightofway.planners.prioritized import prioritized
 
 
 def repeated_plan(problem: CyclicProblem) -> Candidate | None:
@@ -38,18 +40,22 @@ def repeated_plan(problem: CyclicProblem) -> Candidate | None:
         deadline=problem.deadline,
     )
     try:
-        tracks = lacam(task).tracks
+        if scenario.problem.resources is None:
+            tracks = lacam(task).tracks
+        else:
+            tracks = prioritized(replace(task, options={"order": "shortest"})).tracks
     except GaveUp:
         return None
     factor = part.problem.clock.tick / scenario.problem.clock.tick
-    places = {vertex for track in tracks for vertex in track.vertices.tolist()}
-    if factor.denominator != 1 or problem.forbidden.intersection(places):
+    if factor.denominator != 1:
         return None
     laps, cycles = [], []
     for robot, track in zip(context.robots, tracks, strict=True):
         once, enter = one_lap(scenario, robot), track.enter * factor.numerator
         route = route_of(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
         laps.append((lap_of(once, route), enter))
+        if not problem.forbidden.isdisjoint(rows_of(scenario, robot, laps[-1][0]).booked):
+            return None
     apart = int(context.headway) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)
     period = max(int(enter[-1]) for _, enter in laps) + apart
     for lap, enter in laps:

@@ -16,7 +16,7 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.model import Lap, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
-from rightofway.search import PeriodicBookings, RoundTrip
+from rightofway.search import PeriodicBookings, RoundTrip, RowsOfLaps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,7 +58,7 @@ class CyclicProblem:
     context: GroupContext  # the robots on their usual routes
     ways: tuple[tuple[Lap, ...], ...]  # candidate laps of each robot, the usual lap first
     round_trips: tuple[RoundTrip, ...]  # stages of each lap; empty: no search for new laps
-    forbidden: frozenset[int]  # vertices of other groups
+    forbidden: frozenset[int]  # rows (for points: vertices) that other groups exclude
     weights: tuple[Fraction, ...]  # the value of a lap of each robot, above 0
     least_fairness: Fraction  # the least ratio of laps made to laps possible alone
     deadline: Deadline
@@ -116,17 +116,22 @@ class CyclicProblem:
 
     def empty_bookings(self, period: int | None) -> PeriodicBookings:
         """Return empty bookings; without repetition if the period is None."""
+        context, roadmap = self.context, self.context.scenario.roadmap
+        resources = context.scenario.problem.resources
+        rows = None
+        if resources is not None:
+            rows = RowsOfLaps(roadmap=roadmap, resources=resources, robots=context.robots)
         return PeriodicBookings(
-            self.context.scenario.roadmap.n_vertices,
+            roadmap.n_vertices,
             None if period is None else Tick(period),
-            headway=self.context.headway,
-            books_ahead=self.context.books_ahead,
+            headway=context.headway,
+            books_ahead=context.books_ahead,
+            rows=rows,
         )
 
     def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of a timetable under the rules of the scenario."""
-        context = self.context
-        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
+        return self.context.graph(timetable)
 
     def timetable(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
         """Join the cycles of all robots to a timetable."""
@@ -178,22 +183,27 @@ class CyclicProblem:
         ways = [lap] if lap else self.draw.sample(self.ways[robot], len(self.ways[robot]))
         for way in ways:
             for _ in range(tries):
-                found = self._search(bookings, way, count)
+                found = self._search(bookings, robot, way, count)
                 if found is not None:
                     return found
         if lap or not self.round_trips:
             return None
         phase = self.draw.randrange(int(bookings.period))
         seconds = self.deadline.seconds_left()
-        way_found = bookings.find_route(self.round_trips[robot], phase, time_limit=seconds)
+        trip = self.round_trips[robot]
+        way_found = bookings.find_route(trip, phase, robot=robot, time_limit=seconds)
         if way_found is None:
             return None
         new_lap, enter = way_found
         return (
-            RobotCycle(new_lap, 1, enter) if count == 1 else self._search(bookings, new_lap, count)
+            RobotCycle(new_lap, 1, enter)
+            if count == 1
+            else self._search(bookings, robot, new_lap, count)
         )
 
-    def _search(self, bookings: PeriodicBookings, lap: Lap, count: int) -> RobotCycle | None:
-        phase = self.draw.randrange(int(bookings.period))
-        enter = bookings.search(lap, count, phase, time_limit=self.deadline.seconds_left())
+    def _search(
+        self, bookings: PeriodicBookings, robot: int, lap: Lap, count: int
+    ) -> RobotCycle | None:
+        phase, seconds = self.draw.randrange(int(bookings.period)), self.deadline.seconds_left()
+        enter = bookings.search(lap, count, phase, robot=robot, time_limit=seconds)
         return None if enter is None else RobotCycle(lap, count, enter)

@@ -39,6 +39,8 @@ class LapWait:
         The enter without this wait [ticks]; in a pattern, as an offset in the period.
     ticks
         The duration of the wait [ticks].
+    beside
+        Where the other robot was, if not at that vertex: only where robots have a size.
     """
 
     vertex: VertexId
@@ -46,6 +48,7 @@ class LapWait:
     for_robot: int
     tick: Tick
     ticks: Tick
+    beside: VertexId | None = None
 
     @property
     def pair(self) -> tuple[int, int]:
@@ -163,10 +166,8 @@ class GroupResult:
 
     def graph(self) -> TimedEventGraph | None:
         """Return the timed event graph of `timetable`; None without one."""
-        timetable, context = self.timetable, self.context
-        if timetable is None:
-            return None
-        return TimedEventGraph(timetable, headway=context.headway, books_ahead=context.books_ahead)
+        timetable = self.timetable
+        return None if timetable is None else self.context.graph(timetable)
 
     def bottleneck(self) -> Bottleneck | None:
         """Return the critical circuit of `graph`; None without one."""
@@ -237,7 +238,7 @@ def _waits(
     period: int = NEVER,
 ) -> tuple[LapWait, ...]:
     """Return the waits before visits in ``asked``, for robots with visits in ``seen``."""
-    late: list[tuple[int, VertexId, int, int, int]] = []
+    late: list[tuple[int, int, int, int, int]] = []
     for robot, visits in enumerate(asked):
         if not visits:
             continue
@@ -247,26 +248,31 @@ def _waits(
         for index in np.flatnonzero(could < enter[1:]).tolist():
             visit, at = visits[index] + 1, int(enter[index + 1])
             booked = (at - (route.drive(visit) if context.books_ahead else 0)) % period
-            late.append((robot, route.vertex(visit), int(could[index]), at, booked))
+            late.append((robot, visit, int(could[index]), at, booked))
     ticks = np.array(sorted({booked for *_, booked in late}), np.int64)
-    freed_by: dict[tuple[VertexId, int], int] = {}
+    freed_by: dict[tuple[int, int], tuple[int, VertexId]] = {}
     for robot, visits in enumerate(seen):
         if visits:
             leave = enters(robot, range(visits.start + 1, visits.stop + 1))
             free = (leave + context.headway) % period
             for index in np.flatnonzero(np.isin(free, ticks)).tolist():
                 vertex = context.routes[robot].vertex(visits[index])
-                freed_by[vertex, int(free[index])] = robot
-    robots = context.robots
-    found = [
-        LapWait(
-            vertex=vertex,
-            waits=robots[robot],
-            for_robot=robots[freed_by[vertex, booked]],
-            tick=Tick((could - begins) % period),
-            ticks=Tick(at - could),
-        )
-        for robot, vertex, could, at, booked in late
-        if (vertex, booked) in freed_by  # else a wait for a planned time, or for no robot
-    ]
+                for row in context.booked_at(robot, visits[index]):
+                    freed_by[row, int(free[index])] = robot, vertex
+    robots, found = context.robots, []
+    for robot, visit, soonest, at, booked in late:
+        rows = ((row, booked) for row in context.excluding(robot, visit))
+        freed = (freed_by[row] for row in rows if row in freed_by)
+        by, place = next((one for one in freed if one[0] != robot), (None, None))
+        vertex = context.routes[robot].vertex(visit)
+        if by is not None:  # else a wait for a planned time, or for no robot
+            wait = LapWait(
+                vertex=vertex,
+                waits=robots[robot],
+                for_robot=robots[by],
+                tick=Tick((soonest - begins) % period),
+                ticks=Tick(at - soonest),
+                beside=None if place == vertex else place,
+            )
+            found.append(wait)
     return tuple(sorted(found, key=lambda one: (one.tick, one.waits)))

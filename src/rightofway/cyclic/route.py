@@ -5,15 +5,14 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate
+from itertools import accumulate, chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
-from rightofway.model import Lap, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
-from rightofway.model.problem import refuse_closures
-from rightofway.model.resources import refuse_sizes
+from rightofway.model import Lap, Resources, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.planners import planning_headway
 from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
@@ -22,6 +21,7 @@ from rightofway.planners.routing import (
     shortest_route,
     shortest_routes,
 )
+from rightofway.precedence import BookedRows, CyclicSchedule, TimedEventGraph
 from rightofway.search import Distances
 
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"
@@ -143,6 +143,38 @@ class GroupContext:
         """Whether a robot books a vertex from the start of its drive there."""
         return self.scenario.rules.books_ahead
 
+    def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
+        """Return the timed event graph of laps of these robots."""
+        return TimedEventGraph(
+            timetable,
+            headway=self.headway,
+            books_ahead=self.books_ahead,
+            rows=BookedRows.of_laps(
+                self.scenario, timetable.robots, timetable.laps, timetable.counts
+            ),
+        )
+
+    def booked_at(self, index: int, visit: int) -> tuple[int, ...]:
+        """Return the rows that a visit books until its end: its vertex and the edge driven out.
+
+        For points the row is the vertex.
+        """
+        route, resources = self.routes[index], self.scenario.problem.resources
+        here, there = route.vertex(visit), route.vertex(visit + 1)
+        if resources is None:
+            return (int(here),)
+        edge = self.scenario.roadmap.edge(here, there)
+        assert edge is not None, "laps lead along edges"
+        return resources.vertex_row(route.robot, here), resources.edge_row(route.robot, edge)
+
+    def excluding(self, index: int, visit: int) -> tuple[int, ...]:
+        """Return the rows of other robots that keep a robot from the drive into a visit."""
+        route, resources = self.routes[index], self.scenario.problem.resources
+        if resources is None:
+            return (int(route.vertex(visit)),)
+        row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
+        return (*resources.excluded_by(row).tolist(), *resources.excluded_by(edge).tolist())
+
     @property
     def reach(self) -> int:
         """The time before a cut that a window includes, for bookings of left vertices [ticks]."""
@@ -194,7 +226,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
     remedy = "take them out: what is closed once would be closed in every lap"
     refuse_closures(scenario.problem, "repeated work", remedy)
-    refuse_sizes(scenario.problem.resources, "repeated work", "give robots no radius, and no zones")
+    refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
     if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
         raise InputError.at("rules.return", NOTHING_REPEATS)
     faults = [
@@ -233,6 +265,8 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     The new route is a shortest route that avoids all homes of other robots. Without a new route,
     the old route is kept.
     """
+    if scenario.problem.resources is not None:
+        return _avoid_homes_by_rows(scenario, scenario.problem.resources, routes)
     found = list(routes)
     passed = [set(route.vertices) for route in found]
     itineraries = scenario.problem.itineraries
@@ -250,6 +284,46 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     return found
 
 
+def _avoid_homes_by_rows(
+    scenario: Scenario, resources: Resources, routes: Sequence[Route]
+) -> list[Route]:
+    """Do as `avoid_homes` for robots with a size, which pass whatever a robot at home excludes."""
+    found, roadmap = list(routes), scenario.roadmap
+    itineraries = scenario.problem.itineraries
+    at_home = [
+        frozenset(resources.excluded_by(resources.vertex_row(robot, one.home)).tolist())
+        for robot, one in enumerate(itineraries)
+    ]
+
+    def passed(robot: int) -> frozenset[int]:
+        rows = resources.rows_of_lap(roadmap, robot, found[robot].vertices[:-1])
+        return frozenset(np.concatenate(rows).tolist())
+
+    booked = [passed(robot) for robot in range(len(found))]
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
+    heads = roadmap.heads.tolist()
+    for robot, itinerary in enumerate(itineraries):
+        others = [one for one in range(len(found)) if one != robot]
+        if all(at_home[one].isdisjoint(booked[robot]) for one in others) or all(
+            at_home[robot].isdisjoint(booked[one])
+            for one in others
+            if not at_home[one].isdisjoint(booked[robot])
+        ):
+            continue
+        shut = frozenset().union(*(at_home[one] for one in others))
+        edges = [
+            ends
+            for edge, ends in enumerate(zip(tails, heads, strict=True))
+            if resources.edge_row(robot, edge) in shut
+            or resources.vertex_row(robot, ends[1]) in shut
+        ]
+        distances = Distances(roadmap.without((), edges))
+        if reaches_its_places(itinerary, distances):
+            found[robot] = shortest_route(itinerary, distances)
+            booked[robot] = passed(robot)
+    return found
+
+
 def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
     """Return the roadmap without edges into the given vertices."""
     stays = ~np.isin(roadmap.heads, list(vertices))
@@ -262,8 +336,10 @@ def _without(roadmap: Roadmap, vertices: set[VertexId]) -> Roadmap:
     )
 
 
-def independent_groups(fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
+def independent_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
     """Partition a fleet into groups with laps that share no vertex (union-find).
+
+    Robots with a size: that book nothing incompatible.
 
     Returns
     -------
@@ -277,12 +353,43 @@ def independent_groups(fleet: Sequence[CyclicRoute]) -> list[list[CyclicRoute]]:
             leader[index] = index = leader[leader[index]]
         return index
 
-    first_at: dict[VertexId, int] = {}
-    for index, route in enumerate(fleet):
-        for vertex in set(route.lap.vertices):
-            one, other = find(first_at.setdefault(vertex, index)), find(index)
+    first_at: dict[int, int] = {}
+    laps = [rows_of(scenario, route.robot, route.lap) for route in fleet]
+    booked = frozenset().union(*(lap.booked for lap in laps))
+    for index, lap in enumerate(laps):
+        for row in lap.booked | (lap.excluded & booked):
+            one, other = find(first_at.setdefault(row, index)), find(index)
             leader[max(one, other)] = min(one, other)
     groups: dict[int, list[CyclicRoute]] = {}
     for index, route in enumerate(fleet):
         groups.setdefault(find(index), []).append(route)
     return list(groups.values())
+
+
+@dataclass(frozen=True, slots=True)
+class LapRows:
+    """What a lap books, and what it excludes other robots from; for points both are its vertices.
+
+    Attributes
+    ----------
+    booked
+        Rows of its vertices and edges.
+    excluded
+        Rows that other robots cannot book at the same time.
+    """
+
+    booked: frozenset[int]
+    excluded: frozenset[int]
+
+
+def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
+    """Return what a lap of a robot books and excludes."""
+    resources = scenario.problem.resources
+    if resources is None:
+        vertices = frozenset(map(int, lap.vertices))
+        return LapRows(vertices, vertices)
+    booked = frozenset(
+        np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
+    )
+    excluded = (resources.excluded_by(row).tolist() for row in booked)
+    return LapRows(booked, frozenset(chain.from_iterable(excluded)))

@@ -9,7 +9,8 @@ from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
-from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
+from rightofway.cyclic.simulator import DEFAULT, CyclicSimulator, Deadlock, choose_pacemaker
+from rightofway.cyclic.window_rules import WINDOW_RULES
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline
@@ -68,7 +69,7 @@ def run_laps(
         if given not in known:
             raise InputError.at(key, f"{given!r} is unknown (choose {', '.join(known)})")
     deadline = Deadline.after(checked_time_limit(time_limit))
-    groups = independent_groups(cyclic_routes(scenario, routes))
+    groups = independent_groups(scenario, cyclic_routes(scenario, routes))
     simulations = [
         simulation_of(GroupContext(scenario=scenario, routes=tuple(group)), rule)
         for group in groups
@@ -79,7 +80,16 @@ def run_laps(
 
 def simulation_of(context: GroupContext, rule: str) -> Simulation:
     """Return a new simulation of a group."""
-    return CyclicSimulator(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
+    if rule in NATIVE_RULES and context.scenario.problem.resources is None:
+        return CyclicSimulator(context, rule)
+    return by_windows(context, rule)
+
+
+def by_windows(context: GroupContext, rule: str) -> RollingHorizon:
+    """Return a simulation of a group in Python, with the pacemaker of the native simulator."""
+    part = 1 if rule == "two-level" else DEFAULT.pacemaker_part
+    pacemaker = choose_pacemaker(context.laps, -(-context.longest // part))
+    return RollingHorizon(context, WINDOW_RULES[rule], pacemaker=pacemaker)
 
 
 def share_time(

@@ -39,7 +39,7 @@ def start(
         for lap, enter in zip(timetable.laps, timetable.enter, strict=True)
     ]
     ticks: list[int] = np.unique(np.concatenate(homes)).tolist()
-    passes = _passes(timetable)
+    passes = _passes(scenario, timetable)
 
     def visits_while_waiting(begins: int) -> int:
         """Return the number of visits to homes of robots that wait there."""
@@ -83,14 +83,29 @@ def _first_home(timetable: CyclicSchedule, robot: int, begins: int) -> tuple[int
     return lap * length, int(later[lap])
 
 
-def _passes(timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
-    """Return for each robot the enters of other robots' visits to its home, if any."""
-    owner = {lap.vertices[0]: robot for robot, lap in enumerate(timetable.laps)}
-    passes = defaultdict(list)
-    for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True)):
-        for index, vertex in enumerate(lap.vertices):
-            if owner.get(vertex, robot) != robot:
-                passes[owner[vertex]].append(enter[index :: len(lap)])
+def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
+    """Return for each robot the enters of other robots' visits to its home, if any.
+
+    Where robots have a size: of visits that exclude it from its home.
+    """
+    resources = scenario.problem.resources
+    owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
+    booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
+    for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
+        if resources is None:
+            owners[int(lap.vertices[0])].append(index)
+            booked.append([(int(vertex),) for vertex in lap.vertices])
+            continue
+        rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
+        for row in resources.excluded_by(int(rows[0][0])).tolist():
+            owners[row].append(index)
+        booked.append(list(zip(rows[0].tolist(), rows[1].tolist(), strict=True)))
+    passes = defaultdict[int, list[NDArray[np.int64]]](list)
+    for index, (visits, enter) in enumerate(zip(booked, timetable.enter, strict=True)):
+        for visit, own in enumerate(visits):
+            met = {one for row in own for one in owners.get(row, ()) if one != index}
+            for one in sorted(met):
+                passes[one].append(enter[visit :: len(visits)])
     return {robot: np.concatenate(ticks) for robot, ticks in passes.items()}
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import random
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import count, islice
+from itertools import chain, count, islice
 
 import numpy as np
 
@@ -22,12 +23,13 @@ from rightofway.cyclic.route import (
     clear_and_direct,
     cyclic_routes,
     independent_groups,
+    rows_of,
 )
 from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, kernel_limits
-from rightofway.model import Scenario, Tick, VertexId, checked_time_limit
+from rightofway.model import Scenario, Tick, checked_time_limit
 from rightofway.planners import Deadline
 from rightofway.precedence import unrolled
 from rightofway.search import Distances, RoundTrip
@@ -135,7 +137,7 @@ def best_timetable(
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
     found: list[GroupResult] = []
-    groups = independent_groups(usual)
+    groups = independent_groups(scenario, usual)
     for partition in (groups, [usual]):  # at last with the vertices of other groups
         try:
             found = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
@@ -156,26 +158,34 @@ def _by_groups(
     report: Callable[[str], None] | None,
 ) -> list[GroupResult]:
     """Choose a timetable for each group, small groups first, without vertices of other groups."""
-    taken = {vertex for lap in fleet.context.laps for vertex in lap.vertices}
+    scenario = fleet.context.scenario
+
+    def excluded_by(routes: Sequence[CyclicRoute]) -> frozenset[int]:
+        rows = (rows_of(scenario, route.robot, route.lap).excluded for route in routes)
+        return frozenset().union(*rows)
+
+    excluded = [excluded_by(group) for group in groups]
+    uses = Counter(chain.from_iterable(excluded))
     found: dict[int, GroupResult] = {}
     left = len(fleet)
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
         if report is not None:
             report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
-        taken -= {vertex for route in group for vertex in route.lap.vertices}
+        uses.subtract(excluded[index])
+        taken = frozenset(row for row, count in uses.items() if count)
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
         problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
         left -= len(group)
         found[index] = _choose(problem, rounds, params)
-        taken |= {vertex for lap in found[index].context.laps for vertex in lap.vertices}
+        uses.update(excluded_by(found[index].context.routes))
     return [found[index] for index in range(len(groups))]
 
 
 def _part(
     fleet: CyclicProblem,
     group: Sequence[CyclicRoute],
-    taken: set[VertexId],
+    taken: frozenset[int],
     draw: random.Random,
     params: ChoiceParams,
 ) -> CyclicProblem:
@@ -184,21 +194,51 @@ def _part(
     trips: tuple[RoundTrip, ...] = ()
     if len(fleet) <= params.most_with_round_trips:
         distances = Distances(scenario.roadmap)
-        once = (one_lap(scenario, robot) for robot in robots)
-        trips = tuple(RoundTrip.of(stages, distances, forbidden=taken) for stages in once)
+        each = [_round_trip(scenario, robot, distances, taken) for robot in robots]
+        trips = tuple(one for one in each if one is not None)
+        trips = trips if len(trips) == len(each) else ()
     ways = []
-    for usual, other in (fleet.ways[robot] for robot in robots):
-        fits = other != usual and not taken.intersection(other.vertices)
+    for robot in robots:
+        usual, other = fleet.ways[robot]
+        fits = other != usual and taken.isdisjoint(rows_of(scenario, robot, other).booked)
         ways.append((usual, other) if fits else (usual,))
     return replace(
         fleet,
         context=GroupContext(scenario=scenario, routes=tuple(group)),
         ways=tuple(ways),
         round_trips=trips,
-        forbidden=frozenset(taken),
+        forbidden=taken,
         weights=tuple(fleet.weights[robot] for robot in robots),
         draw=draw,
     )
+
+
+def _round_trip(
+    scenario: Scenario, robot: int, distances: Distances, taken: frozenset[int]
+) -> RoundTrip | None:
+    """Return a round trip of a robot that keeps clear of rows; for points these are vertices.
+
+    A robot with a size does not visit an end of an edge that it must not drive along. None if it
+    works at both ends of such an edge.
+    """
+    resources, once = scenario.problem.resources, one_lap(scenario, robot)
+    if resources is None:
+        return RoundTrip.of(once, distances, forbidden=taken)
+    places, roadmap = {stage.vertex for stage in once.stages}, scenario.roadmap
+    forbidden = {
+        vertex
+        for vertex in range(roadmap.n_vertices)
+        if resources.vertex_row(robot, vertex) in taken
+    }
+    for tail in range(roadmap.n_vertices):
+        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
+            ends = (int(roadmap.heads[edge]), tail)
+            if resources.edge_row(robot, edge) in taken and forbidden.isdisjoint(ends):
+                free = [vertex for vertex in ends if vertex not in places]
+                if not free:
+                    return None
+                forbidden.add(free[0])
+    return RoundTrip.of(once, distances, forbidden=forbidden)
 
 
 def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> GroupResult:
@@ -208,7 +248,8 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
         alone = Candidate.as_it_is(problem.timetable([RobotCycle(lap, 1, enter)], lap.duration))
         return _started(problem, alone, "repeats", problem.value(alone))
-    if len(problem) > params.large and (closed := _closed_run(problem)):
+    has_sizes = problem.context.scenario.problem.resources is not None  # the simulator has points
+    if len(problem) > params.large and not has_sizes and (closed := _closed_run(problem)):
         return closed
     problem.deadline.check("closing a stretch of a simulation")
     baseline = _simulated(problem, "first-come", params.baseline_share)

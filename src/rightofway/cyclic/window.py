@@ -9,6 +9,7 @@ until the first robot leaves.
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -20,7 +21,9 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick, VertexId
 from rightofway.planners import Deadline, Task
 from rightofway.planners.conflict_resolution import PartialPlan
-from rightofway.precedence import Meeting, PrecedenceGraph, Segment
+from rightofway.precedence import BookedRows, Meeting, PrecedenceGraph, Segment, SegmentOfSizes
+
+AnySegment = Segment | SegmentOfSizes
 
 NumberedRight = tuple[tuple[int, int], tuple[int, int]]
 """A right of way of one visit over another; a visit is (robot, number)."""
@@ -72,6 +75,7 @@ class Window:
             headway=context.headway,
             books_ahead=context.books_ahead,
             frozen=[visit for f, s, past in known for visit in range(f, f + len(past) - s)],
+            rows=self._rows(),
         )
         task = Task(scenario=context.scenario, options={"swaps": "resolve"}, deadline=deadline)
         self.fleet = PartialPlan(task, self.routes, graph=self.graph)
@@ -105,26 +109,55 @@ class Window:
         )
         return (self.prefix.tick - self.begins, *frozen)
 
-    def is_endless(self, meeting: Meeting, segment: Segment) -> bool:
+    def is_endless(self, meeting: Meeting, segment: AnySegment) -> bool:
         """Return whether two robots are head-on for ever, so that neither can give way.
 
         Two cyclic routes that agree for the length of both laps together agree for ever (Fine and
-        Wilf 1965).
+        Wilf 1965). Robots with a size: a segment that links two visits with visits whole laps later
+        of one robot and whole laps earlier of the other goes on in the same way.
 
         Raises
         ------
         TooShort
             If the window is too short to decide.
         """
-        i, j = meeting.robots
-        reaches_the_end = (
-            segment.i_last == len(self.routes[i]) - 2 or segment.j_last == len(self.routes[j]) - 2
-        )
-        if segment.kind != "head-on" or not reaches_the_end:
+        if segment.kind != "head-on":
             return False
-        if len(segment.vertices) < len(self.context.routes[i]) + len(self.context.routes[j]):
+        (i, j), pairs = meeting.robots, segment.meetings()
+        i_last, j_last = max(a for a, _ in pairs), max(b for _, b in pairs)
+        if i_last < len(self.routes[i]) - 2 and j_last < len(self.routes[j]) - 2:
+            return False
+        i_lap, j_lap = len(self.context.routes[i]), len(self.context.routes[j])
+        if isinstance(segment, Segment):
+            is_known = len(segment.vertices) >= i_lap + j_lap
+        else:
+            is_known = _recurs(((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap)
+        if not is_known:
             raise TooShort(meeting.robots)
         return True
+
+    def _rows(self) -> BookedRows | None:
+        """Return what the visits book where robots have a size; the last vertices are free."""
+        scenario = self.context.scenario
+        resources = scenario.problem.resources
+        if resources is None:
+            return None
+        n_rows = len(resources.first) - 1
+        beyond = np.array([n_rows], np.int32)
+        at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
+        for route, start, stretch in zip(
+            self.context.routes, self.starts, self.routes, strict=True
+        ):
+            rows = resources.rows_of_lap(scenario.roadmap, route.robot, route.lap.vertices)
+            places = np.arange(start, start + len(stretch) - 1) % len(route)
+            at_vertex += [rows[0][places], beyond]
+            along_edge += [rows[1][places[:-1]], np.full(2, -1, np.int32)]
+        return BookedRows(
+            vertex=np.concatenate(at_vertex),
+            edge=np.concatenate(along_edge),
+            first=np.append(resources.first, resources.first[-1:]),
+            excluded=resources.excluded,
+        )
 
     def _route(self, robot: int, ahead: int, stop: int) -> Route:
         """Return the stretch of a robot's route that the window holds."""
@@ -157,5 +190,18 @@ class Window:
         return max(leave - max(past[visit], self.begins), 1)
 
 
-WindowRule = Callable[[Window, Meeting, Segment], Literal[0, 1]]
+def _recurs(pairs: Iterable[tuple[int, int]], i_lap: int, j_lap: int) -> bool:
+    """Return whether two pairs are whole laps apart, one robot later and the other one earlier."""
+    at_place = defaultdict[tuple[int, int], list[tuple[int, int]]](list)
+    for a, b in pairs:
+        at_place[a % i_lap, b % j_lap].append((a, b))
+    return any(
+        one[0] < other[0] and one[1] > other[1]
+        for found in at_place.values()
+        for one in found
+        for other in found
+    )
+
+
+WindowRule = Callable[[Window, Meeting, AnySegment], Literal[0, 1]]
 """Returns the robot (0: i, 1: j) of a meeting that waits if possible; else the other waits."""

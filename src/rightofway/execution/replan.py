@@ -3,10 +3,14 @@
 Commitments are kept: a stay is finished, a drive arrives, bookings remain. After its commitment,
 every robot gets a new route, and every vertex a new order. The *rest* is a scenario: each robot
 starts at the end of its commitment and is busy until the commitment is done. Bookings of broken
-robots become closures: vertices closed for ever. The first plan of the rest continues by right of
-way. If closures block it, LaCAM finds the first plan; a robot that cannot reach all its places is
-*cut off*: it serves reachable stages and ends at a vertex where it blocks no robot. Large
-neighbourhood search (LNS) improves the first plan.
+robots become closures: vertices closed for ever, and whatever robots with a size cannot book beside
+them. The first plan of the rest continues by right of way. If closures block it, LaCAM finds the
+first plan, and for robots with a size planning one after another, or an order of moves; a robot
+that cannot reach all its places is *cut off*: it serves reachable stages and ends at a vertex where
+it blocks no robot. Large neighbourhood search (LNS) improves the first plan.
+
+A robot with a size that drives keeps its tail and its edge booked until it has arrived: in the
+order of visits, its visit of the tail comes before all visits of the new plan.
 
 Deterministic for a seed: budgets are numbers of neighbourhoods and steps. The new order has no
 cycle: commitments wait only for visits that have begun, and the rest has the order of a plan.
@@ -17,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, islice
+from itertools import combinations, islice, pairwise
 
 import numpy as np
 
@@ -38,8 +42,10 @@ from rightofway.model import (
     VertexId,
     route_of,
 )
-from rightofway.planners import Deadline
-from rightofway.planners.lacam import timetable_in_order, timetable_of
+from rightofway.planners import Deadline, Task
+from rightofway.planners.lacam import order_of_steps, timetable_in_order
+from rightofway.planners.moves import tracks_by_moves
+from rightofway.planners.prioritized import fleet_search
 from rightofway.precedence import ActionDependencyGraph
 from rightofway.search import Distances, untimed_lacam
 from rightofway.solve import improve
@@ -49,6 +55,12 @@ NEIGHBOURHOODS = 20
 
 MOST_STEPS = 20_000
 """Maximum steps of LaCAM for one choice of cut-off robots."""
+
+SEARCHES, SHARE = 10, 0.5
+"""Searches per robot for robots with a size, one after another, and the part of the time left."""
+
+MOST_STATES = 3_000
+"""Maximum number of states in the search for an order of their moves."""
 
 MOST_CHOICES = 200
 """Maximum number of choices of cut-off robots, smallest choices first."""
@@ -102,14 +114,51 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
     )
 
 
-def closures_of(forecast: Forecast) -> frozenset[VertexId]:
-    """Return the vertices that broken robots book for ever."""
-    adg, closed = forecast.adg, set()
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Closures:
+    """What broken robots keep booked for ever.
+
+    Attributes
+    ----------
+    vertices
+        Booked by broken robots.
+    edges
+        Tail and head of edges that robots with a size cannot drive beside them. Where robots have
+        different sizes, what is closed to one of them counts as closed to all.
+    """
+
+    vertices: frozenset[VertexId]
+    edges: frozenset[tuple[int, int]] = frozenset()
+
+
+def closures_of(forecast: Forecast) -> Closures:
+    """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
+    adg, booked = forecast.adg, forecast.booked
+    resources = adg.scenario.problem.resources
+    vertices, rows = set[VertexId](), set[int]()
     for robot in forecast.broken:
         here, end = forecast.visit_of(robot), int(adg.first_visit[robot + 1])
-        held = np.arange(here, end)[forecast.booked[here:end]]
-        closed.update(adg.vertex[held].tolist())
-    return frozenset(closed)
+        held = adg.vertex[here:end][booked[here:end]].tolist()
+        vertices.update(held)
+        if resources is not None:
+            own = [resources.vertex_row(robot, vertex) for vertex in held]
+            own += (
+                resources.edge_row(robot, edge)
+                for ends in pairwise(held)
+                if (edge := adg.scenario.roadmap.edge(*ends)) is not None
+            )
+            rows.update(other for row in own for other in resources.excluded_by(row).tolist())
+    if resources is None:
+        return Closures(vertices=frozenset(vertices))
+    n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
+    others = (robot for robot in range(len(adg.routes)) if robot not in forecast.broken)
+    sizes = {int(resources.size_of[robot]) for robot in others}
+    shut = {row % count for row in rows if row // count in sizes}
+    roadmap = adg.scenario.roadmap
+    tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
+    ends_of_edges = enumerate(zip(tails, roadmap.heads.tolist(), strict=True), n_vertices)
+    edges = (ends for edge, ends in ends_of_edges if edge in shut or ends[1] in shut)
+    return Closures(vertices=frozenset(vertices), edges=frozenset(edges))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,7 +181,9 @@ def replan(
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
     closed = closures_of(forecast)
-    roadmap = scenario.roadmap.without(closed) if closed else scenario.roadmap
+    roadmap = scenario.roadmap
+    if closed.vertices:
+        roadmap = roadmap.without(closed.vertices, closed.edges)
     rest = _rest(scenario, roadmap, commitments)
     tracks = _going_on(forecast, commitments, closed, rest)
     if tracks is None:
@@ -145,8 +196,11 @@ def replan(
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
     better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
     for plan in (better, first):
-        adg = _spliced(forecast, commitments, plan)
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
+        try:
+            adg = _spliced(forecast, commitments, plan)
+        except ValueError:
+            continue
         if not adg.deadlocked():
             served = tuple((*one.begun, *one.left) for one in commitments)
             return Replanned(adg=adg, stages=served, cut_off=cut_off)
@@ -156,7 +210,7 @@ def replan(
 def _going_on(
     forecast: Forecast,
     commitments: Sequence[Commitment],
-    closed: frozenset[VertexId],
+    closed: Closures,
     rest: Scenario,
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
@@ -168,7 +222,8 @@ def _going_on(
             end = first + 1
         visited.append(adg.vertex[first:end].tolist())
         arrivals.append(times[first:end].tolist())
-        if closed.intersection(visited[-1][1:]):
+        drives = pairwise(visited[-1])
+        if not closed.vertices.isdisjoint(visited[-1][1:]) or not closed.edges.isdisjoint(drives):
             return None
     return timetable_in_order(rest, visited, arrivals)
 
@@ -181,25 +236,53 @@ def _another_way(
     deadline: Deadline,
 ) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
     """Return commitments and stages, the smallest set of cut-off robots, and LaCAM's tracks."""
+    find = _together if rest.problem.resources is None else _by_turns
     for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
         if deadline.seconds_left() == 0:
             return None
         try:
-            steps = untimed_lacam(
-                _rest(rest, rest.roadmap, tried).problem,
-                seed=seed,
-                time_limit=deadline.seconds_left(),
-                most_steps=MOST_STEPS,
-                ends_anywhere=cut_off,
-            )
+            visited, arrivals = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
         except (NoPlanExists, GaveUp):
             continue
         ended = [
-            _with_end(one, one.left[:-1], end) if robot in cut_off else one
-            for robot, (one, end) in enumerate(zip(tried, steps[-1].tolist(), strict=True))
+            _with_end(one, one.left[:-1], own[-1]) if robot in cut_off else one
+            for robot, (one, own) in enumerate(zip(tried, visited, strict=True))
         ]
-        return ended, cut_off, timetable_of(_rest(rest, rest.roadmap, ended), steps)
+        tracks = timetable_in_order(_rest(rest, rest.roadmap, ended), visited, arrivals)
+        return ended, cut_off, tracks
     return None
+
+
+Order = tuple[list[list[VertexId]], list[list[int]]]
+"""The vertices that each robot visits, and when each visit begins, by any clock."""
+
+
+def _together(rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline) -> Order:
+    """Return the order of moves that LaCAM finds."""
+    steps = untimed_lacam(
+        rest.problem,
+        seed=seed,
+        time_limit=deadline.seconds_left(),
+        most_steps=MOST_STEPS,
+        ends_anywhere=cut_off,
+    )
+    return order_of_steps(steps)
+
+
+def _by_turns(rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline) -> Order:
+    """Return the order of a plan for robots one after another, or else of single moves."""
+    problem = rest.problem
+    task = Task(scenario=rest, seed=seed, deadline=deadline)
+    assert problem.resources is not None, "this is for robots with a size"
+    tracks: Sequence[Track] = ()
+    if not any(problem.resources.clashes([one.last for one in problem.itineraries])):
+        search = fleet_search(task)
+        turns = sorted(range(len(rest.robots)), key=search.alone().tolist().__getitem__)
+        searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
+        if search.prioritize(turns, searches=searches, time_limit=limit):
+            tracks = search.tracks()
+    tracks = tracks or tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
+    return [one.vertices.tolist() for one in tracks], [one.enter.tolist() for one in tracks]
 
 
 def _choices(
@@ -269,6 +352,9 @@ def _spliced(
 ) -> ActionDependencyGraph:
     """Return the commitments followed by a plan of the rest."""
     adg, now = forecast.adg, forecast.now
+    # The arrival of a robot with a size comes after all that has ended until now, and before all
+    # that is new. For points both begin at the vertex, and the order there is known.
+    arrives = now if adg.scenario.problem.resources is None else now + 1
     routes, tracks, sinces = [], [], []
     for robot, (one, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
@@ -292,13 +378,13 @@ def _spliced(
             serves=tuple(serves),
         )
         booked = slice(first := int(adg.first_visit[robot]), first + one.visit + 1)
-        enter = now + 1 + track.enter[begins + 1 - is_driving :]
+        enter = arrives + 1 + track.enter[begins + 1 - is_driving :]
         since = np.full(len(enter), now)
         next_visit = slice(one.visit + 1, one.visit + 2)
         turns_back = old.vertices[next_visit] != route.vertices[next_visit]
         if len(enter) and forecast.broken and forecast.has_set_off(robot) and turns_back:
             since[0] += route.drive[one.visit + 1]
-        enter = np.append(np.minimum(forecast.execution.enter[booked], now), enter)
+        enter = np.append(np.minimum(forecast.execution.enter[booked], arrives), enter)
         tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))
         routes.append(route)
         sinces.append(np.append(adg.since[booked], since))

@@ -15,12 +15,14 @@ from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
 from rightofway.io.scenario.example import example_of_layout
 from rightofway.io.scenario.reader import Loaded, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, scenario_text, write_scenario
+from rightofway.io.site_plans import SITE_PLAN_FORMATS, site_plan_text
 from rightofway.io.text import DELAY_FILES, load_delays
 
 __all__ = [
     "DELAY_FILES",
     "FOREIGN_FORMATS",
     "LAYOUT_WRITERS",
+    "SITE_PLAN_FORMATS",
     "Loaded",
     "dump_plan",
     "dump_scenario",
@@ -41,6 +43,7 @@ __all__ = [
     "scenario_of",
     "scenario_text",
     "schema",
+    "site_plan_text",
     "write_map",
     "write_plan",
     "write_scen",

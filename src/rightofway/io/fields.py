@@ -124,20 +124,25 @@ Count = Annotated[int, Field(ge=1)]
 Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]
 
 
-def _or_word(word: str, number: Callable[[object], Fraction], schema: Schema) -> Kind:
+def _or_word(number: Callable[[object], Fraction], schema: Schema, *words: str) -> Kind:
+    possible = f"{' and '.join(map(repr, words))} {'are' if len(words) > 1 else 'is'} possible too"
+
     def read(value: object) -> str | Fraction:
-        if isinstance(value, str) and value == word:
-            return word
+        if isinstance(value, str) and value in words:
+            return value
         try:
             return number(value)
         except ValueError as error:
-            raise ValueError(f"{error}; {word!r} is possible too") from None
+            raise ValueError(f"{error}; {possible}") from None
 
-    return Kind(read, {"anyOf": [{"const": word}, schema]})
+    return Kind(read, {"anyOf": [*({"const": word} for word in words), schema]})
 
 
-CellSize = Annotated[Fraction | Literal["clustered"], _or_word("clustered", positive, _POSITIVE)]
-Turning = Annotated[Fraction | Literal["cell"], _or_word("cell", _not_negative, _NOT_NEGATIVE)]
+CellSize = Annotated[
+    Fraction | Literal["clustered", "adaptive"],
+    _or_word(positive, _POSITIVE, "clustered", "adaptive"),
+]
+Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEGATIVE, "cell")]
 
 
 def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kind:
@@ -152,7 +157,9 @@ def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kin
 _Pair = tuple[Fraction, Fraction]
 _Four = tuple[Fraction, Fraction, Fraction, Fraction]
 
-Position = Annotated[_Pair, _list_of(2, "[x, y]", coordinate)]
+POSITION = _list_of(2, "[x, y]", coordinate)
+
+Position = Annotated[_Pair, POSITION]
 Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
 Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 

@@ -165,7 +165,7 @@ def _of_cells(path: Path, found: Any, choice: Choice) -> Sites:
 def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
     if robots is None:
         loaded = load_with_notes(path)
-        return _sites_of(loaded.scenario, loaded.notes)
+        return sites_of(loaded.scenario, loaded.notes)
     if path.suffix.lower() in {".xlsx", ".xlsm", ".scen"}:
         message = (
             "has robots of its own (give --robots with a layout, or a scenario as YAML or JSON)"
@@ -184,17 +184,26 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     if robots.suffix.lower() == ".csv":
         document["robots"] = {"table": str(robots.resolve())}
         loaded = read_scenario(document, base)
-        return _sites_of(loaded.scenario, loaded.notes)
+        return sites_of(loaded.scenario, loaded.notes)
     with document_of(robots, read_text(robots)) as found:
         fleet = {"robots": found} if isinstance(found, list) else found
         if not isinstance(fleet, dict) or "robots" not in fleet:
             raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
-        parts = {key: fleet[key] for key in ("robots", "rules", "units") if key in fleet}
+        parts = {key: fleet[key] for key in ("homes", "robots", "rules", "units") if key in fleet}
         loaded = read_scenario({**document, **parts}, base)
-    return _sites_of(loaded.scenario, loaded.notes)
+    return sites_of(loaded.scenario, loaded.notes)
 
 
-def _sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
+def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
+    """Return a scenario as the one site that it is about.
+
+    Parameters
+    ----------
+    scenario
+        The scenario.
+    notes
+        Sentences of its reader.
+    """
     site = Site(
         roadmap=scenario.roadmap,
         units=scenario.units,

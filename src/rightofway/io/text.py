@@ -16,13 +16,16 @@ from collections import Counter
 from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.io.faults import blaming, place_of
 
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
+
+PIECE = 2**20
+"""What is read from a file at once [bytes]."""
 
 MAX_ALIASED = 100_000
 """The most values that may be reached through aliases."""
@@ -98,10 +101,10 @@ def read_text(path: Path) -> str:
     source = str(path)
     try:
         if source == "-":
-            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+            data = _content(sys.stdin.buffer)
         else:
             with path.open("rb") as file:
-                data = file.read(MAX_BYTES + 1)
+                data = _content(file)
     except (OSError, ValueError) as error:
         raise InputError.at("", _why_unreadable(error, path), source) from None
     if not data.strip():
@@ -110,6 +113,14 @@ def read_text(path: Path) -> str:
         message = f"the file is longer than {MAX_BYTES} bytes (is it the right one?)"
         raise InputError.at("", message, source)
     return _decoded(data, source).replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _content(file: BinaryIO) -> bytes:
+    """Return the bytes of a file up to the limit, in pieces: one read reserves all that it asks."""
+    content = bytearray()
+    while len(content) <= MAX_BYTES and (piece := file.read(PIECE)):
+        content += piece
+    return bytes(content)
 
 
 def _why_unreadable(error: Exception, path: Path) -> str:
@@ -368,11 +379,14 @@ def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     if isinstance(value, list):
         return f"[{inner}{f',{inner}'.join(map(json_line, value))}{margin}]"
     pairs = (
-        f"{json_line(key)}: "
-        f"{_spread(child, inner) if key in SPREAD_KEYS and child else json_line(child)}"
+        f"{json_line(key)}: {_spread(child, inner) if _is_spread(key, child) else json_line(child)}"
         for key, child in value.items()
     )
     return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
+
+
+def _is_spread(key: str, value: Any) -> bool:
+    return key in SPREAD_KEYS and isinstance(value, list | dict) and bool(value)
 
 
 def json_line(value: Any) -> str:

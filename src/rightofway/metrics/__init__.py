@@ -16,10 +16,11 @@ from rightofway.metrics.events import Event, event_columns, events
 from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import joined_waits, lost_time
 from rightofway.metrics.measure import Metrics, measure
-from rightofway.metrics.site import Finding, Inspection, Site
+from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, sentences
 from rightofway.metrics.waits import waits
 
 __all__ = [
+    "HEADINGS",
     "Collision",
     "Event",
     "Finding",
@@ -40,6 +41,7 @@ __all__ = [
     "measure",
     "named_collisions",
     "near_misses",
+    "sentences",
     "swaps",
     "waits",
 ]

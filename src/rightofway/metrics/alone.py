@@ -3,7 +3,9 @@
 Where all edges are equally long and few lead into each vertex, a breadth-first search counts the
 edges between the places of 256 legs at once: each vertex keeps one bit for each leg, set as soon as
 the vertex is within reach of the first place of that leg, and takes over its neighbours' bits in
-every step. On other roadmaps Dijkstra's algorithm runs once for each pace and place.
+every step. On other roadmaps Dijkstra's algorithm runs once for each pace and place; for a robot
+that turns in some time it runs over edges instead of vertices, from each place of the trip with the
+least ticks of every edge into that place.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import chain, count, groupby, pairwise
 
 import numpy as np
@@ -19,6 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
+from rightofway.model.turning import Turning
 
 Leg = tuple[VertexId, VertexId]
 """Two places of a trip that follow each other."""
@@ -27,6 +30,9 @@ Pace = tuple[Tick, ...]
 """Ticks of each length class of edges; robots of one speed have one pace."""
 
 Indices = NDArray[np.int64]
+
+NO_EDGE = -1
+"""Stands for the edge into the home before the first drive."""
 
 WORD = 64
 """Bits in a word."""
@@ -83,7 +89,11 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
         raise NoPlanExists(blockages)
     return tuple(
         Tick(
-            sum(ways[itinerary.edge_ticks][leg] for leg in _legs(itinerary))
+            (
+                sum(ways[itinerary.edge_ticks][leg] for leg in _legs(itinerary))
+                if itinerary.turning is None
+                else _drives_and_turns(roadmap, itinerary, itinerary.turning)
+            )
             + least_dwell_of_trip(itinerary)
         )
         for itinerary in itineraries
@@ -96,7 +106,7 @@ def _legs(itinerary: Itinerary) -> Iterable[Leg]:
 
 
 def least_dwell_of_trip(itinerary: Itinerary) -> int:
-    """Return how long all visits of a trip last at least, without the drives [ticks].
+    """Return how long all visits of a trip last at least, without drives and turns to them [ticks].
 
     Parameters
     ----------
@@ -150,6 +160,34 @@ def _dijkstra(
             if head not in settled and pace[length] > 0:
                 heappush(heap, (Tick(ticks + pace[length]), head))
     return {target: settled[target] for target in targets if target in settled}
+
+
+def _drives_and_turns(roadmap: Roadmap, itinerary: Itinerary, turning: Turning) -> int:
+    """Return the least ticks of all drives of a trip and the turns between them."""
+    into: defaultdict[int, list[int]] = defaultdict(list)
+    for edge, head in enumerate(roadmap.heads.tolist()):
+        into[head].append(edge)
+    reached = {NO_EDGE: 0}  # least ticks by the edge driven in
+    for place, target in _legs(itinerary):
+        settled: dict[int, int] = {}
+        missing = set(into[target])
+        heap = [(ticks, edge) for edge, ticks in reached.items()]
+        heapify(heap)
+        while heap and missing:
+            ticks, edge = heappop(heap)
+            if edge in settled:
+                continue
+            settled[edge] = ticks
+            missing.discard(edge)
+            here = place if edge == NO_EDGE else int(roadmap.heads[edge])
+            if here == target:
+                continue
+            for after in range(int(roadmap.indptr[here]), int(roadmap.indptr[here + 1])):
+                drive = itinerary.edge_ticks[roadmap.length_class[after]]
+                if after not in settled and drive > 0:
+                    heappush(heap, (ticks + turning.of(edge, after) + drive, after))
+        reached = {edge: settled[edge] for edge in into[target] if edge in settled}
+    return min(reached.values())
 
 
 def _by_edges(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:

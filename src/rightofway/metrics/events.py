@@ -29,7 +29,7 @@ class Event(NamedTuple):
         Where it is.
     purpose
         What the robot does there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
-        ``drive through``, ``make room``, or ``wait`` where it only waits.
+        ``turn``, ``drive through``, ``make room``, or ``wait`` where it only waits.
     enter
         When the visit begins [ticks].
     leave
@@ -83,15 +83,19 @@ def _events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> I
     enters = track.enter.tolist()
     waited = [loss for loss in losses if loss.kind != "makes room"]
     room = [loss for loss in losses if loss.kind == "makes room"]
-    columns = (track.vertices.tolist(), stay.dwell.tolist(), stay.waits.tolist())
-    for visit, (vertex, dwell, waiting) in enumerate(zip(*columns, strict=True)):
+    columns = (track.vertices, stay.dwell, stay.waits, stay.turns)
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    for visit, (vertex, dwell, waiting, turns) in enumerate(rows):
         reason = _holding(waited, enters[visit] + dwell) if waiting else None
         idle = "make room" if _holding(room, enters[visit]) else "drive through"
+        purpose = purposes.get(visit) or ("wait" if waiting else idle)
+        if turns and not purpose.endswith("turn"):
+            purpose = "turn" if purpose == "drive through" else f"{purpose}, turn"
         yield Event(
             robot=robot,
             visit=visit,
             vertex=VertexId(vertex),
-            purpose=purposes.get(visit) or ("wait" if waiting else idle),
+            purpose=purpose,
             enter=Tick(enters[visit]),
             leave=Tick(enters[visit + 1]) if visit + 1 < len(enters) else None,
             waits=Tick(waiting),

@@ -146,7 +146,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
         ("unreachable", behind & rest, "{} can be left and not reached", "a lane to it"),
         ("cut off", rest - ahead - behind, "No lane joins {} to the largest part", "lanes"),
     )
-    is_grid = site.roadmap.grid is not None
+    has_cells = _smallest_cell(site.roadmap) is not None
     for kind, found, fact, remedy in kinds:
         pieces, seen = list[list[int]](), set[int]()
         beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
@@ -169,7 +169,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
                 severity="error" if own else "note" if kind == "cut off" else "warning",
                 fact=fact.format(what + more),
                 remedy="make a way wide enough for a cell, or ignore it"
-                if is_grid
+                if has_cells
                 else f"add {remedy}, or take {'it' if len(piece) == 1 else 'them'} out",
                 vertices=site.names(piece),
             )
@@ -184,13 +184,14 @@ def _near(site: Site) -> Iterator[Finding]:
         sizes = " and ".join(length(each) for each in dict.fromkeys(site.radii))
         with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
         need = f"robots of radius {sizes}{with_room} need {length(room)}"
-    if roadmap.grid is not None:
-        size = roadmap.grid.cell_size
+    size = _smallest_cell(roadmap)
+    if size is not None:
+        cells = "cells" if roadmap.sides is None else "the smallest cells"
         if size < room:
             yield Finding(
                 kind="too near",
                 severity="warning",
-                fact=f"The middles of cells are {length(size)} apart; {need}",
+                fact=f"The middles of {cells} are {length(size)} apart; {need}",
                 remedy="take larger cells, or smaller robots",
             )
         return
@@ -221,6 +222,13 @@ def _near(site: Site) -> Iterator[Finding]:
             else "draw a vertex there, or give robots a radius: without one they do not give way",
             vertices=site.names(vertex for lane in lanes for vertex in lane),
         )
+
+
+def _smallest_cell(roadmap: Roadmap) -> Fraction | None:
+    """Return the side of the smallest cells, None where vertices are no cells."""
+    if roadmap.grid is not None:
+        return roadmap.grid.cell_size
+    return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
 
 
 def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:

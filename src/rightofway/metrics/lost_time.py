@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +23,7 @@ from rightofway.metrics.collisions import Bookings, bookings_of
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, freed_by
 from rightofway.model import Loss, LostTime, Plan, Scenario, Stays, Tick, Track, VertexId, stays_of
+from rightofway.model.turning import Turning
 
 MOST_AHEAD = 32
 """How many vertices a robot with a size may keep behind the one that it follows."""
@@ -64,8 +66,12 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
         own = losses[robot]
         waiting = sum(loss.ticks for loss in own)
         driven = stay.completion - alone[robot] - waiting  # beyond the shortest trip
-        turning = int(stay.dwell.sum()) - least_dwell_of_trip(scenario.problem.itineraries[robot])
+        itinerary = scenario.problem.itineraries[robot]
+        turning = int((stay.dwell - stay.turns).sum()) - least_dwell_of_trip(itinerary)
         room = list(_room_made(robot, track, stay, bookings, turning)) if driven else []
+        if itinerary.turning is not None:
+            edges = scenario.roadmap.edges(track.vertices[:-1], track.vertices[1:])
+            room = list(_with_turns(room, track, stay, itinerary.turning, edges))
         making_room = sum(loss.ticks for loss in room)
         lost = LostTime(
             robot=robot,
@@ -208,6 +214,24 @@ def _room_made(
                     count=1,
                 )
             visit = back + 1
+
+
+def _with_turns(
+    room: Sequence[Loss], track: Track, stay: Stays, turning: Turning, edges: NDArray[np.int32]
+) -> Iterator[Loss]:
+    """Yield the drives of one robot that make room, their turns included.
+
+    Without the drives, the robot would turn from the edge before them to the edge after them. Where
+    that takes as long as they do, they are a way to turn.
+    """
+    ends = np.concatenate(([-1], edges, [-1])).astype(np.int32)  # of visit k: ends[k : k + 2]
+    for loss in room:
+        first = int(np.searchsorted(track.enter, loss.tick)) - 1
+        back = int(np.searchsorted(track.enter, loss.end))
+        across = int(turning.between(ends[[first, back + 1]])[0])
+        ticks = loss.ticks + int(stay.turns[first : back + 1].sum()) - across
+        if ticks > 0:
+            yield replace(loss, ticks=Tick(ticks))
 
 
 def _visitor(bookings: Bookings, robot: int, vertex: int, leave: int, until: int) -> int | None:

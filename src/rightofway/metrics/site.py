@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Literal
 
 from rightofway.errors import listed
-from rightofway.model import Roadmap, Robot, Rules, Units
+from rightofway.model import Roadmap, Robot, Rules, Units, decimal
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
@@ -22,7 +22,17 @@ Kind = Literal[
 ]  # fmt: skip
 """What a finding is about."""
 
-SEVERITIES = ("error", "warning", "note")
+HEADINGS: dict[Severity, str] = {
+    "error": "Errors (some work cannot be done)",
+    "warning": "Warnings (robots will wait)",
+    "note": "Notes",
+}
+"""What findings of each severity are called, the worst first."""
+
+SEVERITIES = tuple(HEADINGS)
+
+LISTED_PARTS = 8
+"""Sizes of strongly connected parts that a report lists."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -158,6 +168,42 @@ class Site:
     def names(self, vertices: Iterable[int]) -> tuple[str, ...]:
         """Return the names of vertices."""
         return tuple(map(self.roadmap.name, vertices))
+
+
+def sentences(site: Site, inspection: Inspection) -> tuple[str, ...]:
+    """Return how large a site is and how it hangs together, in whole sentences.
+
+    Parameters
+    ----------
+    site
+        The site.
+    inspection
+        What was found on it.
+    """
+    one_way = f", {inspection.one_way} of them one-way" if inspection.one_way else ""
+    vertices = _counted(inspection.vertices, "vertex", "vertices")
+    edges = _counted(inspection.edges, "directed edge")
+    places = _counted(inspection.places, "place")
+    spans = site.roadmap.positions.max(axis=0) - site.roadmap.positions.min(axis=0)
+    width, height = (Fraction(repr(span)) for span in spans.tolist())
+    extent = f"{decimal(width)} x {site.units.written_length(height)}"
+    found = [f"{vertices}, {edges}{one_way}, {extent}; {places}."]
+    if len(inspection.parts) == 1:
+        found.append("All vertices reach each other.")
+    else:
+        sizes = [str(part) for part in inspection.parts[:LISTED_PARTS]]
+        more = len(inspection.parts) - len(sizes)
+        cut = [*sizes, f"{more} more"] if more else sizes
+        count = len(inspection.parts)
+        found.append(f"{count} strongly connected parts, of {listed(cut)} vertices.")
+    if inspection.sampled:
+        some, all_of = inspection.sampled
+        found.append(f"Shortest routes are counted from {some} of {all_of} vertices only.")
+    return tuple(found)
+
+
+def _counted(number: int, noun: str, plural: str = "") -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
 
 
 def trip_of(robot: Robot, rules: Rules) -> list[int]:

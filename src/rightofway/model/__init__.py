@@ -31,6 +31,7 @@ from rightofway.model.route import (
     route_through,
     serving_visits,
     stays_of,
+    turns_along,
     visits_of_laps,
 )
 from rightofway.model.scenario import Scenario
@@ -102,5 +103,6 @@ __all__ = [
     "stays_of",
     "steps_per_unit",
     "straight_length",
+    "turns_along",
     "visits_of_laps",
 ]

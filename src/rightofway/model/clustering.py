@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
 
@@ -123,6 +124,20 @@ def steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
 
 
 def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:
+    """Return the rows of a floor's `free_cells`: ``.`` for free, ``@`` for blocked.
+
+    Parameters
+    ----------
+    floor, cell_size, max_cells
+        As for `free_cells`.
+    """
+    free = free_cells(floor, cell_size, max_cells=max_cells)
+    return tuple("".join(row) for row in np.where(free, ".", "@"))
+
+
+def free_cells(
+    floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS, key: str = "cell_size"
+) -> NDArray[np.bool_]:
     """Cut a floor into square cells.
 
     Parameters
@@ -134,11 +149,14 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
         not used.
     max_cells
         The most cells to make.
+    key
+        What messages call the size of the cells.
 
     Returns
     -------
-    tuple of str
-        The rows of a grid, ``.`` for free and ``@`` where an obstacle covers any part of a cell.
+    ndarray
+        Which cells are free: those that no obstacle covers any part of; bool, shape (rows,
+        columns).
 
     Raises
     ------
@@ -146,25 +164,25 @@ def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) ->
         If no cell fits in, or more than ``max_cells`` do.
     """
     if cell_size <= 0:
-        raise InputError.at("cell_size", f"{cell_size} is not positive (give a length above 0)")
+        raise InputError.at(key, f"{cell_size} is not positive (give a length above 0)")
     columns, rows = floor.width // cell_size, floor.height // cell_size
     if not rows * columns:
         message = (
             f"{cell_size} is longer than the floor (give at most {min(floor.width, floor.height)})"
         )
-        raise InputError.at("cell_size", message)
+        raise InputError.at(key, message)
     if rows * columns > max_cells:
         message = (
             f"cells of {cell_size} make {columns} x {rows} = {rows * columns} cells, more than"
-            f" {max_cells} (give a larger cell_size, speeds closer together, or raise max_cells)"
+            f" {max_cells} (give a larger {key}, speeds closer together, or raise max_cells)"
         )
-        raise InputError.at("cell_size", message)
-    blocked = np.zeros((rows, columns), bool)
+        raise InputError.at(key, message)
+    free = np.ones((rows, columns), np.bool_)
     for obstacle in floor.obstacles:
         across = _covered(obstacle.x, obstacle.width, cell_size)
         down = _covered(obstacle.y, obstacle.height, cell_size)
-        blocked[down, across] = True
-    return tuple("".join(row) for row in np.where(blocked, "@", "."))
+        free[down, across] = False
+    return free
 
 
 def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:

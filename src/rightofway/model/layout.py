@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, listed, nearest, shown
+from rightofway.model.drawing import Drawing, Picture
 from rightofway.model.geometry import Point
 from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
-from rightofway.model.spacing import split_lanes
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 
 
@@ -90,6 +91,8 @@ class Level:
         What lies on it.
     links
         Lanes that lead to other levels.
+    picture
+        The picture that it is drawn over [m].
     """
 
     name: str
@@ -98,6 +101,7 @@ class Level:
     stations: tuple[Station, ...] = ()
     zones: tuple[NamedZone, ...] = ()
     links: int = 0
+    picture: Picture | None = None
 
     @property
     def vehicle_types(self) -> tuple[str, ...]:
@@ -215,14 +219,18 @@ def roadmap_of_level(
         selects = bool(known_types)
     lanes = level.edges if selects else level.lanes_of(vehicle_type)
     slowest: dict[tuple[str, str], Edge] = {}
+    longs = {length: length * metre for length in {lane.length for lane in lanes}}
+    limits = {
+        speed: speed * metre / second for speed in {lane.max_speed for lane in lanes} if speed
+    }
     for lane in lanes:
-        limit = None if lane.max_speed is None else lane.max_speed * metre / second
+        limit = None if lane.max_speed is None else limits[lane.max_speed]
         is_open = lane.types is None or not selects
         barred = frozenset() if is_open else frozenset(known_types).difference(lane.types or ())
         edge = Edge(
             tail=lane.tail,
             head=lane.head,
-            length=lane.length * metre,
+            length=longs[lane.length],
             max_speed=limit,
             barred=barred,
         )
@@ -235,13 +243,30 @@ def roadmap_of_level(
         if vertex.name not in closed
     }
     edges, zones = list(slowest.values()), _zones(level, positions, slowest)
+    split = SplitLanes(positions, edges, {})
     if spacing is not None:
-        if zones:
-            raise InputError.at("spacing", "spacing does not know zones yet (take it out)")
-        positions, edges = split_lanes(positions, edges, spacing)
-    drawn = {name: (float(x), float(y)) for name, (x, y) in positions.items()}
-    roadmap = roadmap_of_edges(drawn, edges, y_up=True, zones=zones)
+        split = split_lanes(positions, edges, spacing)
+    drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
+    roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
+    roadmap = replace(roadmap, drawing=_drawing(level, roadmap, metre))
     return roadmap, tuple(_lacks(level, lanes, slowest, closed))
+
+
+def _drawing(level: Level, roadmap: Roadmap, metre: Fraction) -> Drawing:
+    """Return the places of a level that its roadmap has, and its picture."""
+    ids = {name: roadmap.vertex(name) for name in roadmap.labels or ()}
+    stations = {
+        station.name: next(ids[name] for name in station.vertices if name in ids)
+        for station in level.stations
+        if not ids.keys().isdisjoint(station.vertices)
+    }
+    known = [vertex for vertex in level.vertices if vertex.name in ids]
+    return Drawing(
+        stations=tuple(stations.items()),
+        parking=tuple(ids[vertex.name] for vertex in known if vertex.is_parking),
+        charging=tuple(ids[vertex.name] for vertex in known if vertex.is_charging),
+        picture=level.picture and level.picture.scaled(metre),
+    )
 
 
 def _slower(one: Edge, other: Edge) -> Edge:
@@ -275,16 +300,11 @@ def _ends(lanes: Sequence[LayoutEdge]) -> set[str]:
 def _zones(
     level: Level, vertices: Collection[str], lanes: Collection[tuple[str, str]]
 ) -> list[NamedZone]:
-    """Return the zones with what the roadmap has of them.
-
-    A vertex that can be entered and left along lanes of a zone belongs to it.
-    """
+    """Return the zones with what the roadmap has of them."""
     found = []
     for zone in level.zones:
         edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
-        passed = {head for _, head in edges} & {tail for tail, _ in edges}
-        inside = [name for name in zone.vertices if name in vertices]
-        names = tuple(dict.fromkeys((*inside, *sorted(passed))))
+        names = tuple(dict.fromkeys(name for name in zone.vertices if name in vertices))
         if names or edges:
             found.append(NamedZone(name=zone.name, vertices=names, edges=edges))
     return found

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.drawing import Picture
 from rightofway.model.geometry import Point
 
 FREE, UNKNOWN, OCCUPIED = 0, 1, 2
@@ -43,6 +44,8 @@ class Occupancy:
         The lower left corner of the picture in the site's frame [m].
     yaw
         Angle by which the picture is turned about its origin, counterclockwise [rad].
+    picture
+        The file of the picture, and where it lies [m].
     notes
         What the reader mended or left out, a sentence each.
     """
@@ -51,11 +54,31 @@ class Occupancy:
     resolution: Fraction
     origin: Point = (Fraction(0), Fraction(0))
     yaw: Fraction = Fraction(0)
+    picture: Picture | None = None
     notes: tuple[str, ...] = ()
 
     def cells(
         self, size: Fraction, *, radius: Fraction = Fraction(0), unknown_is_free: bool = False
     ) -> tuple[str, ...]:
+        """Return the rows of `free_cells`, the upper one first: ``.`` for free, ``@`` for blocked.
+
+        Parameters
+        ----------
+        size, radius, unknown_is_free
+            As for `free_cells`.
+        """
+        free = self.free_cells(size, radius=radius, unknown_is_free=unknown_is_free)
+        return tuple("".join(row) for row in np.where(free[::-1], ".", "@"))
+
+    def free_cells(
+        self,
+        size: Fraction,
+        *,
+        radius: Fraction = Fraction(0),
+        unknown_is_free: bool = False,
+        max_cells: int = MAX_CELLS,
+        key: str = "cell_size",
+    ) -> NDArray[np.bool_]:
         """Cut the picture into cells, from its lower left corner on.
 
         Parameters
@@ -66,12 +89,16 @@ class Occupancy:
             Radius of the largest robot [m].
         unknown_is_free
             Whether robots may be where nothing is known.
+        max_cells
+            The most cells to make.
+        key
+            What messages call the size of the cells.
 
         Returns
         -------
-        tuple of str
-            The rows, the upper one first: ``.`` for free, ``@`` for blocked. What is left at the
-            upper and right border is not used.
+        ndarray
+            Which cells are free, the lower row first; bool, shape (rows, columns). What is left at
+            the upper and right border is not used.
 
         Raises
         ------
@@ -82,13 +109,13 @@ class Occupancy:
         rows, columns = (int(side * self.resolution // size) for side in (height, width))
         if size < self.resolution:
             message = f"a cell of {float(size)} m is below a pixel of {float(self.resolution)} m"
-            raise InputError.at("cell_size", f"{message} (give a larger one)")
+            raise InputError.at(key, f"{message} (give a larger one)")
         if not rows or not columns:
             message = f"a cell of {float(size)} m is larger than the map (give a smaller one)"
-            raise InputError.at("cell_size", message)
-        if rows * columns > MAX_CELLS:
-            message = f"{rows * columns} cells, more than {MAX_CELLS} (give a larger one)"
-            raise InputError.at("cell_size", message)
+            raise InputError.at(key, message)
+        if rows * columns > max_cells:
+            message = f"{rows * columns} cells, more than {max_cells} (give a larger one)"
+            raise InputError.at(key, message)
         blocked = self.pixels == OCCUPIED if unknown_is_free else self.pixels != FREE
         growth = (radius - size / 2) / self.resolution
         if growth > 0:
@@ -98,8 +125,7 @@ class Occupancy:
         across = [(int(k * step), ceil((k + 1) * step)) for k in range(max(rows, columns))]
         strips = np.array([blocked[begin:end].any(axis=0) for begin, end in across[:rows]])
         cut = np.array([strips[:, begin:end].any(axis=1) for begin, end in across[:columns]])
-        text = np.where(cut.T[::-1], "@", ".")
-        return tuple("".join(row) for row in text)
+        return ~cut.T
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

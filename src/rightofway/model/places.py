@@ -9,6 +9,7 @@ from numbers import Integral
 from typing import TypeGuard
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault, is_printable, nearest, shown
 from rightofway.model.geometry import Point, squared_distance
@@ -34,6 +35,9 @@ Place = str | tuple[int, int] | Spot
 
 LONGEST_NUMBER = 18
 """Digits that a cell's number may have."""
+
+ON_BORDER = 1e-9
+"""Distance from a border at which a point is on it [smallest squares]."""
 
 DECIMALS = 20
 """A coordinate with more decimals is written as a fraction."""
@@ -144,7 +148,8 @@ def vertex_at(
     -----
     On a grid, a point belongs to the cell that holds it. A point on the border of two cells belongs
     to the right or, in the drawing, the lower one; one on the border of the map to the cell inside.
-    On a drawn roadmap, a point is the vertex at this very point.
+    On a drawn roadmap, a point is the vertex at this very point; on one whose vertices are squares,
+    the square that holds it, by the same rule.
     """
     grid = roadmap.grid
     if grid is None:
@@ -225,6 +230,8 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
 
 def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
+    if roadmap.sides is not None:
+        return _square_that_holds(spot, roadmap, roadmap.sides, units)
     found = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
     if len(found) == 1:
         return VertexId(found[0])
@@ -233,6 +240,18 @@ def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
         raise InputError.at("", f"{spot} is the point of {names} (give one of these names)")
     near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
     raise InputError.at("", f"no vertex is at {spot} (the nearest is {near})")
+
+
+def _square_that_holds(
+    spot: Spot, roadmap: Roadmap, sides: NDArray[np.float64], units: Units
+) -> VertexId:
+    x, y = roadmap.frame.to_plane((spot.x, spot.y))
+    away = np.abs(roadmap.positions - (float(x), float(y))).max(axis=1)
+    found = np.flatnonzero(away <= sides / 2 + ON_BORDER * sides.min())
+    if len(found):
+        return VertexId(int(max(found, key=lambda one: tuple(roadmap.positions[one, ::-1]))))
+    near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
+    raise InputError.at("", f"{spot} is in no free cell (the nearest has its middle at {near})")
 
 
 def _nearest(spot: Spot, roadmap: Roadmap) -> int:

@@ -12,6 +12,7 @@ from rightofway.model.closures import Closure, Closures, closures_of
 from rightofway.model.resources import Resources, resources_of
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules
+from rightofway.model.turning import Turning, turnings_of
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
 
@@ -48,12 +49,15 @@ class Itinerary:
         Ticks it needs for an edge, by length class of the roadmap; -1 where it is barred.
     surcharges
         Ticks by which an edge of each length class is less liked; empty where all are 0.
+    turning
+        How long it turns on the spot between two edges, or None if that takes no time.
     """
 
     home: VertexId
     stages: tuple[Stage, ...]
     edge_ticks: tuple[Tick, ...]
     surcharges: tuple[Tick, ...] = ()
+    turning: Turning | None = None
 
     @property
     def weights(self) -> tuple[Tick, ...]:
@@ -115,6 +119,11 @@ class Problem:
         """Whether some robot may not drive along some edge."""
         return any(min(one.edge_ticks, default=1) < 0 for one in self.itineraries)
 
+    @property
+    def turns(self) -> bool:
+        """Whether a change of heading takes time for some robot."""
+        return any(itinerary.turning is not None for itinerary in self.itineraries)
+
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
@@ -126,7 +135,7 @@ def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
     Parameters
     ----------
     problem
-        The problem.
+        The fleet in ticks.
     what
         What does not know closures.
     remedy
@@ -139,6 +148,28 @@ def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
     """
     if problem.closures is not None:
         raise InputError.at("", f"{what} does not know closures ({remedy})")
+
+
+def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:
+    """Refuse a fleet in which a robot needs time to turn on the spot.
+
+    Parameters
+    ----------
+    problem
+        The fleet in ticks.
+    what
+        What does not know turn rates.
+    remedy
+        What to do instead.
+
+    Raises
+    ------
+    InputError
+        If a robot has a turn rate.
+    """
+    if problem.turns:
+        message = f"{what} does not know robots with a turn_rate ({remedy}, or leave it out)"
+        raise InputError.at("", message)
 
 
 def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
@@ -168,13 +199,17 @@ def problem_of(
     if clock is None:
         each = (_durations(roadmap, robot, rules) for robot in robots)
         clock = choose_clock(chain([rules.headway], chain.from_iterable(each)))
+    rates = [turn_rate(robot, rules) for robot in robots]
     return Problem(
         roadmap=roadmap,
         clock=clock,
         headway=clock.ticks(rules.headway),
         books_ahead=rules.books_ahead,
         rotations=rules.rotations,
-        itineraries=tuple(_itinerary(roadmap, robot, rules, clock) for robot in robots),
+        itineraries=tuple(
+            _itinerary(roadmap, robot, rules, clock, turning)
+            for robot, turning in zip(robots, turnings_of(roadmap, rates, clock), strict=True)
+        ),
         resources=resources_of(roadmap, radii, rules.clearance),
         closures=closures_of(closures, roadmap, radii, rules.clearance, clock),
     )
@@ -184,11 +219,17 @@ def turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:
     """Return how long a robot turns at a stop [time unit]."""
     turn = robot.turn if robot.turn is not None else rules.turn
     if turn is None:
-        turn = "cell" if roadmap.grid is not None else Fraction(0)
+        is_by_cell = roadmap.grid is not None and turn_rate(robot, rules) is None
+        turn = "cell" if is_by_cell else Fraction(0)
     if turn == "cell":
         assert roadmap.grid is not None, "the scenario has refused this"
         return roadmap.grid.cell_size / robot.speed
     return turn
+
+
+def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
+    """Return how fast a robot turns on the spot [degrees per time unit]; None: in no time."""
+    return robot.turn_rate if robot.turn_rate is not None else rules.turn_rate
 
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
@@ -199,7 +240,9 @@ def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fractio
     yield from (stop.work for stop in robot.stops)
 
 
-def _itinerary(roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock) -> Itinerary:
+def _itinerary(
+    roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock, turning: Turning | None
+) -> Itinerary:
     turn = clock.ticks(turning_time(roadmap, robot, rules))
     lap = [Stage(vertex=stop.at, work=clock.ticks(stop.work), turn=turn) for stop in robot.stops]
     if (robot.ends or rules.ends) == "home":
@@ -212,4 +255,5 @@ def _itinerary(roadmap: Roadmap, robot: Robot, rules: Rules, clock: Clock) -> It
             for length_class, duration in enumerate(roadmap.durations(robot.speed))
         ),
         surcharges=tuple(map(clock.ticks, roadmap.surcharges)),
+        turning=turning,
     )

@@ -102,6 +102,22 @@ def exact_positions(roadmap: Roadmap) -> list[Point]:
     return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
 
 
+def are_nearer(roadmap: Roadmap, one: int, other: int, distance: Fraction) -> bool:
+    """Return whether two vertices are nearer than a distance; exact.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices.
+    one, other
+        Two of them.
+    distance
+        The distance [length unit].
+    """
+    at = exact_positions(roadmap)
+    return squared_distance(at[one], at[other]) < distance**2
+
+
 def distance(roadmap: Roadmap, one: int, other: int) -> float:
     """Return the distance of two vertices [length unit].
 
@@ -182,6 +198,10 @@ class Resources:
     first, excluded
         Robots that book row ``r`` exclude others from the rows ``excluded[first[r]:first[r + 1]]``,
         in increasing order; int32, shapes (rows + 1,) and (n,).
+    is_exact
+        Whether the lists exclude no more than the rule does. They exclude more where a vertex
+        counts as in a zone for some visits only: there, they take it as in the zone for all. Then
+        a search that finds no plan proves nothing.
     """
 
     n_vertices: int
@@ -189,6 +209,7 @@ class Resources:
     size_of: NDArray[np.int32]
     first: NDArray[np.int32] = field(repr=False)
     excluded: NDArray[np.int32] = field(repr=False)
+    is_exact: bool = True
 
     def vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
@@ -197,6 +218,24 @@ class Resources:
     def edge_row(self, robot: int, edge: int) -> int:
         """Return the row that a robot books along an edge."""
         return self.vertex_row(robot, self.n_vertices + edge)
+
+    def rows_of_lap(
+        self, roadmap: Roadmap, robot: int, vertices: Sequence[int]
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return the rows of a lap's vertices, and of the edges driven out of them.
+
+        Parameters
+        ----------
+        roadmap
+            The vertices and edges.
+        robot
+            The robot that makes the lap.
+        vertices
+            Where it goes; an edge leads from the last one to the first.
+        """
+        visited = np.array(vertices, np.int32)
+        edges = roadmap.edges(visited, np.roll(visited, -1))
+        return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
 
     def excluded_by(self, row: int) -> NDArray[np.int32]:
         """Return the rows that a booking of a row excludes."""
@@ -250,6 +289,7 @@ def resources_of(
         size_of=np.array([sizes.index(radius) for radius in radii], np.int32),
         first=first,
         excluded=excluded,
+        is_exact=not any(zone.passed for zone in roadmap.zones),
     )
 
 
@@ -263,7 +303,7 @@ def _excluded(
     reach = 2 * sizes[-1] + clearance
     same = np.arange(n_vertices)
     candidates = drawing.candidates(reach) if sizes[-1] > 0 else None
-    in_zones = list(drawing.in_zones(roadmap.zones))
+    in_zones = list(_in_zones(roadmap))
     rows, columns = list[Ints](), list[Ints]()
     for one, other in combinations_with_replacement(range(len(sizes)), 2):
         pairs = [(same, same), *in_zones]
@@ -277,6 +317,31 @@ def _excluded(
     row, column = np.divmod(found, len(sizes) * n_rows)
     first = np.searchsorted(row, np.arange(len(sizes) * n_rows + 1))
     return first.astype(np.int32), column.astype(np.int32)
+
+
+def members_of(roadmap: Roadmap, zone: Zone) -> list[int]:
+    """Return the resources that planners take as in a zone.
+
+    An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
+
+    Parameters
+    ----------
+    roadmap
+        The vertices and edges.
+    zone
+        A zone of the roadmap.
+    """
+    inside = {*zone.vertices, *zone.passed}
+    numbers = [roadmap.edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
+    return [*sorted(inside), *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
+
+
+def _in_zones(roadmap: Roadmap) -> Iterator[Pairs]:
+    """Yield pairs of resources of one zone."""
+    for zone in roadmap.zones:
+        members = np.array(members_of(roadmap, zone), np.int64)
+        left, right = np.triu_indices(len(members), k=1)
+        yield members[left], members[right]
 
 
 class _Drawing:
@@ -294,10 +359,6 @@ class _Drawing:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
         ends = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
-        both_ends = zip(tails.tolist(), heads.tolist(), strict=True)
-        self._number_of_edge = {
-            edge_ends: number for number, edge_ends in enumerate(both_ends, roadmap.n_vertices)
-        }
         lanes, lane_of = np.unique(ends, axis=0, return_inverse=True)
         lane_of = lane_of.reshape(-1)  # NumPy 2.0 keeps an axis of length 1
         self.a, self.b = lanes[:, 0], lanes[:, 1]
@@ -366,17 +427,6 @@ class _Drawing:
                 )
             ],
         )
-
-    def in_zones(self, zones: Sequence[Zone]) -> Iterator[Pairs]:
-        """Yield pairs of resources of one zone; an edge that ends at a vertex of it is left out."""
-        for zone in zones:
-            vertices = np.array(zone.vertices, np.int64)
-            edges = [
-                self._number_of_edge[ends] for ends in zone.edges if not {*ends} & {*zone.vertices}
-            ]
-            members = np.concatenate((vertices, np.array(edges, np.int64)))
-            left, right = np.triu_indices(len(members), k=1)
-            yield members[left], members[right]
 
     def _with_edges(self, left: Ints, lane: Ints) -> tuple[Ints, Ints]:
         """Repeat each left one for every edge of its lane."""

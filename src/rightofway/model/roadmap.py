@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.model.clustering import Obstacle
+from rightofway.model.drawing import Drawing
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.units import VertexId
 from rightofway.model.values import Number, coerced, length, names, number, optional
@@ -100,6 +101,11 @@ class Roadmap:
     obstacles
         What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
         plan depends on it, and roadmaps that differ in it alone are equal.
+    drawing
+        Stations, parking places, the picture below: only for people, too.
+    sides
+        Side of the square cell round each vertex [length unit], None where vertices have none and
+        on a grid; float64, shape (V,).
     """
 
     indptr: NDArray[np.int32]
@@ -116,6 +122,8 @@ class Roadmap:
     barred_vertices: Mapping[VertexId, frozenset[str]] = field(default_factory=dict)
     zones: tuple[Zone, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
+    drawing: Drawing = field(default_factory=Drawing)
+    sides: NDArray[np.float64] | None = None
     _ids: Mapping[str, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -141,6 +149,7 @@ class Roadmap:
             and np.array_equal(self.heads, other.heads)
             and np.array_equal(self.length_class, other.length_class)
             and np.array_equal(self.positions, other.positions)
+            and _same_sides(self.sides, other.sides)
         )
 
     def __hash__(self) -> int:
@@ -215,17 +224,24 @@ class Roadmap:
         x, y = self.positions[vertex].tolist()
         return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
 
-    def without(self, closed: Collection[int]) -> Roadmap:
-        """Return the same vertices without the edges from and to those that are closed."""
+    def without(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
+        """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
         shut = np.fromiter(closed, np.int64, len(closed))
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
+        is_open[[index for ends in edges if (index := self.edge(*ends)) is not None]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
+        kept = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
+        zones = (
+            replace(zone, edges=tuple(ends for ends in zone.edges if ends in kept))
+            for zone in self.zones
+        )
         return replace(
             self,
             indptr=np.concatenate(([0], np.cumsum(degree))).astype(np.int32),
             heads=self.heads[is_open],
             length_class=self.length_class[is_open],
+            zones=tuple(zones),
         )
 
     def edge(self, tail: int, head: int) -> int | None:
@@ -244,6 +260,12 @@ class Roadmap:
             fits = (first + offset < last) & (self.heads[edge] == heads) & (found < 0)
             found[fits] = edge[fits]
         return found
+
+
+def _same_sides(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return np.array_equal(one, other)
 
 
 def _same_grid(one: Grid | None, other: Grid | None) -> bool:
@@ -398,6 +420,9 @@ def roadmap_of_edges(
     *,
     y_up: bool = False,
     zones: Sequence[NamedZone] = (),
+    pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
+    sides: Sequence[float] | None = None,
+    frame: Frame | None = None,
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
 ) -> Roadmap:
@@ -413,7 +438,13 @@ def roadmap_of_edges(
     y_up
         Whether y grows upwards in the site's frame.
     zones
-        Vertices and edges that hold one robot at a time.
+        Vertices and edges that hold one robot at a time. A lane that was split may be named.
+    pieces
+        Tail and head of every piece of each lane that was split, by tail and head of the lane.
+    sides
+        Side of the square cell round each vertex [length unit]; None without cells.
+    frame
+        The frame that the positions are relative to, by default the site's; ``y_up`` is its own.
     barred
         Names of vertices with the types of robots that may not be there.
     surcharges
@@ -452,6 +483,7 @@ def roadmap_of_edges(
     ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
     degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
     down = (1.0, -1.0 if y_up else 1.0)
+    both_ends = {(edge.tail, edge.head) for edge in edges}
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=np.array([ids[edge.head] for edge in ordered], np.int32),
@@ -463,8 +495,9 @@ def roadmap_of_edges(
         barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
         labels=tuple(positions),
-        frame=Frame(y_up=y_up),
-        zones=zones_of(zones, ids, {(edge.tail, edge.head) for edge in edges}) if zones else (),
+        frame=frame or Frame(y_up=y_up),
+        sides=None if sides is None else np.array(sides, np.float64),
+        zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
     )
 
 

@@ -78,6 +78,9 @@ class Robot:
         Radius of the circle that it needs [length unit], not negative; 0 for a point.
     type
         The name of its type, by which edges and vertices may be barred; None for none.
+    turn_rate
+        How fast it turns on the spot [degrees per time unit], positive, if that differs from the
+        rules.
 
     Raises
     ------
@@ -94,6 +97,7 @@ class Robot:
     laps: int | None = None
     radius: Fraction = Fraction(0)
     type: str | None = None
+    turn_rate: Fraction | None = None
 
     def __post_init__(self) -> None:
         coerced(
@@ -108,6 +112,7 @@ class Robot:
             laps=optional(whole_number),
             radius=number,
             type=optional(text),
+            turn_rate=optional(number),
         )
 
     def __repr__(self) -> str:
@@ -133,7 +138,8 @@ class Rules:
     headway
         Least time between one robot leaving a vertex and the next entering it [time unit].
     turn
-        Turning time at each stop. None means ``cell`` on a grid and 0 on other roadmaps.
+        Turning time at each stop. None means ``cell`` on a grid, and 0 on other roadmaps and for
+        robots with a turn rate.
     ends
         Whether robots return home.
     laps
@@ -142,6 +148,9 @@ class Rules:
         Whether three or more robots may move round a circle all at one instant.
     clearance
         Least distance between two robots of which one has a radius [length unit].
+    turn_rate
+        How fast robots turn on the spot [degrees per time unit], positive. None: a change of
+        heading takes no time.
 
     Raises
     ------
@@ -156,6 +165,7 @@ class Rules:
     laps: int = 1
     rotations: bool = True
     clearance: Fraction = Fraction(0)
+    turn_rate: Fraction | None = None
 
     def __post_init__(self) -> None:
         coerced(
@@ -168,6 +178,7 @@ class Rules:
             laps=whole_number,
             rotations=truth,
             clearance=number,
+            turn_rate=optional(number),
         )
 
     @property

@@ -78,7 +78,7 @@ class Route:
     vertices
         Where each visit is.
     dwell
-        How long each visit lasts at least, without the drive that follows [ticks].
+        How long each visit lasts at least, without the drive that follows [ticks]: work and turns.
     drive
         Ticks of the edge driven into each visit; 0 for the first.
     serves
@@ -153,7 +153,8 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
     drive = np.array(drives_along(roadmap, itinerary, vertices), np.int64)
-    spare = np.append(np.diff(track.enter) - drive, NEVER)
+    turns = turns_along(roadmap, itinerary, track.vertices)
+    spare = np.append(np.diff(track.enter) - drive - turns[:-1], NEVER)
     return _route(roadmap, itinerary, vertices, _serves(itinerary, vertices, spare))
 
 
@@ -169,6 +170,7 @@ def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
     dwell = _least_dwells(itinerary.stages, serves, len(vertices))
+    dwell += turns_along(roadmap, itinerary, np.array(vertices, np.int32))
     drive = map(Tick, drives_along(roadmap, itinerary, vertices))
     return Route(
         vertices=tuple(vertices),
@@ -205,6 +207,28 @@ def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
     return ticks
 
 
+def turns_along(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: NDArray[np.int32]
+) -> NDArray[np.int64]:
+    """Return how long a robot turns at each vertex of a path [ticks]; int64, shape (n,).
+
+    It turns neither at the first vertex nor at the last one.
+
+    Parameters
+    ----------
+    roadmap
+        The graph of the path.
+    itinerary
+        The robot; how it turns is in `Itinerary.turning`.
+    vertices
+        The path; int32, shape (n,).
+    """
+    turns = np.zeros(len(vertices), np.int64)
+    if itinerary.turning is not None:
+        turns[1:-1] = itinerary.turning.between(roadmap.edges(vertices[:-1], vertices[1:]))
+    return turns
+
+
 def serving_visits(
     stages: Sequence[Stage], vertices: NDArray[np.int32], spare: NDArray[np.int64]
 ) -> list[int]:
@@ -215,7 +239,8 @@ def serving_visits(
     stages
         What the robot has to do, in order.
     vertices, spare
-        Where each visit is, and how long it lasts beyond its drive [ticks]; shape (n,).
+        Where each visit is, and how long it lasts beyond its drive and the turn before [ticks];
+        shape (n,).
     """
     visits_at: dict[int, list[int]] = {}
     used: dict[int, int] = {}
@@ -322,11 +347,15 @@ class Stays:
     ----------
     dwell
         The least ticks of each visit before the robot drives on: the work and turning of the stages
-        that it serves; int64, shape (n,). For the last visit: the work that is left to do there.
+        that it serves, and `turns`; int64, shape (n,). For the last visit: the work that is left to
+        do there.
     drive
         Ticks of the edge that ends each visit, 0 for the last one; int64, shape (n,).
     waits
         Ticks of each visit beyond both, 0 for the last one; int64, shape (n,).
+    turns
+        How long the robot turns on the spot between two edges, a part of `dwell`, 0 for the first
+        visit and the last one; int64, shape (n,).
     serves
         The visit that serves each stage. It ends before the first stage that no visit serves.
     completion
@@ -336,6 +365,7 @@ class Stays:
     dwell: NDArray[np.int64]
     drive: NDArray[np.int64]
     waits: NDArray[np.int64]
+    turns: NDArray[np.int64]
     serves: tuple[int, ...]
     completion: Tick
 
@@ -357,23 +387,30 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     """
     ends = np.cumsum([len(track) for track in tracks])
     enter = np.concatenate([track.enter for track in tracks])
-    drive, dwell = _drives_of_fleet(scenario, tracks, ends), np.zeros(len(enter), np.int64)
-    spare = np.append(np.diff(enter), 0) - drive
-    spare[ends - 1] = NEVER
+    edges = _edges_of_fleet(scenario.roadmap, tracks, ends)
     owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
+    drive, dwell = _drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
+    turns = np.zeros(len(enter), np.int64)
+    for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
+        if itinerary.turning is not None:
+            turns[own][1:] = itinerary.turning.between(edges[own])
+    spare = np.append(np.diff(enter), 0) - drive - turns
+    spare[ends - 1] = NEVER
     all_serves = []
     for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
         serves = serving_visits(itinerary.stages, track.vertices, spare[own])
         dwell[own] = _least_dwells(itinerary.stages, serves, len(track))
         all_serves.append(tuple(serves))
+    dwell += turns
     completion = (enter + dwell)[ends - 1].tolist()
-    waits = spare - dwell
+    waits = spare + turns - dwell
     waits[ends - 1] = 0
     return tuple(
         Stays(
             dwell=dwell[own],
             drive=drive[own],
             waits=waits[own],
+            turns=turns[own],
             serves=serves,
             completion=Tick(done),
         )
@@ -426,16 +463,23 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     return cost
 
 
+def _edges_of_fleet(
+    roadmap: Roadmap, tracks: Sequence[Track], ends: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """Return the edge after each visit of all tracks, -1 where there is none; int32."""
+    vertices = np.concatenate([track.vertices for track in tracks])
+    vertices[(vertices < 0) | (vertices >= roadmap.n_vertices)] = -1
+    edges = np.append(roadmap.edges(vertices[:-1], vertices[1:]), np.int32(-1))
+    edges[vertices < 0] = -1
+    edges[ends - 1] = -1
+    return edges
+
+
 def _drives_of_fleet(
-    scenario: Scenario, tracks: Sequence[Track], ends: NDArray[np.int64]
+    scenario: Scenario, tracks: Sequence[Track], edges: NDArray[np.int32]
 ) -> NDArray[np.int64]:
     """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
     roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
-    vertices = np.concatenate([track.vertices for track in tracks])
-    vertices[(vertices < 0) | (vertices >= roadmap.n_vertices)] = -1
-    edges = np.append(roadmap.edges(vertices[:-1], vertices[1:]), -1)
-    edges[vertices < 0] = -1
-    edges[ends - 1] = -1
     row = {pace: k for k, pace in enumerate({one.edge_ticks: None for one in itineraries})}
     by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
     length_class = np.append(roadmap.length_class, -1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, shown
 from rightofway.model.above import from_above
@@ -127,6 +128,13 @@ def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
     if rules.laps < 1:
         yield InputFault("rules.laps", f"{rules.laps} is less than one lap (give 1 or more)")
     yield from _turn_faults(rules.turn, "rules.turn", scenario.roadmap)
+    yield from _rate_faults(rules.turn_rate, "rules.turn_rate")
+
+
+def _rate_faults(rate: Fraction | None, place: str) -> Iterator[InputFault]:
+    if rate is not None and rate <= 0:
+        remedy = "give degrees per time unit, like 90; leave it out if turning takes no time"
+        yield InputFault(place, f"{rate} is not positive ({remedy})")
 
 
 def _turn_faults(turn: Turn | None, place: str, roadmap: Roadmap) -> Iterator[InputFault]:
@@ -191,6 +199,7 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
 def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     yield from _number_faults(robot)
     yield from _turn_faults(robot.turn, "turn", scenario.roadmap)
+    yield from _rate_faults(robot.turn_rate, "turn_rate")
     yield from _place_faults(robot, scenario.roadmap)
     laps = scenario.rules.laps if robot.laps is None else robot.laps
     if (robot.ends or scenario.rules.ends) == "none" and laps > 1:

@@ -7,15 +7,34 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import ceil
+from typing import NamedTuple
 
 from rightofway.errors import InputError
 from rightofway.model.geometry import Point
 from rightofway.model.roadmap import Edge
 
 
+class SplitLanes(NamedTuple):
+    """A roadmap after its long lanes were split.
+
+    Attributes
+    ----------
+    positions
+        Name and (x, y) of every vertex, the given ones first [length unit].
+    edges
+        All edges, pieces in the place of their lane.
+    pieces
+        Tail and head of every piece of each lane that was split, by tail and head of the lane.
+    """
+
+    positions: dict[str, Point]
+    edges: list[Edge]
+    pieces: dict[tuple[str, str], list[tuple[str, str]]]
+
+
 def split_lanes(
     positions: Mapping[str, Point], edges: Sequence[Edge], spacing: Fraction
-) -> tuple[dict[str, Point], list[Edge]]:
+) -> SplitLanes:
     """Split each lane that is longer than the spacing into pieces of equal length.
 
     Both directions of a lane share the new vertices, which are named by the direction that is given
@@ -30,11 +49,6 @@ def split_lanes(
     spacing
         The longest piece [length unit], above 0.
 
-    Returns
-    -------
-    tuple
-        All positions, the given ones first, and all edges, pieces in the place of their lane.
-
     Raises
     ------
     InputError
@@ -43,15 +57,16 @@ def split_lanes(
     Examples
     --------
     >>> at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(5), Fraction(0))}
-    >>> positions, edges = split_lanes(at, [Edge(tail="A", head="B", length=5)], Fraction(2))
-    >>> [(edge.tail, edge.head, str(edge.length)) for edge in edges]
+    >>> split = split_lanes(at, [Edge(tail="A", head="B", length=5)], Fraction(2))
+    >>> [(edge.tail, edge.head, str(edge.length)) for edge in split.edges]
     [('A', 'A-B/1', '5/3'), ('A-B/1', 'A-B/2', '5/3'), ('A-B/2', 'B', '5/3')]
     """
     longest: dict[frozenset[str], Fraction] = {}
     for edge in edges:
         lane = frozenset((edge.tail, edge.head))
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
-    found, pieces = dict(positions), list[Edge]()
+    found, split = dict(positions), list[Edge]()
+    pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     stations: dict[frozenset[str], list[str]] = {}
     for edge in edges:
         lane = frozenset((edge.tail, edge.head))
@@ -68,7 +83,9 @@ def split_lanes(
                 x, y = (a + share * (b - a) for a, b in zip(begin, end, strict=True))
                 found[name] = (x, y)
         way = stations[lane] if stations[lane][0] == edge.tail else stations[lane][::-1]
-        pieces += [
+        if count > 1:
+            pieces[edge.tail, edge.head] = list(pairwise(way))
+        split += [
             replace(
                 edge,
                 tail=tail,
@@ -78,4 +95,4 @@ def split_lanes(
             )
             for tail, head in pairwise(way)
         ]
-    return found, pieces
+    return SplitLanes(found, split, pieces)

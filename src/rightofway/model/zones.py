@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
 
 from rightofway.errors import InputError, InputFault, nearest, shown
 from rightofway.model.units import VertexId
@@ -21,11 +22,39 @@ class Zone:
         Vertices of the zone.
     edges
         Tail and head of each of its edges.
+    listed_only
+        Whether planners take only the listed vertices as in the zone.
+
+    Notes
+    -----
+    A vertex that is not listed counts as in the zone for visits that are entered and left along
+    edges of the zone. Planners take such a vertex as in the zone for every visit; only if they find
+    no plan, for none. Then the judge decides whether the plan keeps the zone.
     """
 
     name: str
     vertices: tuple[VertexId, ...] = ()
     edges: tuple[tuple[VertexId, VertexId], ...] = ()
+    listed_only: bool = False
+
+    @property
+    def passed(self) -> tuple[VertexId, ...]:
+        """The further vertices that planners take as in the zone."""
+        if self.listed_only:
+            return ()
+        entered, left = {head for _, head in self.edges}, {tail for tail, _ in self.edges}
+        return tuple(sorted((entered & left).difference(self.vertices)))
+
+
+def listed_only(zones: Collection[Zone]) -> tuple[Zone, ...]:
+    """Return zones in which planners take only the listed vertices as inside.
+
+    Parameters
+    ----------
+    zones
+        The same zones.
+    """
+    return tuple(replace(zone, listed_only=True) for zone in zones)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,6 +70,7 @@ def zones_of(
     named: Collection[NamedZone],
     ids: Mapping[str, int],
     edges: Collection[tuple[str, str]],
+    pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]],
 ) -> tuple[Zone, ...]:
     """Return zones by vertex numbers.
 
@@ -52,17 +82,19 @@ def zones_of(
         Number of each vertex.
     edges
         Tail and head of each edge of the roadmap, by name.
+    pieces
+        Tail and head of every piece of each lane that was split. A lane in a zone stands for them.
 
     Raises
     ------
     InputError
-        With every vertex and edge that the roadmap does not have, every name given twice, and every
-        vertex that belongs to a zone and is not listed.
+        With every vertex and edge that the roadmap does not have, and every name given twice.
     """
+    lanes = {*edges, *pieces}
     faults = []
     names: set[str] = set()
     for index, zone in enumerate(named):
-        faults += [fault.within(f"zones[{index}]") for fault in _faults(zone, names, ids, edges)]
+        faults += [fault.within(f"zones[{index}]") for fault in _faults(zone, names, ids, lanes)]
         names.add(zone.name)
     if faults:
         raise InputError(faults)
@@ -70,7 +102,10 @@ def zones_of(
         Zone(
             name=zone.name,
             vertices=tuple(VertexId(ids[name]) for name in zone.vertices),
-            edges=tuple((VertexId(ids[tail]), VertexId(ids[head])) for tail, head in zone.edges),
+            edges=tuple(
+                (VertexId(ids[tail]), VertexId(ids[head]))
+                for tail, head in chain.from_iterable(pieces.get(e, (e,)) for e in zone.edges)
+            ),
         )
         for zone in named
     )
@@ -80,7 +115,7 @@ def _faults(
     zone: NamedZone,
     names: Collection[str],
     ids: Mapping[str, int],
-    edges: Collection[tuple[str, str]],
+    lanes: Collection[tuple[str, str]],
 ) -> Iterator[InputFault]:
     if zone.name in names:
         yield InputFault("name", f"{shown(zone.name)} is the name of another zone (give its own)")
@@ -92,12 +127,6 @@ def _faults(
             hint = f"did you mean {near!r}?" if near else f"name one of the {len(ids)} vertices"
             yield InputFault(f"vertices[{index}]", f"no vertex is named {shown(name)} ({hint})")
     for index, (tail, head) in enumerate(zone.edges):
-        if (tail, head) not in edges:
+        if (tail, head) not in lanes:
             message = f"no edge leads from {shown(tail)} to {shown(head)} (name an edge)"
             yield InputFault(f"edges[{index}]", message)
-    entered, left = {head for _, head in zone.edges}, {tail for tail, _ in zone.edges}
-    for name in sorted((entered & left).difference(zone.vertices)):
-        yield InputFault(
-            "vertices",
-            f"{shown(name)} can be entered and left along edges of the zone (list it, too)",
-        )

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp
 from rightofway.model import cost_of
-from rightofway.model.problem import refuse_closures
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
@@ -35,6 +35,7 @@ def auto(task: Task) -> Draft:
     if task.options["swaps"] == "leave":
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
         refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
+        refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     explained = None
     if len(task.scenario.robots) <= FEW:
@@ -43,10 +44,16 @@ def auto(task: Task) -> Draft:
         with suppress(GaveUp):
             explained = two_level(hurried)
             task.has_plan()
+            task.better(lambda: explained.tracks)
     if explained is None:
         return lns(task)
-    first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
-    better = improved(task, fleet_search(task), first=first)
+    resources, first = task.scenario.problem.resources, None
+    if resources is None or resources.is_exact:  # else two-level may wait where LNS may not
+        first = Draft(tracks=explained.tracks, status=f"two-level, {explained.status}")
+    try:
+        better = improved(task, fleet_search(task), first=first)
+    except GaveUp:
+        return explained
     before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better

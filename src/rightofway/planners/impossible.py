@@ -32,7 +32,7 @@ from rightofway.model import (
     VertexId,
 )
 from rightofway.model.closures import Closure
-from rightofway.model.resources import distance
+from rightofway.model.resources import are_nearer, distance
 from rightofway.planners.task import Deadline
 from rightofway.search import (
     Bookings,
@@ -134,14 +134,42 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
                 message += f" zone {zone.name} (let one of them {when} elsewhere)"
                 yield Blockage(message, (one.name, other.name), at)
                 continue
+            needed = one.radius + other.radius
+            needed += clearance if needed else 0
+            if not are_nearer(roadmap, here, there, needed):
+                continue  # in one zone for visits that are entered and left along its edges
             yield Blockage(
                 f"{one.name} at {at[0]} and {other.name} at {at[1]} would {when}"
                 f" {length(distance(roadmap, here, there))} apart, but need"
-                f" {length(one.radius + other.radius + clearance)} (let one of them {when}"
+                f" {length(needed)} (let one of them {when}"
                 " elsewhere)",
                 (one.name, other.name),
                 at,
             )
+
+
+def refuse_passed_zones(scenario: Scenario) -> None:
+    """Raise if robots start or end where others pass a zone, so that no planner can begin.
+
+    Parameters
+    ----------
+    scenario
+        A problem whose zones do not list all vertices that robots pass.
+
+    Raises
+    ------
+    GaveUp
+        Naming two robots.
+    """
+    resources, itineraries = scenario.problem.resources, scenario.problem.itineraries
+    if resources is None:
+        return
+    for places in ([one.home for one in itineraries], [one.last for one in itineraries]):
+        for i, j in resources.clashes(places):
+            one, other = (scenario.robots[robot].name for robot in (i, j))
+            here, there = (scenario.roadmap.name(places[robot]) for robot in (i, j))
+            message = f"{one} at {here} and {other} at {there} stand where robots pass a zone"
+            raise GaveUp(f"{message} (let one of them stand elsewhere)")
 
 
 class _Parts:

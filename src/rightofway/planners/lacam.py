@@ -13,6 +13,9 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
+Where turning on the spot takes time, the timed search orders visits without it, and the earliest
+timetable of that order has the turns.
+
 Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
 long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
@@ -32,9 +35,10 @@ from rightofway.planners.impossible import (
     refuse_stranded,
     refuse_the_impossible,
 )
+from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_on
-from rightofway.search import Distances, plan_by_lacam, untimed_lacam
+from rightofway.search import Distances, FleetSearch, plan_by_lacam, untimed_lacam
 
 SHARE_OF_TIME = 0.9
 """The part of the time for the timed search."""
@@ -68,7 +72,20 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
     status = "instant by instant"
-    if tracks is None:
+    if scenario.problem.turns and scenario.problem.resources is not None:
+        tracks = None  # instants have no turns in them, and orders at vertices know no sizes
+    elif tracks is not None and scenario.problem.turns:
+        visited = [track.vertices.tolist() for track in tracks]
+        tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
+    if scenario.problem.resources is not None:
+        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
+        if tracks is None:
+            task.report("no end by instants: planning the order of single moves")
+            return plan_by_moves(task, search)
+        search.start(tracks)
+        search.retime()
+        tracks = list(search.tracks())
+    elif tracks is None:
         task.report("no end by instants: planning the order of moves without clocks")
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
         left = task.deadline.seconds_left()
@@ -86,9 +103,13 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:
     """Return the earliest tracks that keep the routes and the order of steps of `untimed_lacam`."""
+    return timetable_in_order(scenario, *order_of_steps(steps))
+
+
+def order_of_steps(steps: NDArray[np.int32]) -> tuple[list[list[VertexId]], list[list[int]]]:
+    """Return the vertices that each robot visits, and the step in which each visit begins."""
     arrivals = [[0, *(np.flatnonzero(np.diff(places)) + 1).tolist()] for places in steps.T]
-    visited = [steps[arrival, robot].tolist() for robot, arrival in enumerate(arrivals)]
-    return timetable_in_order(scenario, visited, arrivals)
+    return [steps[when, robot].tolist() for robot, when in enumerate(arrivals)], arrivals
 
 
 def timetable_in_order(

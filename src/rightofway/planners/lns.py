@@ -99,6 +99,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
 
     An interrupt ends it too where the task keeps the best plan.
     """
+    task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
     deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
@@ -108,7 +109,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     done, ended = 0, ""
     try:
         while search.cost != bound and done < iterations:
-            began, done_before = time.perf_counter(), done
+            began, done_before, cost = time.perf_counter(), done, search.cost
             done += search.improve(
                 iterations - done,
                 patience=patience,
@@ -116,6 +117,8 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
+            if search.cost < cost:
+                task.better(search.tracks)
             reached = task.scenario.quantities.duration(search.cost)
             gap = f", {search.cost / bound - 1:.1%} above the bound" if bound else ""
             what = "flowtime and surcharges" if task.scenario.roadmap.surcharges else "flowtime"
@@ -126,25 +129,32 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.cost < before and task.scenario.problem.closures is not None:
-        graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
-        search.start(graph.tracks())
-    elif search.cost < before:
-        # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
-        # order at each vertex.
-        search.retime()
+    if search.cost < before:
+        _retime(task, search)
     if search.cost == bound:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
     elif search.cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    found, cost = search.tracks(), partial(cost_of, task.scenario)
-    if spaced is not first.tracks and cost(found) > cost(first.tracks):
+    found, measured = search.tracks(), partial(cost_of, task.scenario)
+    if spaced is not first.tracks and measured(found) > measured(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
-    saved = cost(first.tracks) - cost(found)
+    saved = measured(first.tracks) - measured(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
     return Draft(tracks=found, status=status, improvement=made)
+
+
+def _retime(task: Task, search: FleetSearch) -> None:
+    """Shift every visit to the earliest time that keeps the order at each vertex.
+
+    LNS replaces tracks, not waits.
+    """
+    if task.scenario.problem.closures is None:
+        search.retime()
+    else:
+        graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
+        search.start(graph.tracks())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

@@ -53,6 +53,7 @@ def local_search(task: Task) -> Draft:
     """
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     task.has_plan()
+    task.better(lambda: first.tracks)
     before = graph_of(task.scenario, first.tracks)
     graph = graph_of(task.scenario, first.tracks, headway=planning_headway(task.scenario))
     LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
@@ -89,6 +90,7 @@ class LocalSearch:
         """Descend, then change some robots' luck and descend again, until no robot is late."""
         try:
             self.descend()
+            self.task.better(self.graph.tracks)
             for _ in range(rounds):
                 if self.graph.flowtime() == sum(self.alone):
                     return
@@ -100,6 +102,8 @@ class LocalSearch:
                 finally:
                     if self.graph.flowtime() > before:
                         self.graph.rollback(mark)
+                if self.graph.flowtime() < before:
+                    self.task.better(self.graph.tracks)
         except GaveUp:
             return
 

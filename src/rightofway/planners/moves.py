@@ -24,7 +24,7 @@ more robots might rotate instead: then nothing is proven.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from heapq import heapify, heappop, heappush
 from itertools import count, product
 from typing import NamedTuple
@@ -83,7 +83,7 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     """
     resources = task.scenario.problem.resources
     assert resources is not None, "this is for robots with a size"
-    moves = _moves(task)
+    moves = _moves(task, _Floor(task), MOST_STATES)
     if task.scenario.problem.closures is not None:
         message = "robots one after another find no plan that keeps clear of closures"
         raise GaveUp(f"{message} (give a longer time limit, or fewer closures)")
@@ -93,12 +93,37 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     return Draft(tracks=search.tracks(), status="order of moves first")
 
 
+def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: int) -> list[Track]:
+    """Return tracks in which robots with a size make one move after another.
+
+    Parameters
+    ----------
+    task
+        The problem; its robots have sizes.
+    ends_anywhere
+        Robots that serve all stages but the last one, and may end at any vertex.
+    most_states
+        States that are expanded at most.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists.
+    GaveUp
+        After too many states, or when time ran out.
+    """
+    resources = task.scenario.problem.resources
+    assert resources is not None, "this is for robots with a size"
+    return _in_sequence(task, _moves(task, _Floor(task, ends_anywhere), most_states))
+
+
 class _Timed(NamedTuple):
     """A state with the earliest times of the moves that led there.
 
-    `ready` is when each robot has worked and turned where it is, `ends` when each robot's latest
-    booking that excludes others from a row has ended, by row and robot, `leave_by` when the place
-    of each robot is closed next, `enters` when each move has ended [ticks].
+    `ready` is when each robot has worked and turned where it is, but for the turn to the next edge;
+    `ends` when each robot's latest booking that excludes others from a row has ended, by row and
+    robot; `leave_by` when the place of each robot is closed next; `enters` when each move has ended
+    [ticks]; `edges` the edge along which each robot has come, -1 if it turns in no time.
     """
 
     state: _State
@@ -107,10 +132,14 @@ class _Timed(NamedTuple):
     leave_by: tuple[int, ...]
     moves: tuple[_Move, ...]
     enters: tuple[int, ...]
+    edges: tuple[int, ...]
 
     def is_as_early_as(self, other: _Timed) -> bool:
-        """Return whether no robot and no booking is later than in another one of this state."""
-        if self.leave_by != other.leave_by:
+        """Return whether no robot and no booking is later than in another one of this state.
+
+        Headings differ where robots that turn in some time have come along different edges.
+        """
+        if self.leave_by != other.leave_by or self.edges != other.edges:
             return False
         return all(a <= b for a, b in zip(self.ready, other.ready, strict=True)) and all(
             end <= other.ends.get(key, 0) for key, end in self.ends.items()
@@ -178,21 +207,23 @@ def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> 
     else:
         search.start(_at_times(floor, timed))
     task.has_plan()
-    return Draft(tracks=search.tracks(), status="best order of moves")
+    best = "best order of moves" if floor.is_exact else "an order of moves"
+    return Draft(tracks=search.tracks(), status=best)
 
 
-def _moves(task: Task) -> list[_Move]:
+def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
     """Return moves that bring all robots through their trips, at no times."""
-    floor = _Floor(task)
     start = floor.served(_State(tuple(one.home for one in floor.itineraries), floor.no_stage))
     came_from: dict[_State, tuple[_State, _Move] | None] = {start: None}
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
     for expanded in count():
-        if not waiting:
+        if not waiting and floor.is_exact:
             raise NoPlanExists([_blockage(task)])
-        if expanded == MOST_STATES:
-            raise GaveUp(f"no order of moves in {MOST_STATES} states (give robots more room)")
+        if not waiting:
+            raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")
+        if expanded == most_states:
+            raise GaveUp(f"no order of moves in {most_states} states (give robots more room)")
         if expanded % BETWEEN_CHECKS == 0:
             task.deadline.check("searching for an order of moves")
         to_go, _, state = heappop(waiting)
@@ -226,12 +257,14 @@ def _blockage(task: Task) -> Blockage:
 class _Floor:
     """The moves of a fleet, and how far a state is from the end."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, ends_anywhere: Collection[int] = ()) -> None:
         problem = task.scenario.problem
         if problem.closures is not None:
             problem = planning_problem(task.scenario)
         may_rotate = not problem.books_ahead and len(problem.itineraries) > 2  # noqa: PLR2004
-        self.is_proof = not may_rotate and problem.headway == task.scenario.problem.headway
+        self.is_exact = problem.resources is None or problem.resources.is_exact
+        is_headway = problem.headway == task.scenario.problem.headway
+        self.is_proof = self.is_exact and is_headway and not may_rotate
         self.itineraries = problem.itineraries
         self.no_stage = (0,) * len(self.itineraries)
         self._roadmap, self._resources = task.scenario.roadmap, problem.resources
@@ -250,6 +283,8 @@ class _Floor:
             [distances.to(stage.vertex, one.edge_ticks).tolist() for stage in one.stages]
             for one in self.itineraries
         ]
+        for robot in ends_anywhere:
+            self._ways[robot][-1] = [0] * self._roadmap.n_vertices
         self._later = [
             [
                 sum(ways[k][one.stages[k - 1].vertex] for k in range(stage + 1, len(ways)))
@@ -299,7 +334,7 @@ class _Floor:
                 for one, served in zip(self.itineraries, stages, strict=True)
             )
             state = _State(home.places, stages)
-            found.append(_Timed(state, ready, {}, leave_by, (), ()))
+            found.append(_Timed(state, ready, {}, leave_by, (), (), (-1,) * len(ready)))
         return found
 
     def served(self, state: _State) -> _State:
@@ -348,6 +383,9 @@ class _Floor:
         approach = drive if self._ahead else 0
         needed = {self._edge_row(robot, move.edge), self._vertex_row(robot, move.vertex)}
         enter = timed.ready[robot] + drive
+        turning = self.itineraries[robot].turning
+        if turning is not None:
+            enter += turning.of(timed.edges[robot], move.edge)
         for (row, other), end in timed.ends.items():
             if other != robot and row in needed:
                 enter = max(enter, end + approach)
@@ -377,6 +415,9 @@ class _Floor:
         for left in (along, self._vertex_row(robot, timed.state.places[robot])):
             for row in self._excluded_rows(left):
                 ends[row, robot] = enter + self._headway
+        edges = timed.edges
+        if itinerary.turning is not None:
+            edges = (*edges[:robot], move.edge, *edges[robot + 1 :])
         return _Timed(
             state,
             (*timed.ready[:robot], ready, *timed.ready[robot + 1 :]),
@@ -384,6 +425,7 @@ class _Floor:
             (*timed.leave_by[:robot], leave_by, *timed.leave_by[robot + 1 :]),
             (*timed.moves, move),
             (*timed.enters, enter),
+            edges,
         )
 
     def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
@@ -431,7 +473,7 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
     vertices = [[one.home] for one in itineraries]
     enter = [[Tick(0)] for _ in itineraries]
-    stages, now = [0] * len(itineraries), 0
+    stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:
         one, place = itineraries[robot], vertices[robot][-1]
         served = []
@@ -439,6 +481,9 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
             served.append(one.stages[stages[robot]])
             stages[robot] += 1
         ready = enter[robot][-1] + least_dwell(served, leaves=True)
+        if one.turning is not None:
+            ready += one.turning.of(edges[robot], edge)
+        edges[robot] = edge
         now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
         now += task.scenario.problem.headway
         vertices[robot].append(VertexId(head))

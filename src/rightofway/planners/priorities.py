@@ -139,6 +139,7 @@ def _best_of(
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
+            task.better(lambda: draft.tracks)
             flowtime = task.scenario.quantities.duration(reached)
             task.report(f"order {tried}: flowtime {flowtime}")
         return reached

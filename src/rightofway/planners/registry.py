@@ -37,6 +37,8 @@ class PlannerSpec:
         Whether it keeps clear of closures.
     knows_types
         Whether it keeps robots off edges that are barred for their type.
+    knows_turns
+        Whether it plans robots that need time to turn on the spot.
     """
 
     name: str
@@ -48,6 +50,7 @@ class PlannerSpec:
     knows_sizes: bool = False
     knows_closures: bool = False
     knows_types: bool = False
+    knows_turns: bool = False
 
     @property
     def options(self) -> tuple[Option, ...]:
@@ -90,6 +93,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "two-level",
@@ -99,6 +103,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "paper",
@@ -112,6 +117,8 @@ PLANNERS = (
         "rightofway.planners.lacam:lacam",
         "Moves all robots together, step by step: a plan at once, also where there is hardly room.",
         options.LacamOptions,
+        knows_turns=True,
+        knows_sizes=True,
     ),
     PlannerSpec(
         "local-search",
@@ -122,6 +129,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "fixed-priority",
@@ -131,6 +139,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "random-priority",
@@ -140,6 +149,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "priority-search",
@@ -149,6 +159,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "prioritized",
@@ -158,6 +169,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
     PlannerSpec(
         "lns",
@@ -168,6 +180,7 @@ PLANNERS = (
         knows_sizes=True,
         knows_closures=True,
         knows_types=True,
+        knows_turns=True,
     ),
 )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -75,6 +75,9 @@ class Task:
     alone
         The least completion of each robot without the others [ticks], -1 where no way leads to a
         place, where that is known; int64, shape (R,).
+    better
+        Planners that improve a plan call it with a function that returns the tracks of the best
+        plan so far, whenever there is a better one.
     keep_best
         Whether an interrupt ends the planner with the best plan so far, where there is one.
     """
@@ -85,6 +88,7 @@ class Task:
     deadline: Deadline = Deadline()
     report: Callable[[str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
+    better: Callable[[Callable[[], Sequence[Track]]], None] = lambda _: None
     start: tuple[Track, ...] | None = None
     alone: NDArray[np.int64] | None = None
     keep_best: bool = False

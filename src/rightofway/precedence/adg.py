@@ -222,11 +222,18 @@ class ActionDependencyGraph:
         )
 
     def order_at(self, when: NDArray[np.int64]) -> NDArray[np.int32]:
-        """Return the order of visits, as above, that take place at some times; int64[N]."""
+        """Return the order of visits, as above, that take place at some times; int64[N].
+
+        Raises
+        ------
+        ValueError
+            If robots with a size cannot make their visits in that order.
+        """
         if self.scenario.problem.resources is None:
             return order_of(self.vertex, when)
         graph = graph_on(self.scenario, self.routes)
-        graph.keep_order(np.split(when, self.first_visit[1:-1]))
+        if not graph.keeps_order(np.split(when, self.first_visit[1:-1])):
+            raise ValueError("when: some visits cannot take place in this order")
         rights = graph.rights()
         return rights[np.lexsort((rights[:, 0], rights[:, 1]))]
 

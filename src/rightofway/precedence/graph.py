@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import Resources, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model import Lap, Route, Scenario, Tick, Track, VertexId, route_of
+from rightofway.model.passed_zones import visit_rows
 from rightofway.precedence.segments import (
     IncompatiblePair,
     Segment,
@@ -47,13 +48,14 @@ class BookedRows:
     vertex, edge
         The row of each visit's vertex, and of the edge driven out of it, -1 for last visits; int32,
         shape (N,).
-    resources
-        Which rows exclude each other.
+    first, excluded
+        The lists of rows that each row excludes, as in `Resources`.
     """
 
     vertex: NDArray[np.int32]
     edge: NDArray[np.int32]
-    resources: Resources
+    first: NDArray[np.int32]
+    excluded: NDArray[np.int32]
 
     @classmethod
     def of(
@@ -71,21 +73,50 @@ class BookedRows:
         resources = scenario.problem.resources
         if resources is None:
             return None
-        at_vertex, along_edge = [], []
+        at_vertex, first, excluded = visit_rows(scenario, vertices)
+        along_edge = []
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
             edges = scenario.roadmap.edges(visited[:-1], visited[1:])
-            at_vertex.append(resources.vertex_row(robot, 0) + visited)
             along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
-            resources=resources,
+            first=first,
+            excluded=excluded,
+        )
+
+    @classmethod
+    def of_laps(
+        cls, scenario: Scenario, robots: Sequence[int], laps: Sequence[Lap], counts: Sequence[int]
+    ) -> BookedRows | None:
+        """Return the rows of visits that repeat, or None where no robot has a size.
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        robots, laps, counts
+            Robots of the scenario, the lap of each, and how many laps it makes in a period.
+        """
+        resources = scenario.problem.resources
+        if resources is None:
+            return None
+        at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
+        for robot, lap, count in zip(robots, laps, counts, strict=True):
+            rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
+            for found, own in zip((at_vertex, along_edge), rows, strict=True):
+                found.append(np.tile(own, count))
+        return cls(
+            vertex=np.concatenate(at_vertex, dtype=np.int32),
+            edge=np.concatenate(along_edge, dtype=np.int32),
+            first=resources.first,
+            excluded=resources.excluded,
         )
 
     def arrays(self) -> tuple[NDArray[np.int32], ...]:
         """Return the arrays as kernels take them: the rows, and the lists of excluded rows."""
-        return self.vertex, self.edge, self.resources.first, self.resources.excluded
+        return self.vertex, self.edge, self.first, self.excluded
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -302,8 +333,12 @@ class PrecedenceGraph:
             For each robot, a number for each of its visits; of two visits to one vertex, the one
             with the smaller number goes first. The ticks of a plan, or steps.
         """
-        possible = self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
+        possible = self.keeps_order(when)
         assert possible, "what took place in some order can take place in it again"
+
+    def keeps_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> bool:
+        """Do as `keep_order`; false, with nothing changed, if some visit cannot take place."""
+        return self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
 
     def rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
         """Return all (first, second) of which one is a visit of the robot."""

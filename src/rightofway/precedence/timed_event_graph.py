@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, visits_of_laps
+from rightofway.precedence.graph import BookedRows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -136,6 +137,8 @@ class TimedEventGraph:
         Ticks that a vertex stays booked after it was left.
     books_ahead
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rows
+        What the visits book, where robots have a size.
 
     Attributes
     ----------
@@ -149,16 +152,24 @@ class TimedEventGraph:
         Ticks of the drive into it, and how long it lasts at least; int64.
     """
 
-    def __init__(self, timetable: CyclicSchedule, *, headway: Tick, books_ahead: bool) -> None:
+    def __init__(
+        self,
+        timetable: CyclicSchedule,
+        *,
+        headway: Tick,
+        books_ahead: bool,
+        rows: BookedRows | None = None,
+    ) -> None:
         self.timetable = timetable
+        self.rows = rows
         self.headway = headway
         self.books_ahead = books_ahead
         laps, counts = timetable.laps, timetable.counts
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
         self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
-        rows = zip(*map(visits_of_laps, laps, counts), strict=True)
-        self.vertex, self.dwell, self.drive = map(np.concatenate, rows)
+        columns = zip(*map(visits_of_laps, laps, counts), strict=True)
+        self.vertex, self.dwell, self.drive = map(np.concatenate, columns)
 
     def __len__(self) -> int:
         return len(self.vertex)
@@ -194,7 +205,7 @@ class TimedEventGraph:
             height=self.wraps,
             first=np.full(len(self), -1, np.int32),
         )
-        rights = self._rights_of_way()
+        rights = self._rights_of_way() if self.rows is None else self._rights_by_rows(self.rows)
         return Arcs(
             **{
                 name: np.concatenate((getattr(progress, name), getattr(rights, name)))
@@ -222,6 +233,56 @@ class TimedEventGraph:
             length=np.full(len(first), int(self.headway), np.int64) + approach,
             height=(turn[first] + rounds - turn[second] - self.wraps[first]).astype(np.int32),
             first=first.astype(np.int32),
+        )
+
+    def _rights_by_rows(self, rows: BookedRows) -> Arcs:
+        """Return for each start, of each other robot, an arc from its latest end before.
+
+        Of two incompatible visits, that one goes first which ends first. A visit ends with its
+        leave; the start that counts is its own, or that of the next visit, whose drive in is along
+        the edge that is too near.
+        """
+        period, n = int(self.timetable.period), len(self)
+        enter = np.concatenate(self.timetable.enter)
+        turn, tick = np.divmod(enter[self.after] + self.wraps * period, period)
+        rank = np.empty(n, np.int64)
+        rank[np.lexsort((np.arange(n), tick))] = np.arange(n)
+        visit, row = np.tile(np.arange(n), 2), np.concatenate((rows.vertex, rows.edge))
+        start = np.concatenate((np.arange(n), self.after))
+        later = np.concatenate((np.zeros(n, np.int64), self.wraps))
+        # All ends by row and robot, in the order of a period.
+        n_robots = len(self.timetable.laps)
+        key = row.astype(np.int64) * n_robots + self.robot[visit]
+        order = np.lexsort((rank[visit], key))
+        found, begins = np.unique(key[order], return_index=True)
+        ends, of_row = np.append(begins[1:], 2 * n), found // n_robots
+        places = np.repeat(np.arange(len(found)), ends - begins) * n + rank[visit[order]]
+        # Each start asks all rows that exclude it, and there each other robot.
+        first, excluded = rows.first, rows.excluded
+        asks, at = _ranges(first[row], first[row + 1])
+        again, of = _ranges(
+            np.searchsorted(of_row, excluded[at]), np.searchsorted(of_row, excluded[at], "right")
+        )
+        asks = asks[again]
+        is_other = found[of] % n_robots != self.robot[visit[asks]]
+        asks, of = asks[is_other], of[is_other]
+        before = np.searchsorted(places, of * n + rank[visit[asks]]) - 1
+        is_earlier_round = before < begins[of]
+        ended = visit[order][np.where(is_earlier_round, ends[of] - 1, before)]
+        rounds = turn[visit[asks]] - turn[ended] - is_earlier_round
+        tail, head = self.after[ended], start[asks]
+        height = later[asks] - rounds - self.wraps[ended]
+        n_visits = np.diff(self.first)[self.robot[ended]]
+        when = tail - self.first[self.robot[ended]] - height * n_visits
+        in_order = np.lexsort((when, self.robot[ended], head))
+        pair = head[in_order] * np.int64(n_robots) + self.robot[ended[in_order]]
+        kept = in_order[np.append(pair[1:] != pair[:-1], np.ones(min(len(pair), 1), np.bool_))]
+        return Arcs(
+            tail=tail[kept],
+            head=head[kept].astype(np.int32),
+            length=int(self.headway) + self.drive[head[kept]],
+            height=height[kept].astype(np.int32),
+            first=ended[kept].astype(np.int32),
         )
 
     def has_swaps(self) -> bool:
@@ -316,6 +377,15 @@ class TimedEventGraph:
         parts = np.split(times, self.first[1:-1])
         enter = tuple(part - part[0] // ticks * ticks for part in parts)
         return replace(self.timetable, period=period, enter=enter)
+
+
+def _ranges(
+    first: NDArray[np.integer], end: NDArray[np.integer]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return all numbers of some ranges, and before them the range that each is of."""
+    counts = (end - first).astype(np.int64)
+    of = np.repeat(np.arange(len(first)), counts)
+    return of, np.arange(len(of)) - (np.cumsum(counts) - counts - first)[of]
 
 
 def circuit_of(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circuit | None:

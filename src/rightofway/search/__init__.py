@@ -5,7 +5,7 @@ from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, alone_completions
 from rightofway.search.lacam import plan_by_lacam, untimed_lacam
 from rightofway.search.native import bound, compiler
-from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip
+from rightofway.search.periodic_bookings import PeriodicBookings, RoundTrip, RowsOfLaps
 from rightofway.search.sipp import Booking, Bookings, earliest_track
 
 __all__ = [
@@ -17,6 +17,7 @@ __all__ = [
     "Path",
     "PeriodicBookings",
     "RoundTrip",
+    "RowsOfLaps",
     "alone_completions",
     "bound",
     "compiler",

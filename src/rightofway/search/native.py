@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 from itertools import accumulate, chain, pairwise
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import Problem, Tick, Track
+from rightofway.model.turning import Turning
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
@@ -38,6 +40,7 @@ def bound(problem: Problem) -> _core.Problem:
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
+        turning = _turning(problem)
         native = _BOUND[problem] = _core.Problem(
             indptr=roadmap.indptr,
             heads=roadmap.heads,
@@ -60,8 +63,32 @@ def bound(problem: Problem) -> _core.Problem:
             closed_row=None if closed is None else closed.row,
             closed_from=None if closed is None else closed.start,
             closed_until=None if closed is None else closed.end,
+            **turning,
         )
     return native
+
+
+def _turning(problem: Problem) -> dict[str, Any]:
+    """Return how long robots turn; robots of one turn rate are a class."""
+    robots = problem.itineraries
+    number: dict[Turning, int] = {}
+    class_of = [
+        -1 if one.turning is None else number.setdefault(one.turning, len(number)) for one in robots
+    ]
+    if not number:
+        return {}
+    classes = list(number)
+    angles = classes[0].angles
+    ticks = np.concatenate([one.ticks for one in classes])
+    if ticks.max(initial=0) > np.iinfo(np.int32).max:
+        raise OverflowError(f"a turn of {ticks.max()} ticks does not fit int32")
+    return {
+        "turn_offset": angles.offset,
+        "turn_kind": angles.kind,
+        "turn_class": np.array(class_of, np.int32),
+        "turn_ticks": ticks.astype(np.int32),
+        "n_turn_kinds": len(angles.angles),
+    }
 
 
 def tracks_of(

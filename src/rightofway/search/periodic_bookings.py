@@ -17,7 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Itinerary, Lap, Roadmap, Stage, Tick, VertexId, visits_of_laps
+from rightofway.model import (
+    NEVER,
+    Itinerary,
+    Lap,
+    Resources,
+    Roadmap,
+    Stage,
+    Tick,
+    VertexId,
+    visits_of_laps,
+)
 from rightofway.search.distances import Distances
 
 
@@ -84,6 +94,35 @@ def _with_one_home(stages: Sequence[Stage]) -> tuple[Stage, ...]:
     return (*stages[: len(stages) - len(at_home)], once)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowsOfLaps:
+    """The rows that robots with a size book, where laps repeat.
+
+    Attributes
+    ----------
+    roadmap
+        The graph to drive on.
+    resources
+        Which rows exclude each other.
+    robots
+        Robots of the scenario; bookings number them from 0.
+    """
+
+    roadmap: Roadmap
+    resources: Resources
+    robots: tuple[int, ...]
+
+    def of_lap(self, robot: int, lap: Lap) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return the rows of a lap's vertices, and of the edges driven into them."""
+        one = self.robots[robot]
+        vertices, edges = self.resources.rows_of_lap(self.roadmap, one, lap.vertices)
+        return vertices, np.roll(edges, 1)
+
+
+Visits = tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]
+"""Vertex (or row), least dwell and drive into each visit."""
+
+
 class PeriodicBookings:
     """Bookings of robots that repeat their laps, on a circle of time; or on a line of time.
 
@@ -97,13 +136,36 @@ class PeriodicBookings:
         Ticks that a vertex stays booked after it was left.
     books_ahead
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
+    rows
+        What laps book, where robots have a size; for such robots, a period is needed.
     """
 
     def __init__(
-        self, n_vertices: int, period: Tick | None, *, headway: Tick, books_ahead: bool
+        self,
+        n_vertices: int,
+        period: Tick | None,
+        *,
+        headway: Tick,
+        books_ahead: bool,
+        rows: RowsOfLaps | None = None,
     ) -> None:
         self.period = NEVER if period is None else period
-        self._kernel = _core.PeriodicBookings(n_vertices, period, int(headway), books_ahead)
+        self._rows = rows
+        if rows is None:
+            self._kernel = _core.PeriodicBookings(n_vertices, period, int(headway), books_ahead)
+            return
+        first, excluded = rows.resources.first, rows.resources.excluded
+        self._kernel = _core.PeriodicBookings(
+            len(first) - 1, period, int(headway), books_ahead, first, excluded
+        )
+
+    def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:
+        """Return the visits of some laps, and the rows of the edges driven in."""
+        vertex, dwell, drive = visits_of_laps(lap, count)
+        if self._rows is None:
+            return (vertex, dwell, drive), None
+        vertices, edges = self._rows.of_lap(robot, lap)
+        return (np.tile(vertices, count), dwell, drive), np.tile(edges, count)
 
     def add(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> None:
         """Book the visits of a robot's laps in one period.
@@ -118,7 +180,8 @@ class PeriodicBookings:
 
     def add_if_free(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> bool:
         """Book as `add` does; false, with nothing booked, if a booking overlaps another robot's."""
-        return self._kernel.add(robot, *visits_of_laps(lap, count), enter)
+        visits, edges = self._visits(robot, lap, count)
+        return self._kernel.add(robot, *visits, enter, None, edges)
 
     def add_visits(
         self, robot: int, lap: Lap, visits: range, enter: NDArray[np.int64], leave: int
@@ -144,7 +207,13 @@ class PeriodicBookings:
         self._kernel.remove(robot)
 
     def search(
-        self, lap: Lap, count: int, phase: int, *, time_limit: float | None = None
+        self,
+        lap: Lap,
+        count: int,
+        phase: int,
+        *,
+        robot: int = 0,
+        time_limit: float | None = None,
     ) -> NDArray[np.int64] | None:
         """Return when a robot can begin each visit of its laps in one period, or None.
 
@@ -153,11 +222,12 @@ class PeriodicBookings:
         Complete for this lap, unless no other robot visits its home: then the robot stays there
         until the phase, and None says nothing about other phases.
         """
-        enter = self._kernel.search(*visits_of_laps(lap, count), phase, time_limit)
+        visits, edges = self._visits(robot, lap, count)
+        enter = self._kernel.search(*visits, phase, time_limit, edges)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
 
     def find_route(
-        self, trip: RoundTrip, phase: int, *, time_limit: float | None = None
+        self, trip: RoundTrip, phase: int, *, robot: int = 0, time_limit: float | None = None
     ) -> tuple[Lap, NDArray[np.int64]] | None:
         """Return one lap in a period on any route, and when each visit can begin, or None.
 
@@ -166,6 +236,7 @@ class PeriodicBookings:
         Complete among all routes, with the exception of `search`. From this phase, no route is
         home again earlier.
         """
+        rows = self._rows
         found = self._kernel.find_route(
             trip.roadmap.indptr,
             trip.roadmap.heads,
@@ -177,6 +248,7 @@ class PeriodicBookings:
             list(trip.tables),
             phase,
             time_limit,
+            0 if rows is None else rows.resources.vertex_row(rows.robots[robot], 0),
         )
         if found is None:
             return None
@@ -208,11 +280,28 @@ class PeriodicBookings:
         """Return the vertex that the last search, for this lap, could not enter."""
         return lap.vertices[(self._kernel.reached + 1) % len(lap)]
 
+    def in_the_way(self, robot: int, lap: Lap) -> set[int]:
+        """Return the robots that have booked what the last search, for this lap, could not."""
+        visit = (self._kernel.reached + 1) % len(lap)
+        if self._rows is None:
+            return self.users([lap.vertices[visit]])
+        vertices, edges = self._rows.of_lap(robot, lap)
+        return self._users(np.array([vertices[visit], edges[visit]], np.int32))
+
+    def neighbours(self, robot: int, lap: Lap) -> set[int]:
+        """Return the robots that have booked anything that a lap needs."""
+        if self._rows is None:
+            return self.users(lap.vertices)
+        return self._users(np.concatenate(self._rows.of_lap(robot, lap)))
+
     def users(
         self, vertices: Sequence[VertexId], begins: int = -NEVER, until: int = NEVER
     ) -> set[int]:
         """Return the robots that have booked any of these vertices between two ticks."""
-        return set(self._kernel.users(np.array(vertices, np.int32), begins, until).tolist())
+        return self._users(np.array(vertices, np.int32), begins, until)
+
+    def _users(self, rows: NDArray[np.int32], begins: int = -NEVER, until: int = NEVER) -> set[int]:
+        return set(self._kernel.users(rows, begins, until).tolist())
 
 
 @lru_cache(maxsize=1 << 14)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rightofway.viz.notebook import scenario_html
     from rightofway.viz.page.background import Background
     from rightofway.viz.page.document import frame_of, page_of, write_page
+    from rightofway.viz.page.inspection import inspection_page, site_data, write_inspection
     from rightofway.viz.page.payload import payload_of
     from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, png_of, write_gif, write_png
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 _MODULES = {
     "page.background": ("Background",),
     "page.document": ("frame_of", "page_of", "write_page"),
+    "page.inspection": ("inspection_page", "site_data", "write_inspection"),
     "page.payload": ("payload_of",),
     "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "png_of", "write_gif", "write_png"),
@@ -31,11 +33,14 @@ __all__ = [
     "Film",
     "bundle_of",
     "frame_of",
+    "inspection_page",
     "page_of",
     "payload_of",
     "png_of",
     "scenario_html",
+    "site_data",
     "write_gif",
+    "write_inspection",
     "write_page",
     "write_png",
 ]

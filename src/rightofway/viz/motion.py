@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from rightofway.model import NEVER, Plan, Stage, stays_of
+from rightofway.model import NEVER, Plan, Stage, Tick, stays_of
 
 
 class Activity(Enum):
@@ -43,6 +43,7 @@ class Trip:
     drive: tuple[int, ...]  # of the edge into each visit, 0 for the first [ticks]
     stages: tuple[Stage, ...]
     served: tuple[int, ...]  # the visit that serves each stage, -1 for one that is left out
+    turns: tuple[Tick, ...] = ()  # on the spot in each visit [ticks]; empty if that takes no time
 
     def at(self, tick: float) -> Moment:
         """Return where the robot is at an instant."""
@@ -67,6 +68,8 @@ class Trip:
             for ticks, activity in ((stage.work, Activity.WORK), (stage.turn, Activity.TURN))
             if not (last and activity is Activity.TURN)
         ]
+        if self.turns:
+            duties.append((self.turns[visit], Activity.TURN))
         for ticks, activity in duties:
             end = min(now + ticks, departure)
             if end > now:
@@ -97,6 +100,7 @@ def trips_of(plan: Plan) -> tuple[Trip, ...]:
             drive=(0, *stays.drive[:-1].tolist()),
             stages=itinerary.stages,
             served=(*stays.serves, *[-1] * missed),
+            turns=() if itinerary.turning is None else tuple(map(Tick, stays.turns.tolist())),
         )
         trips.append(trip)
     return tuple(trips)

@@ -49,6 +49,8 @@ class Theme:
         What befalls them on the floor.
     lit, lit_edge
         The bottleneck, and the line round it.
+    zone
+        Vertices and lanes that hold one robot at a time.
     """
 
     paper: str
@@ -69,6 +71,7 @@ class Theme:
     broken: str
     lit: str
     lit_edge: str
+    zone: str
 
     def css(self) -> str:
         """Return the colours as CSS custom properties."""
@@ -81,7 +84,7 @@ LIGHT = Theme(
     ink="#1c2025", muted="#5d646c", focus="#1f62c9",
     heat_low="#f7ead0", heat_high="#a4480d",
     drive="#9db4cf", wait="#d9922e", work="#3d5a80", turn="#6c8cb4",
-    held="#a3324e", broken="#1c2025", lit="#ffdf6b", lit_edge="#8a6400",
+    held="#a3324e", broken="#1c2025", lit="#ffdf6b", lit_edge="#8a6400", zone="#8f7cc6",
 )  # fmt: skip
 
 DARK = Theme(
@@ -89,7 +92,7 @@ DARK = Theme(
     ink="#e9e6df", muted="#a0a8b1", focus="#7db2ff",
     heat_low="#2b2724", heat_high="#e08a3c",
     drive="#4a6484", wait="#e0a045", work="#a9c6ea", turn="#7193bd",
-    held="#ee7f97", broken="#e9e6df", lit="#6e5600", lit_edge="#f0c948",
+    held="#ee7f97", broken="#e9e6df", lit="#6e5600", lit_edge="#f0c948", zone="#8878c8",
 )  # fmt: skip
 
 

@@ -31,7 +31,7 @@ class Plane:
 
 
 def plane_of(roadmap: Roadmap) -> Plane:
-    """Lay out a roadmap; one unit is a cell, or a short edge of the roadmap."""
+    """Lay out a roadmap; one unit is a (smallest) cell, or a short edge of the roadmap."""
     grid = roadmap.grid
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
@@ -42,6 +42,17 @@ def plane_of(roadmap: Roadmap) -> Plane:
             height=grid.rows,
             unit=float(grid.cell_size),
             corner=(0.0, 0.0),
+        )
+    if roadmap.sides is not None:
+        unit, half = float(roadmap.sides.min()), roadmap.sides[:, None] / 2
+        left, top = (roadmap.positions - half).min(axis=0) + unit / 2
+        width, height = (roadmap.positions + half).max(axis=0) - (left, top) + unit / 2
+        return Plane(
+            points=(roadmap.positions - (left, top)) / unit,
+            width=float(width / unit),
+            height=float(height / unit),
+            unit=unit,
+            corner=(float(left), float(top)),
         )
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     drawn = np.hypot(*(roadmap.positions[roadmap.heads] - roadmap.positions[tails]).T)

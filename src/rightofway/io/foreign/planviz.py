@@ -36,7 +36,7 @@ from rightofway.io.foreign.trajectories import (
 )
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
-from rightofway.model.route import drives_along, serving_visits
+from rightofway.model.route import drives_along, serving_visits, turns_along
 
 HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 """Change of row and column, in the order of turns back (counterclockwise)."""
@@ -366,7 +366,8 @@ def _served(plan: Plan, robot: int) -> Sequence[int]:
     """Return when each stop of a robot is done [ticks]."""
     itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
     drive = drives_along(plan.scenario.roadmap, itinerary, track.vertices.tolist())
-    spare = np.append(np.diff(track.enter) - drive, MAX_STEP)
+    turns = turns_along(plan.scenario.roadmap, itinerary, track.vertices)
+    spare = np.append(np.diff(track.enter) - drive - turns[:-1], MAX_STEP)
     serves = serving_visits(itinerary.stages, track.vertices, spare)
     return [
         int(track.enter[visit]) + stage.work

@@ -20,6 +20,9 @@ TAILS = ("from", "source", "start", "tail", "startid")
 HEADS = ("to", "target", "end", "head", "endid")
 LENGTHS = ("length", "distance", "weight")
 SPEEDS = ("max_speed", "maxspeed", "speed_limit")
+LONGEST_HEADINGS = 10_000
+"""Characters of a row of headings; a JSON file may be one line of millions."""
+
 TRUE, FALSE = ("true", "yes", "1"), ("false", "no", "0", "")
 
 Row = tuple[int, dict[str, str]]
@@ -34,7 +37,7 @@ def recognizes(text: str) -> bool:
 
 
 def _headings(text: str) -> list[str]:
-    first = text.partition("\n")[0]
+    first = text[:LONGEST_HEADINGS].partition("\n")[0]
     return [word.strip().strip('"').lower() for word in re.split("[,;\t]", first)]
 
 

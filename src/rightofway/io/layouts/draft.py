@@ -8,10 +8,10 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults
+from rightofway.model.drawing import Picture
 from rightofway.model.geometry import (
     Point,
     rounding_step,
-    squared_distance,
     straight_length,
 )
 from rightofway.model.layout import (
@@ -65,6 +65,7 @@ class LevelDraft:
     lanes: list[Lane] = field(default_factory=list)
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
+    picture: Picture | None = None
 
     def add(self, vertex: LayoutVertex, place: str) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
@@ -83,6 +84,27 @@ class LevelDraft:
         if len(self.lanes) == MAX_EDGES:
             raise InputError.at(lane.place, f"more than {MAX_EDGES} lanes (give a part of it)")
         self.lanes.append(lane)
+
+
+def _in_micrometres(point: Point) -> tuple[int, int]:
+    return int(point[0] * MICRO), int(point[1] * MICRO)
+
+
+def _square(one: tuple[int, int], other: tuple[int, int]) -> int:
+    """Return the squared distance of two points; whole numbers are quicker than fractions."""
+    return (one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2
+
+
+class _Straight(dict[int, Fraction]):
+    """The straight length [m] of each squared distance [square micrometres]."""
+
+    def __init__(self, step: Fraction) -> None:
+        super().__init__({0: Fraction(0)})
+        self.step = step
+
+    def __missing__(self, square: int) -> Fraction:
+        self[square] = found = straight_length(Fraction(square, MICRO**2), self.step)
+        return found
 
 
 class Draft:
@@ -128,13 +150,15 @@ class Draft:
 
     def _finished(self, level: LevelDraft, elsewhere: set[str]) -> Level:
         vertices, edges, links = level.vertices, list[LayoutEdge](), 0
+        micro = {name: _in_micrometres(each.at) for name, each in vertices.items()}
         squares = [
-            squared_distance(vertices[lane.tail].at, vertices[lane.head].at)
-            for lane in level.lanes
+            _square(micro[lane.tail], micro[lane.head])
             if lane.tail in vertices and lane.head in vertices
+            else 0
+            for lane in level.lanes
         ]
-        step = rounding_step(squares)
-        for lane in level.lanes:
+        straight = _Straight(rounding_step({Fraction(each, MICRO**2) for each in set(squares)}))
+        for lane, square in zip(level.lanes, squares, strict=True):
             missing = [end for end in (lane.tail, lane.head) if end not in vertices]
             if any(end not in elsewhere for end in missing):
                 near = nearest(missing[0], vertices)
@@ -148,7 +172,7 @@ class Draft:
             elif lane.max_speed is not None and lane.max_speed <= 0:
                 self.faults.note(lane.place, f"speed limit {lane.max_speed} is not positive")
             else:
-                edges.append(self._edge(lane, vertices, step))
+                edges.append(self._edge(lane, square, straight[square]))
         return Level(
             name=level.name,
             vertices=tuple(vertices.values()),
@@ -156,16 +180,16 @@ class Draft:
             stations=tuple(self._served(level)),
             zones=tuple(self._zones(level)),
             links=links,
+            picture=level.picture,
         )
 
-    def _edge(self, lane: Lane, vertices: dict[str, LayoutVertex], step: Fraction) -> LayoutEdge:
-        square = squared_distance(vertices[lane.tail].at, vertices[lane.head].at)
-        straight = straight_length(square, step) if square else SHORTEST
-        if not square:
-            self.repair("a lane between two vertices at one position counts as 1 mm long")
+    def _edge(self, lane: Lane, square: int, straight: Fraction) -> LayoutEdge:
         length = lane.length
-        if length is not None and length < straight:
-            if square and (length + SHORTEST) ** 2 < square:
+        if square == 0:
+            self.repair("a lane between two vertices at one position counts as 1 mm long")
+            length = max(length or SHORTEST, SHORTEST)
+        elif length is not None and length < straight:
+            if ((length + SHORTEST) * MICRO) ** 2 < square:
                 self.repair("a lane shorter than the straight line gets the straight length")
             length = None
         return LayoutEdge(

@@ -78,7 +78,7 @@ def _own() -> dict[str, LayoutFormat]:
         ),
         "open-rmf": LayoutFormat(
             summary="navigation graph or building of Open-RMF", content="data",
-            recognizes=open_rmf.recognizes, read=lambda content, _: open_rmf.read(content),
+            recognizes=open_rmf.recognizes, read=open_rmf.read,
         ),
         "ros-map": LayoutFormat(
             summary="map of the ROS map server, with its picture", content="data",

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from math import hypot
+from math import atan2, hypot
+from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part
+from rightofway.model.drawing import Picture
 from rightofway.model.geometry import Point
 from rightofway.model.layout import Layout, LayoutVertex
 from rightofway.model.zones import NamedZone
@@ -35,8 +37,8 @@ def recognizes(document: Any) -> bool:
     )
 
 
-def read(document: Any) -> Layout:
-    """Return the layout of a navigation graph or a building.
+def read(document: Any, path: Path) -> Layout:
+    """Return the layout of a navigation graph or a building; its pictures lie beside the file.
 
     Raises
     ------
@@ -55,7 +57,30 @@ def read(document: Any) -> Layout:
     for name, part in root.need("levels").entries():
         level = draft.level(name)
         _read_level(level, part, transforms.get(name), draft)
+        if is_building and root.value.get("coordinate_system") in IN_PIXELS:
+            level.picture = _picture(part, transforms[name], path.parent, draft)
     return draft.layout()
+
+
+def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> Picture | None:
+    """Return the picture that a level is drawn over, and where its pixels lie."""
+    drawing = level.value.get("drawing")
+    name = drawing.get("filename") if isinstance(drawing, dict) else None
+    if not isinstance(name, str) or not name:
+        return None
+    try:
+        is_there = (folder / name).is_file()
+    except (OSError, ValueError):
+        is_there = False
+    if not is_there:
+        draft.repair(f"the picture {shown(name)} is not beside the file, and is not drawn")
+        return None
+    far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
+    (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
+    right, up = to_x - x, to_y - y
+    pixel = right / far if up == 0 < right else Fraction(repr(hypot(right, up) / float(far)))
+    yaw = Fraction(repr(atan2(up, right)))
+    return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 
 def _listed(part: Part, key: str) -> list[Part]:

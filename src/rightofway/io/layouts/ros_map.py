@@ -11,6 +11,7 @@ import struct
 import warnings
 import zlib
 from fractions import Fraction
+from math import ceil, floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,8 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, shown
 from rightofway.io.layouts.parts import Part
+from rightofway.model.drawing import Picture
+from rightofway.model.geometry import Frame
 from rightofway.model.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
 
 if TYPE_CHECKING:
@@ -81,11 +84,21 @@ def read(document: Any, path: Path) -> Occupancy:
     pixels = table[values]
     if is_clear is not None and not is_raw:
         pixels[is_clear] = UNKNOWN
+    (x, y), pixel = numbers[:2], resolution.number()
+    yaw = numbers[2] if len(numbers) > 2 else Fraction(0)  # noqa: PLR2004 - x, y, yaw
+    height = len(pixels) * pixel
+    picture = Picture(
+        file=path.parent / root.need("image").text(),
+        pixel=pixel,
+        corner=Frame(x=x, y=y, y_up=True, yaw=yaw).to_site((Fraction(0), -height)),
+        yaw=yaw,
+    )
     return Occupancy(
         pixels=pixels,
-        resolution=resolution.number(),
-        origin=(numbers[0], numbers[1]),
-        yaw=numbers[2] if len(numbers) > 2 else Fraction(0),  # noqa: PLR2004 - x, y, yaw
+        resolution=pixel,
+        origin=(x, y),
+        yaw=yaw,
+        picture=picture,
         notes=tuple(notes),
     )
 
@@ -95,15 +108,11 @@ def _table(largest: int, free: Fraction, occupied: Fraction, *, negate: bool) ->
 
     Between the thresholds it is unknown (``trinary``) or costly (``scale``), and not free for us.
     """
-    dark = [Fraction(value if negate else largest - value, largest) for value in (0, 1)]
-    step = dark[1] - dark[0]
+    values = np.arange(largest + 1)
+    dark = values if negate else largest - values
     table = np.full(largest + 1, UNKNOWN, np.uint8)
-    for value in range(largest + 1):
-        share = dark[0] + value * step
-        if share >= occupied:
-            table[value] = OCCUPIED
-        elif share <= free:
-            table[value] = FREE
+    table[dark <= floor(free * largest)] = FREE
+    table[dark >= ceil(occupied * largest)] = OCCUPIED
     return table
 
 

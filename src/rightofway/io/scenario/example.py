@@ -19,6 +19,7 @@ from rightofway.metrics.connectivity import strong_parts, ways_of
 from rightofway.model import Units, roadmap_of_grid
 from rightofway.model.layout import Layout, Level
 from rightofway.model.occupancy import Occupancy
+from rightofway.model.values import written
 
 ROBOTS = 6
 """Robots of the example, at most."""
@@ -36,7 +37,7 @@ WORK = 10
 """Work time of the example's robots [time unit]."""
 
 
-def example_of_layout(path: Path | str, target: Path | str) -> str:
+def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> str:
     """Return the text of a scenario that has a layout as its map.
 
     Parameters
@@ -46,6 +47,8 @@ def example_of_layout(path: Path | str, target: Path | str) -> str:
     target
         The file that the text is for, JSON if its name ends so; the layout's path in it is relative
         to that file. ``-`` is standard output.
+    radius
+        Radius of the robots [m], in a layout without units [length unit]; 0 for points.
 
     Raises
     ------
@@ -71,26 +74,26 @@ def example_of_layout(path: Path | str, target: Path | str) -> str:
         if len(types) > 1:
             shape["vehicle_type"] = max(types, key=lambda name: len(level.lanes_of(name)))
     elif isinstance(found, Occupancy):
-        shape["cell_size"] = _cell_size(found)
+        shape["cell_size"] = _cell_size(found, radius)
     from rightofway.io.scenario.shape import MapDocument
 
-    loaded = map_of(checked(MapDocument, shape), None, beside, Units(), lambda: Fraction(0))
+    loaded = map_of(checked(MapDocument, shape), None, beside, Units(), lambda: radius)
     assert loaded, "only a floor needs speeds"
     document = {
         "format": SCENARIO_FORMAT,
         "map": shape,
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
-        "robots": _dealt(loaded, level),
+        "robots": _dealt(loaded, level, radius),
     }
     return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
 
 
-def _cell_size(found: Occupancy) -> str:
+def _cell_size(found: Occupancy, radius: Fraction) -> str:
     """Return the largest side of cells with which robots get far, else the largest that fits."""
     fitting = list[str]()
     for size in CELL_SIZES:
         try:
-            roadmap = roadmap_of_grid(found.cells(Fraction(size)))
+            roadmap = roadmap_of_grid(found.cells(Fraction(size), radius=radius))
         except InputError:  # no whole cell, none that is free, or cells below a pixel
             continue
         fitting.append(size)
@@ -99,7 +102,7 @@ def _cell_size(found: Occupancy) -> str:
     return fitting[0] if fitting else CELL_SIZES[0]
 
 
-def _dealt(loaded: LoadedMap, level: Level | None) -> list[dict[str, Any]]:
+def _dealt(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
     part = strong_parts(ways_of(roadmap))[0]
@@ -122,17 +125,17 @@ def _dealt(loaded: LoadedMap, level: Level | None) -> list[dict[str, Any]]:
     shift = SHIFT * len(part) // (2 * ROBOTS)  # targets lie across from homes
     targets = _chosen(list(stations), part[shift:] + part[:shift], count, homes)
     assert inside.issuperset((*homes, *targets))
-    if not count:
-        first = roadmap.name(0)
-        return [{"name": "R1", "home": first, "target": first, "work": WORK}]
+    ends = list(zip(homes, targets, strict=True)) or [(0, 0)]
+    size = {"radius": written(radius)} if radius else {}
     return [
         {
             "name": f"R{number}",
             "home": roadmap.name(home),
             "target": stations.get(target, roadmap.name(target)),
             "work": WORK,
+            **size,
         }
-        for number, (home, target) in enumerate(zip(homes, targets, strict=True), start=1)
+        for number, (home, target) in enumerate(ends, start=1)
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,10 +11,12 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.maps import LoadedMap
+from rightofway.io.scenario.maps import LoadedMap, joined_note
 from rightofway.model import Units, roadmap_of_grid
+from rightofway.model.drawing import Drawing
 from rightofway.model.layout import Layout, roadmap_of_level
 from rightofway.model.occupancy import CellMap, Occupancy
+from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import MapDocument
@@ -39,7 +42,7 @@ def laid_out(
     assert metres, "a unit of length has a length"
     assert seconds, "a unit of time has a length"
     if isinstance(found, Layout):
-        _refuse(document, "a layout of lanes", "cell_size", "unknown")
+        _refuse(document, "a layout of lanes", "cell_size", "smallest", "largest", "unknown")
         level = found.level(document.level)
         roadmap, lacks = roadmap_of_level(
             level,
@@ -49,14 +52,17 @@ def laid_out(
             second=1 / seconds,
             spacing=document.spacing,
         )
+        stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
         known = set(roadmap.labels or ())
-        stations = {
-            station.name: next(name for name in station.vertices if name in known)
-            for station in level.stations
-            if not known.isdisjoint(station.vertices)
-        }
+        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
         notes = (*found.notes, *lacks)
-        return LoadedMap(roadmap=roadmap, units=units, stations=stations, notes=notes)
+        return LoadedMap(
+            roadmap=roadmap,
+            units=units,
+            stations=stations,
+            parking=tuple(roadmap.vertex(name) for name in parking if name in known),
+            notes=notes,
+        )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _cut(document, found, units, metres, radius())
 
@@ -65,6 +71,8 @@ def _cut(
     document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
 ) -> LoadedMap:
     """Cut a map in pixels into cells."""
+    if document.cell_size == "adaptive":
+        return _joined(document, found, units, metres, radius)
     size = document.cell_size if isinstance(document.cell_size, Fraction) else 1 / metres
     lines = found.cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
@@ -77,11 +85,51 @@ def _cut(
             origin=(found.origin[0] / metres, found.origin[1] / metres),
             yaw=found.yaw,
         )
+    if found.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
     cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
-    return LoadedMap(roadmap=roadmap, lines=lines, units=units, notes=(*found.notes, cells))
+    blocked = "what the picture shows there"
+    if 2 * radius > size:
+        blocked += f", or beside it for a radius of {units.written_length(radius)}"
+    return LoadedMap(
+        roadmap=roadmap, lines=lines, units=units, blocked=blocked, notes=(*found.notes, cells)
+    )
+
+
+def _joined(
+    document: MapDocument, found: Occupancy, units: Units, metres: Fraction, radius: Fraction
+) -> LoadedMap:
+    """Cut a map in pixels into squares; the smallest are as wide as the largest robot, or 1 m."""
+    pixel = found.resolution / metres
+    smallest = document.smallest or (max(2 * radius, pixel) if radius else 1 / metres)
+    free = found.free_cells(
+        smallest * metres,
+        radius=radius * metres,
+        unknown_is_free=document.unknown == "free",
+        max_cells=MAX_SMALLEST,
+        key="smallest",
+    )
+    corner = (found.origin[0] / metres, found.origin[1] / metres)
+    roadmap = roadmap_of_squares(
+        free,
+        smallest,
+        largest=document.largest,
+        radius=radius,
+        y_up=True,
+        corner=corner,
+        origin=corner,
+        yaw=found.yaw,
+    )
+    if found.picture is not None:
+        roadmap = replace(roadmap, drawing=Drawing(picture=found.picture.scaled(1 / metres)))
+    note = joined_note("map", roadmap, int(free.sum()), units)
+    return LoadedMap(roadmap=roadmap, units=units, notes=(*found.notes, note))
 
 
 def _drawn_in_cells(document: MapDocument, found: CellMap, file: Path) -> LoadedMap:
+    if document.cell_size == "adaptive":
+        message = "a map in cells has cells already (give cell_size as a length)"
+        raise InputError.at("cell_size", message)
     _refuse(document, "a map in cells", "level", "vehicle_type", "spacing", "unknown")
     size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     with under("layout"):

@@ -14,6 +14,7 @@ from rightofway.io.movingai import load_map
 from rightofway.model import (
     Edge,
     Floor,
+    Frame,
     Grid,
     Obstacle,
     Point,
@@ -29,9 +30,11 @@ from rightofway.model import (
     squared_distance,
     straight_length,
 )
-from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.clustering import MAX_CELLS, free_cells
+from rightofway.model.drawing import Drawing
 from rightofway.model.places import Place, vertex_at
-from rightofway.model.spacing import split_lanes
+from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
+from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -55,6 +58,8 @@ class LoadedMap:
     rounding: str | None = None  # how many lengths are rounded up, and to which step
     units: Units = field(default_factory=Units)
     stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
+    parking: tuple[VertexId, ...] = ()  # parking and charging places
+    blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     notes: tuple[str, ...] = ()  # of a layout's reader
 
     def find(self, place: Place) -> VertexId:
@@ -64,7 +69,9 @@ class LoadedMap:
             grid, floor = self.roadmap.grid, self.floor
             if floor is None or grid is None:
                 sign = self.lines[row][column]
-                return "a space, as only '.' is free" if sign == " " else repr(sign)
+                return self.blocked or (
+                    "a space, as only '.' is free" if sign == " " else repr(sign)
+                )
             if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
                 row = grid.rows - 1 - row
             return _obstacle(row, column, floor, grid)
@@ -110,8 +117,10 @@ def map_of(
         return laid_out(document, file_beside(base, document.layout), units, radius, types)
     if document.roadmap is not None:
         with under("roadmap"):
-            return _drawn(document.roadmap, document.spacing, y_up=document.y_up)
+            return _drawn(document.roadmap, document)
     if document.floor is not None:
+        if document.cell_size == "adaptive":
+            return _joined_floor(document, speeds, radius(), units)
         return _clustered(document, speeds, keeps_names=units != Units())
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
     frame = {
@@ -187,6 +196,51 @@ def _clustered(
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
+def _joined_floor(
+    document: MapDocument, speeds: Sequence[Fraction] | None, radius: Fraction, units: Units
+) -> LoadedMap | None:
+    """Cut a floor into squares of a quadtree, from the corner that has the least x and y.
+
+    The smallest are as wide as the largest robot; where no robot has a size, as node clustering
+    has it.
+    """
+    smallest = document.smallest or 2 * radius
+    if not smallest:
+        if not speeds:
+            return None
+        smallest = node_length(speeds)
+    with under("floor"):
+        floor = _floor(document.floor, document)
+    free = free_cells(floor, smallest, max_cells=MAX_SMALLEST, key="smallest")
+    origin = document.origin or (Fraction(0), Fraction(0) if document.y_up else floor.height)
+    roadmap = roadmap_of_squares(
+        free,
+        smallest,
+        largest=document.largest,
+        radius=radius,
+        y_up=document.y_up,
+        corner=origin if document.y_up else (origin[0], origin[1] - floor.height),
+        origin=origin,
+        yaw=document.yaw or Fraction(0),
+        max_squares=document.floor.max_cells or MAX_CELLS,
+    )
+    return LoadedMap(
+        roadmap=roadmap, notes=(joined_note("floor", roadmap, int(free.sum()), units),)
+    )
+
+
+def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
+    """Return a sentence on the squares that the smallest cells of a map have been joined to."""
+    assert roadmap.sides is not None, "the cells are squares"
+    least, most = (
+        Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
+    )
+    span = f"of {units.written_length(least)}"
+    if most > least:
+        span = f"of {decimal(least)} to {units.written_length(most)}"
+    return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
+
+
 def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     """Return a floor, its obstacles relative to the corner that has the least x and y."""
     width, height = document.size
@@ -200,7 +254,7 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     )
 
 
-def _drawn(document: RoadmapDocument, spacing: Fraction | None, *, y_up: bool) -> LoadedMap:
+def _drawn(document: RoadmapDocument, on: MapDocument) -> LoadedMap:
     """Make a roadmap of its vertices and edges, or report every edge that is wrong."""
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
     positions = {name: vertex.at for name, vertex in document.vertices.items()}
@@ -235,30 +289,65 @@ def _drawn(document: RoadmapDocument, spacing: Fraction | None, *, y_up: bool) -
                 )
             )
     faults.stop()
-    all_positions = dict(positions)
     zones = [
         NamedZone(name=zone.name, vertices=tuple(zone.vertices), edges=tuple(zone.edges))
         for zone in document.zones
     ]
-    if spacing is not None:
-        if zones:
-            raise InputError.at("zones", "spacing does not know zones yet (take one of them out)")
-        all_positions, edges = split_lanes(positions, edges, spacing)
-    drawn = {name: (float(x), float(y)) for name, (x, y) in all_positions.items()}
+    split = SplitLanes(positions, edges, {})
+    if on.spacing is not None:
+        if document.sides is not None:
+            raise InputError.at("sides", "cells are not split by spacing (take one of them out)")
+        split = split_lanes(positions, edges, on.spacing)
+    left, low = on.origin if on.origin and on.yaw else (Fraction(0), Fraction(0))
+    drawn = {name: (float(x - left), float(y - low)) for name, (x, y) in split.positions.items()}
+    frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
+    sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
+    roadmap = roadmap_of_edges(
+        drawn,
+        split.edges,
+        y_up=on.y_up,
+        zones=zones,
+        pieces=split.pieces,
+        sides=sides,
+        frame=frame,
+        barred={name: it.barred for name, it in document.vertices.items() if it.barred},
+        surcharges={name: it.surcharge for name, it in document.vertices.items() if it.surcharge},
+    )
     return LoadedMap(
-        roadmap=roadmap_of_edges(
-            drawn,
-            edges,
-            y_up=y_up,
-            zones=zones,
-            barred={name: it.barred for name, it in document.vertices.items() if it.barred},
-            surcharges={
-                name: it.surcharge for name, it in document.vertices.items() if it.surcharge
-            },
-        ),
+        roadmap=replace(roadmap, drawing=_places(document, roadmap)),
+        stations=document.stations,
         rounding=note if rounded else None,
+    )
+
+
+def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
+    """Return the stations and parking places, or report every vertex that there is not."""
+    faults = Faults()
+
+    def vertex(name: str) -> VertexId:
+        try:
+            return roadmap.vertex(name)
+        except KeyError:
+            near = nearest(name, document.vertices)
+            hint = f"did you mean {near!r}?" if near else "add it to vertices"
+            raise InputError.at("", f"no vertex is named {shown(name)} ({hint})") from None
+
+    def known(key: str, names: Sequence[str]) -> tuple[VertexId, ...]:
+        found = [faults.attempt(f"{key}[{at}]", vertex, name) for at, name in enumerate(names)]
+        return tuple(each for each in found if each is not None)
+
+    stations = [
+        (name, faults.attempt(f"stations.{name}", vertex, at))
+        for name, at in document.stations.items()
+    ]
+    parking, charging = known("parking", document.parking), known("charging", document.charging)
+    faults.stop()
+    return Drawing(
+        stations=tuple((name, at) for name, at in stations if at is not None),
+        parking=parking,
+        charging=charging,
     )
 
 

@@ -20,9 +20,12 @@ from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
+from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
 from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.places import kinds_of_places
+from rightofway.model.turning import longest_turn
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -35,6 +38,11 @@ MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
 
 DEFAULT_SPEED = Fraction(1)
+
+HOME = f"the place it starts from: {kinds_of_places(None)}"
+
+HOMELESS = VertexId(-1)
+"""The home of a robot to which none is dealt out yet."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -95,7 +103,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-        return Rules(**given(*keys))
+        return Rules(**given(*keys, "turn_rate"))
 
     def units_of(data: Any) -> Units:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
@@ -124,10 +132,14 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     robots = faults.part(document, "robots", _written_robots, base) or []
     speeds = _speeds(robots)
     loaded = faults.part(document, "map", loaded_map_of)
-    if not isinstance(robots, _Rows):
-        placed = list(_listed(robots, loaded, faults))
-    else:
+    more = list[str]()
+    if isinstance(robots, _Rows):
         placed = _dealt(robots, loaded, faults) if loaded else []
+    else:
+        deals = document.get("homes") == "parking"
+        placed = _listed(robots, loaded, faults, deals=deals)
+        if deals and loaded and placed:
+            placed, more = _housed(placed, loaded, rules, faults)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
     if loaded and placed:
@@ -136,7 +148,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
+    return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *more))
 
 
 def _robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
@@ -231,22 +243,55 @@ def _place_of_laps(document: TripDocument, place: str) -> str:
     return "rules.laps" if document.ends is None else f"{place}.return"
 
 
-def _listed(robots: Sequence[Any], on: LoadedMap | None, faults: Faults) -> Iterator[_Placed]:
-    """Yield robots that are listed; note the faults of others. Without a map, only note faults."""
+def _listed(
+    robots: Sequence[Any], on: LoadedMap | None, faults: Faults, *, deals: bool
+) -> list[_Placed]:
+    """Return robots that are listed; note the faults of others. Without a map, only note faults."""
     from rightofway.io.scenario.shape import RobotDocument
 
+    placed = list[_Placed]()
     for index, data in enumerate(robots):
         place = f"robots[{index}]"
+        if not deals and isinstance(data, dict) and "home" not in data:
+            faults.note(f"{place}.home", f"is missing (give {HOME}, or homes: parking for all)")
         document = faults.attempt(place, checked, RobotDocument, data, on)
-        if document is None or on is None:
+        if document is None or on is None or (document.home is None and not deals):
             continue
-        own = {**document.given("speed", "turn", "ends", "laps", "type"), **document.space()}
+        keys = ("speed", "turn", "ends", "laps", "type", "turn_rate")
+        own = {**document.given(*keys), **document.space()}
         stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
-        robot = Robot(name=document.name, home=document.home, stops=stops, **own)
+        home = HOMELESS if document.home is None else document.home
+        robot = Robot(name=document.name, home=home, stops=stops, **own)
         aliases = {"laps": _place_of_laps(document, place)}
+        if document.turn_rate is None:
+            aliases["turn_rate"] = "rules.turn_rate"
         if document.target is not None:
             aliases["stops[0].at"] = f"{place}.target"
-        yield _Placed(robot=robot, place=place, aliases=aliases)
+        placed.append(_Placed(robot=robot, place=place, aliases=aliases))
+    return placed
+
+
+def _housed(
+    placed: Sequence[_Placed], on: LoadedMap, rules: Rules, faults: Faults
+) -> tuple[list[_Placed], list[str]]:
+    """Return the robots, those without a home at parking places, and notes of who starts where."""
+    homeless = [it.robot for it in placed if it.robot.home == HOMELESS]
+    wanted = [Wanted(name=it.name, first_stop=it.stops[0].at, radius=it.radius) for it in homeless]
+    fixed = Fixed(
+        homes=tuple((it.robot.home, it.robot.radius) for it in placed if it.robot.home != HOMELESS),
+        stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
+        clearance=rules.clearance,
+    )
+    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, on.parking, fixed)
+    if homes is None:
+        return [], []
+    names = [on.roadmap.name(home) for home in homes]
+    left = iter(homes)
+    housed = [
+        replace(it, robot=replace(it.robot, home=next(left))) if it.robot.home == HOMELESS else it
+        for it in placed
+    ]
+    return housed, list(note_of_homes(wanted, names, len(on.parking)))
 
 
 def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
@@ -254,8 +299,10 @@ def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
     document, placed = robots.document, list[_Placed]()
     ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.given("turn", "ends", "laps", "radius")
-    aliases = {"turn": "robots.turn", "laps": _place_of_laps(document, "robots")}
+    own = document.given("turn", "ends", "laps", "radius", "turn_rate")
+    rate = "rules.turn_rate" if document.turn_rate is None else "robots.turn_rate"
+    laps = _place_of_laps(document, "robots")
+    aliases = {"turn": "robots.turn", "laps": laps, "turn_rate": rate}
     dealt = zip(ends, speeds, works, strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
@@ -345,6 +392,7 @@ def _check_ticks(scenario: Scenario) -> None:
         problem.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
         *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
+        *(longest_turn(itinerary.turning) for itinerary in problem.itineraries),
     )
     if longest > MAX_TICKS:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"

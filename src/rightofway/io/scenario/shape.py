@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema
 
 from rightofway.errors import shown
 from rightofway.io.fields import (
+    POSITION,
     Angle,
     CellSize,
     Count,
@@ -39,6 +40,7 @@ RETURN = "home, or none"
 BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 LAPS = "how often it makes its round trip, 1 or more"
+TURN_RATE = "how fast it turns on the spot [degrees per time unit]; by default in no time"
 
 YAxis = Literal["down", "up"]
 
@@ -116,7 +118,7 @@ class VertexDocument(Document):
     @model_validator(mode="before")
     @classmethod
     def _read_position(cls, data: Any) -> Any:
-        return data if isinstance(data, dict) else {"at": data}
+        return data if isinstance(data, dict) else {"at": POSITION.read(data)}
 
     @classmethod
     def __get_pydantic_json_schema__(
@@ -154,7 +156,25 @@ class RoadmapDocument(Document):
     zones: list[ZoneDocument] = Field(
         default=[], description="a list of {name, vertices, edges} that hold one robot each"
     )
+    stations: dict[Name, Name] = Field(
+        default={}, description="for each place to work at its name and its vertex"
+    )
+    parking: list[Name] = Field(default=[], description="names of vertices to park at")
+    charging: list[Name] = Field(default=[], description="names of vertices to charge at")
+    sides: list[Positive] = optional(
+        "side of the square cell round each vertex, in their order [length unit]"
+    )
 
+    @model_validator(mode="after")
+    def _check_sides(self) -> Self:
+        if self.sides is not None and len(self.sides) != len(self.vertices):
+            counts = f"{len(self.sides)} for {len(self.vertices)} vertices"
+            raise ValueError(f"sides: {counts} (give one for each, or take them out)")
+        return self
+
+
+OF_ADAPTIVE = ("smallest", "largest")
+"""Keys for adaptive cells only."""
 
 OF_LAYOUTS = ("level", "vehicle_type", "unknown")
 """Keys for layouts only."""
@@ -172,10 +192,8 @@ class MapDocument(Document):
         json_schema_extra=described(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentSchemas={
-                **{
-                    key: {"not": {"required": ["roadmap"]}}
-                    for key in ("cell_size", "origin", "yaw")
-                },
+                "cell_size": {"not": {"required": ["roadmap"]}},
+                **{key: {"required": ["cell_size"]} for key in OF_ADAPTIVE},
                 "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
                 **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
                 "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
@@ -195,7 +213,12 @@ class MapDocument(Document):
         default="blocked", description="blocked, or free: pixels of a picture that are not known"
     )
     cell_size: CellSize = optional(
-        "side of a cell [length unit]: 1 by default; on a floor clustered by default"
+        "side of a cell [length unit]: 1 by default; on a floor clustered by default; adaptive:"
+        " squares of a quadtree"
+    )
+    smallest: Positive = optional("side of the smallest adaptive cells [length unit]")
+    largest: Positive = optional(
+        "limit on the side of adaptive cells [length unit]; 4 smallest ones by default"
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
     origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
@@ -210,13 +233,14 @@ class MapDocument(Document):
         kind = exactly_one_of(self, MAPS)
         if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
-        if kind == "roadmap" and self.origin is not None:
-            raise ValueError(
-                "origin is given with a roadmap, whose vertices have coordinates of the site"
-                " (take it out)"
-            )
-        if kind == "roadmap" and self.yaw is not None:
-            raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
+        if kind == "roadmap" and self.roadmap.sides is None:
+            if self.origin is not None:
+                raise ValueError(
+                    "origin is given with a roadmap, whose vertices have coordinates of the site"
+                    " (take it out)"
+                )
+            if self.yaw is not None:
+                raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
         for key in BY_LAYOUTS if kind == "layout" else OF_LAYOUTS:
             if key in self.model_fields_set:
                 what = "which has its own" if kind == "layout" else "and is for a layout"
@@ -228,8 +252,18 @@ class MapDocument(Document):
         if kind not in {"grid", "file"} and "obstacles" in self.model_fields_set:
             remedy = "give them in the floor" if kind == "floor" else "take them out"
             raise ValueError(f"obstacles are given beside a {kind} ({remedy})")
-        if kind != "floor" and self.cell_size == "clustered":
+        return self
+
+    @model_validator(mode="after")
+    def _check_cells(self) -> Self:
+        kind, word = exactly_one_of(self, MAPS), self.cell_size
+        if (word == "clustered" and kind != "floor") or (
+            word == "adaptive" and kind not in {"floor", "layout"}
+        ):
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
+        for key in OF_ADAPTIVE:
+            if key in self.model_fields_set and word != "adaptive":
+                raise ValueError(f"{key} is for cell_size: adaptive (give that, or take it out)")
         return self
 
     @property
@@ -266,7 +300,7 @@ class RobotDocument(TripDocument):
     )
 
     name: Name = Field(description="a name of its own")
-    home: Place = Field(description=f"the place it starts from: {PLACES}")
+    home: Place = optional(f"the place it starts from: {PLACES}; left out with homes: parking")
     target: Place = optional(f"the place to work at: {PLACES}")
     work: NotNegative = optional(WORK)
     stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
@@ -274,6 +308,7 @@ class RobotDocument(TripDocument):
     radius: NotNegative = optional("radius of the circle that it needs [length unit]")
     size: Size = optional("[length, width] instead of a radius: the circle around it [length unit]")
     type: Name = optional("the name of its type, for edges and vertices that are barred for types")
+    turn_rate: Positive = optional(TURN_RATE)
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
@@ -310,6 +345,7 @@ class FleetDocument(TripDocument):
     )
     work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
     radius: NotNegative = optional("radius of the circle that each of them needs [length unit]")
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class RobotTableDocument(Document):
@@ -327,6 +363,7 @@ class RulesDocument(TripDocument):
     clearance: NotNegative = optional(
         "least distance between two robots of which one has a radius [length unit]"
     )
+    turn_rate: Positive = optional(TURN_RATE)
 
 
 class ClosureDocument(Document):
@@ -370,6 +407,9 @@ class ScenarioFrame(Document):
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     units: Any = optional("{length, time}: how reports write quantities")
+    homes: Literal["parking"] = optional(
+        "parking: robots without a home start from the parking and charging places of a layout"
+    )
     robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
     rules: Any = optional("classic, or rules for the whole fleet")
     closures: Any = optional("a list of {at or edge, from, until, radius}")

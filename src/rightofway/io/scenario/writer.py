@@ -98,12 +98,13 @@ def yaml_of(document: dict[str, Any]) -> str:
         return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
 
     Dumper.add_representer(str, block)
-    shape = document["map"]
-    if "grid" in shape:
-        shape = {**shape, "grid": "\n".join(shape["grid"]) + "\n"}
+    shape = document.get("map")
+    if isinstance(shape, dict) and isinstance(shape.get("grid"), list):
+        shape = {**shape, "grid": "".join(f"{row}\n" for row in shape["grid"])}
+        document = {**document, "map": shape}
     return str(
         yaml.dump(
-            {**document, "map": shape},
+            document,
             Dumper=Dumper,
             default_flow_style=None,  # a list or mapping of plain values stays on one line
             sort_keys=False,
@@ -122,13 +123,14 @@ def _units(units: Units) -> dict[str, Any]:
 def _map(roadmap: Roadmap) -> dict[str, Any]:
     grid, frame = roadmap.grid, roadmap.frame
     y = {"y": "up"} if frame.y_up else {}
+    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
     if grid is None:
-        return {"roadmap": _roadmap(roadmap), **y}
+        pivot = {"origin": [written(frame.x), written(frame.y)]} if frame.yaw else {}
+        return {"roadmap": _roadmap(roadmap), **y, **pivot, **yaw}
     size = grid.cell_size
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
     origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
-    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
     shape = {"grid": list(grid.lines()), "cell_size": written(size), **y, **origin, **yaw}
     named = [
         {"name": it.name, "rect": [written(part) for part in (it.x, it.y, it.width, it.height)]}
@@ -164,7 +166,17 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         }
         for zone in roadmap.zones
     ]
-    return {"vertices": vertices, "edges": edges, **({"zones": zones} if zones else {})}
+    drawing = roadmap.drawing
+    places = {
+        "zones": zones,
+        "stations": {station: name(at) for station, at in drawing.stations},
+        "parking": [name(at) for at in drawing.parking],
+        "charging": [name(at) for at in drawing.charging],
+        "sides": [] if roadmap.sides is None else roadmap.sides.tolist(),
+    }
+    return {"vertices": vertices, "edges": edges} | {
+        key: value for key, value in places.items() if value
+    }
 
 
 def _of_class(roadmap: Roadmap, length_class: int) -> dict[str, Any]:
@@ -210,6 +222,7 @@ def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
         **({"radius": written(robot.radius)} if robot.radius else {}),
         **({} if robot.type is None else {"type": robot.type}),
         **{key: value for key, value in own.items() if value is not None},
+        **_turn_rate(robot),
     }
 
 
@@ -227,4 +240,9 @@ def _rules(rules: Rules) -> dict[str, Any]:
         "laps": rules.laps,
         "rotations": rules.rotations,
         **({"clearance": written(rules.clearance)} if rules.clearance else {}),
+        **_turn_rate(rules),
     }
+
+
+def _turn_rate(of: Robot | Rules) -> dict[str, Any]:
+    return {} if of.turn_rate is None else {"turn_rate": written(of.turn_rate)}

@@ -7,15 +7,25 @@ import io
 import os
 from dataclasses import dataclass
 from fractions import Fraction
+from math import cos, sin
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError
 from rightofway.model import Roadmap
+from rightofway.model.drawing import Picture
 from rightofway.viz.placement import plane_of
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 PLAIN_KINDS = {"PNG": "image/png", "JPEG": "image/jpeg", "WEBP": "image/webp"}
 """Kinds of pictures that every browser shows; others are converted to PNG."""
+
+MOST_PIXELS = 4096
+"""The longer side of a picture in the page; a larger one is made smaller."""
+
+OPACITY = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,6 +41,10 @@ class Background:
     origin
         The picture's lower left corner in the site's frame [length unit]. None puts it on the
         lower left corner of the map.
+    corner
+        The picture's upper left corner in the site's frame, instead of the origin [length unit].
+    yaw
+        Angle by which the picture is turned about that corner, from the site's x to its y [rad].
     opacity
         From 0 to 1.
     """
@@ -38,7 +52,9 @@ class Background:
     picture: str | os.PathLike[str]
     scale: float | None = None
     origin: tuple[float, float] | None = None
-    opacity: float = 0.6
+    corner: tuple[float, float] | None = None
+    yaw: float = 0
+    opacity: float = OPACITY
 
     def __post_init__(self) -> None:
         if self.scale is not None and not self.scale > 0:
@@ -46,6 +62,19 @@ class Background:
         if not 0 <= self.opacity <= 1:
             fault = f"{self.opacity} is not from 0 to 1 (give a share)"
             raise InputError.at("background.opacity", fault)
+        if self.origin is not None and self.corner is not None:
+            raise InputError.at("background", "has both origin and corner (give one of them)")
+
+    @classmethod
+    def of(cls, picture: Picture) -> Background:
+        """Return the picture of a layout where the layout says that it lies."""
+        x, y = picture.corner
+        return cls(
+            picture=picture.file,
+            scale=float(picture.pixel),
+            corner=(float(x), float(y)),
+            yaw=float(picture.yaw),
+        )
 
 
 def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
@@ -61,8 +90,9 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``href`` (a data URI), ``opacity``, and ``x``, ``y`` (the upper left corner), ``width`` and
-        ``height`` in units of the drawing.
+        ``href`` (a data URI), ``opacity``, and in units of the drawing ``x``, ``y`` (the upper left
+        corner), ``width`` and ``height``; ``turn`` is the angle by which the picture is turned
+        about that corner, from right to down [rad], left out where it is 0.
 
     Raises
     ------
@@ -70,26 +100,28 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
         If the file is no picture that can be read.
     """
     href, columns, rows = _data_uri(background.picture)
-    plane = plane_of(roadmap)
-    margin = 0.0 if roadmap.grid is None else 0.5  # cells reach beyond their centres
-    left, bottom = -margin, plane.height - 1 + margin
-    if background.origin is not None:
-        x, y = roadmap.frame.to_plane(
-            (Fraction(background.origin[0]), Fraction(background.origin[1]))
-        )
-        left = (float(x) - plane.corner[0]) / plane.unit
-        bottom = (float(y) - plane.corner[1]) / plane.unit
+    plane, frame = plane_of(roadmap), roadmap.frame
+
+    def drawn(point: tuple[float, float]) -> tuple[float, float]:
+        x, y = frame.to_plane((Fraction(point[0]), Fraction(point[1])))
+        return (float(x) - plane.corner[0]) / plane.unit, (float(y) - plane.corner[1]) / plane.unit
+
+    turn = float(Fraction(background.yaw) - frame.yaw) * (-1 if frame.y_up else 1)
+    has_cells = roadmap.grid is not None or roadmap.sides is not None
+    margin = 0.5 if has_cells else 0.0  # cells reach beyond their centres
     pixel = (plane.width - 1 + 2 * margin) / columns
     if background.scale is not None:
         pixel = background.scale / plane.unit
-    return {
-        "href": href,
-        "opacity": background.opacity,
-        "x": left,
-        "y": bottom - rows * pixel,
-        "width": columns * pixel,
-        "height": rows * pixel,
-    }
+    if background.corner is not None:
+        x, y = drawn(background.corner)
+    else:
+        x, y = -margin, plane.height - 1 + margin
+        if background.origin is not None:
+            x, y = drawn(background.origin)
+        x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
+    found = {"href": href, "opacity": background.opacity, "x": x, "y": y}
+    found |= {"width": columns * pixel, "height": rows * pixel}
+    return {**found, "turn": turn} if turn else found
 
 
 def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
@@ -101,13 +133,23 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             image.load()
             kind, (columns, rows) = PLAIN_KINDS.get(image.format or ""), image.size
             content = io.BytesIO()
-            if kind is None:
-                image.convert("RGBA" if "A" in image.getbands() else "L").save(content, "png")
+            if kind is None or max(columns, rows) > MOST_PIXELS:
+                kind = None
+                kept = image.convert(_mode(image))
+                kept.thumbnail((MOST_PIXELS, MOST_PIXELS))
+                kept.save(content, "png")
             else:
                 content.write(Path(path).read_bytes())
-    except (OSError, ValueError, SyntaxError) as error:
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError.at(
             str(path), "is no picture that can be read (give a PNG, JPEG or PGM file)"
         ) from error
     encoded = base64.b64encode(content.getvalue()).decode()
     return f"data:{kind or 'image/png'};base64,{encoded}", columns, rows
+
+
+def _mode(image: Image) -> str:
+    """Return the mode that a PNG keeps the colours of a picture in."""
+    if "A" in image.getbands() or "transparency" in image.info:
+        return "RGBA"
+    return "L" if image.mode in {"1", "L", "I", "F"} or image.mode.startswith("I;") else "RGB"

@@ -1,7 +1,6 @@
 """The page as one HTML document that needs no other file, and as a frame for notebooks.
 
-The scripts under ``assets/`` are plain classic scripts, one concept each, that share one scope;
-they are put into the page without comments and indentation, each in an element of its own.
+Its scripts stand in the page in the order in which they run, each in an element of its own.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import os
 import re
 from collections.abc import Sequence
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from rightofway.errors import NoPlanExists
@@ -22,23 +20,11 @@ from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import payload_of
+from rightofway.viz.page.scripts import asset, classic_script, scripts_of
 from rightofway.viz.palette import DARK, LIGHT
 
 FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
-
-SCRIPTS = (
-    "observable", "quantities", "phases", "plan", "floor", "steady", "fleet_memo",
-    "motion", "clock", "corridor", "choice", "use", "words",
-    "dom", "theme", "canvas", "shapes",
-    "viewport", "bottleneck", "map_sizes", "map_base", "map_route", "map_robots", "label_board",
-    "map_names", "map_tip", "scale_bar", "map_view",
-    "axis", "steady_band", "space_axis", "space_time", "robot_rows", "census", "diagram",
-    "virtual_list", "find", "robot_list", "decision_list", "fault_list", "comparison", "card",
-    "summary", "states", "tabs", "transport", "loop", "mode_switch", "deep_link", "share", "paper",
-    "keys", "main",
-)  # fmt: skip
-"""In the order they run; each may use those before it at once, and all others later."""
 
 MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})
 """Escapes that mean the same in JSON, and nothing in HTML."""
@@ -84,12 +70,9 @@ def page_of(
     InputError
         If ``steady`` or ``actual`` are not of this plan, or the background cannot be read.
     """
-    style = style_sheet()
-    scripts = [lean_script(name) for name in SCRIPTS]
     count = len(plan.scenario.robots)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
-    allowed = " ".join(map(_hash, scripts))
     payload = payload_of(
         plan,
         steady=steady,
@@ -99,16 +82,40 @@ def page_of(
         background=background,
         other=other,
     )
+    return document_of("template.html", about, payload, "main")
+
+
+def document_of(template: str, about: str, payload: dict[str, Any], entry: str) -> str:
+    """Return a template filled with style, plain data and scripts, as one HTML document.
+
+    Parameters
+    ----------
+    template
+        A file under ``assets/`` with ``{{title}}``, ``{{policy}}``, ``{{style}}``, ``{{payload}}``
+        and ``{{scripts}}``.
+    about
+        The title of the document.
+    payload
+        Plain data for JSON.
+    entry
+        Name of the module under ``assets/`` that runs the page, without ``.js``.
+
+    Returns
+    -------
+    str
+        HTML. Its content security policy forbids any connection, and any script but these.
+    """
+    style, scripts = style_sheet(), [classic_script(name) for name in scripts_of(entry)]
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": "default-src 'none'; img-src data:; "
-        f"style-src {_hash(style)}; script-src {allowed}",
+        f"style-src {_hash(style)}; script-src {' '.join(map(_hash, scripts))}",
         "style": style,
         "payload": as_script(payload),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("template.html"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset(template))
 
 
 def write_page(
@@ -189,7 +196,12 @@ def payload_text(plan: Plan) -> str:
 
 def as_script(payload: dict[str, Any]) -> str:
     """Return plain data as JSON that may stand in a script element."""
-    return json.dumps(payload, separators=(",", ":"), allow_nan=False).translate(MARKUP)
+    return compact_json(payload).translate(MARKUP)
+
+
+def compact_json(payload: dict[str, Any]) -> str:
+    """Return plain data as JSON without spaces."""
+    return json.dumps(payload, separators=(",", ":"), allow_nan=False)
 
 
 @cache
@@ -205,15 +217,3 @@ def style_sheet() -> str:
 def _hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"
-
-
-@cache
-def lean_script(name: str) -> str:
-    """Return a script without comments that fill lines and without indentation: a fifth less."""
-    return re.sub(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*", "", asset(f"{name}.js"))
-
-
-@cache
-def asset(name: str) -> str:
-    """Return the text of a file under ``assets/``."""
-    return files(__package__).joinpath("assets", name).read_text("utf-8")

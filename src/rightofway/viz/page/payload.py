@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,6 @@ from rightofway.metrics import Metrics, joined_waits, lost_time, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
-    Grid,
     Loss,
     LostTime,
     Plan,
@@ -32,18 +32,20 @@ from rightofway.model import (
     Tick,
     Track,
 )
+from rightofway.model.closures import Closure, pieces_of
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
-from rightofway.viz.page.background import Background, background_data
+from rightofway.viz.page.background import Background
+from rightofway.viz.page.map_data import differences, map_data
 from rightofway.viz.palette import robot_colours
-from rightofway.viz.placement import Plane, edge_length, plane_of, vertices_in_line
+from rightofway.viz.placement import edge_length, vertices_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, verdict_on
 
 Stoppages = Sequence[tuple[Tick, Tick | None]]
 """When each stoppage of a robot begins, and how long it lasts [ticks]."""
 
 DECIMALS = 3
-"""Decimals of a position; a thousandth of a cell cannot be seen."""
+"""Decimals of a place in the diagram; a thousandth of a length unit cannot be seen."""
 
 LOSSES = ("waits", "follows", "makes room")
 """Kinds of lost time; the page is given their places in this list."""
@@ -81,7 +83,7 @@ def payload_of(
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.headway,
         "booksAhead": scenario.rules.books_ahead,
-        "map": _map(scenario.roadmap),
+        "map": map_data(scenario.roadmap, room=room_of(scenario), background=background),
         "line": _line(scenario.roadmap, trips, trips_of(other[0]) if other else ()),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [_loss(loss) for one in lost for loss in one.losses],
@@ -100,8 +102,10 @@ def payload_of(
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
-    if background is not None:
-        payload["map"]["background"] = background_data(scenario.roadmap, background)
+    if scenario.closures:
+        payload["closures"] = [_closure(closure, scenario) for closure in scenario.closures]
+    if scenario.rules.clearance:
+        payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
         payload["floor"] = _execution(plan, actual, trips)
     if no_plan is not None:
@@ -111,6 +115,12 @@ def payload_of(
         _refuse_other_scenario(plan, *other)
         payload["other"] = {**payload_of(other[0], title=other[1]), "map": {}}
     return payload
+
+
+def room_of(scenario: Scenario) -> Fraction:
+    """Return the distance that the two largest robots need [length unit]; 0 for points."""
+    radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
+    return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
 
 
 def _refuse_other_scenario(plan: Plan, other: Plan, title: str) -> None:
@@ -146,49 +156,22 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
     }
 
 
+def _closure(closure: Closure, scenario: Scenario) -> dict[str, Any]:
+    """Return the vertices of a closure, along a lane in order, and when it is."""
+    tick = scenario.problem.clock.tick
+    places = [closure.at] if closure.edge is None else pieces_of(scenario.roadmap, closure.edge)
+    until = closure.until
+    return {
+        "vertices": list(places),
+        "from": floor(closure.from_ / tick),
+        "until": None if until is None else ceil(until / tick),
+        "radius": None if closure.radius is None else float(closure.radius),
+    }
+
+
 def _improvement(run: PlannerRun) -> dict[str, Any]:
     made = run.improvement
     return {} if made is None else {"saved": made.saved, "tries": made.tries}
-
-
-def _map(roadmap: Roadmap) -> dict[str, Any]:
-    plane = plane_of(roadmap)
-    size = {
-        "width": round(plane.width, DECIMALS),
-        "height": round(plane.height, DECIMALS),
-        "frame": _frame(plane, roadmap),
-    }
-    if roadmap.grid is not None:
-        return {**size, "rows": roadmap.grid.lines(), **_obstacles(roadmap, roadmap.grid)}
-    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-    return {
-        **size,
-        "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
-        "points": np.round(plane.points, DECIMALS).ravel().tolist(),
-        "tails": _differences(tails.tolist()),
-        "heads": _differences(roadmap.heads.tolist()),
-        "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
-    }
-
-
-def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:
-    """Return the named obstacles: name, left, top, width and height in the drawing."""
-    size, found = grid.cell_size, []
-    low = grid.rows * size - size / 2
-    left, bottom = roadmap.frame.to_site((-size / 2, low))
-    for it in roadmap.obstacles:
-        down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
-        sides = (it.x - left - size / 2, low + down, it.width, it.height)
-        found.append([it.name, *(round(float(side / size), DECIMALS) for side in sides)])
-    return {"obstacles": found} if found else {}
-
-
-def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
-    """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
-    left, top = map(Fraction, plane.corner)
-    x, y = roadmap.frame.to_site((left, top))
-    found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
-    return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
 
 
 def _line(roadmap: Roadmap, trips: Sequence[Trip], others: Sequence[Trip]) -> list[list[float]]:
@@ -213,16 +196,18 @@ def _robots(
             "name": robot.name,
             "colour": colours[index],
             "speed": str(robot.speed),
+            **({"radius": float(robot.radius)} if robot.radius else {}),
             "completion": metrics.completions[index],
             "alone": metrics.alone[index],
             "lost": [lost[index].detours, lost[index].making_room, lost[index].waiting],
-            "vertices": _differences(trip.vertices),
-            "enter": _differences(trip.enter),
+            "vertices": differences(trip.vertices),
+            "enter": differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),
             "stages": [
                 [stage.vertex, stage.work, stage.turn, visit]
                 for stage, visit in zip(trip.stages, trip.served, strict=True)
             ],
+            **({"turns": _sparse(trip.turns)} if any(trip.turns) else {}),
             **({} if min(trip.served) >= 0 else {"stands": True}),
         }
         for index, (robot, trip, edges) in enumerate(
@@ -302,10 +287,12 @@ def _execution(plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip]) -> dic
         trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
     ):
         is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
+        stages, turns = _executed_duties(planned if is_planned else taken, dwell)
         robot = {
-            "stages": _executed_stages(planned if is_planned else taken, dwell),
-            **({} if is_planned else {"vertices": _differences(taken.vertices)}),
-            "enter": _differences(taken.enter),
+            "stages": stages,
+            **({"turns": turns} if planned.turns or taken.turns else {}),
+            **({} if is_planned else {"vertices": differences(taken.vertices)}),
+            "enter": differences(taken.enter),
             "drive": drive.tolist(),
             "still": [list(stoppage) for stoppage in stoppages],
             "completion": completion,
@@ -331,29 +318,40 @@ def _executed_stays(
     waits = np.maximum(np.append(np.diff(track.enter), 0) - out - stood, 0)
     waits[-1] = 0
     completion = Tick(int(track.enter[-1] + dwell[-1]))
-    return Stays(dwell=stood, drive=out, waits=waits, serves=(), completion=completion)
+    return Stays(
+        dwell=stood,
+        drive=out,
+        waits=waits,
+        turns=np.zeros_like(stood),
+        serves=(),
+        completion=completion,
+    )
 
 
-def _executed_stages(trip: Trip, dwell: NDArray[np.int64]) -> list[list[int]]:
-    """Return the stages; each takes its share of the executed duration of its visit."""
+def _executed_duties(
+    trip: Trip, dwell: NDArray[np.int64]
+) -> tuple[list[list[int]], list[list[int]]]:
+    """Return stages and turns; each takes its share of the executed duration of its visit."""
     reached, last = len(dwell), len(trip.vertices) - 1
     planned = np.zeros(reached, np.int64)
+    planned[: len(trip.turns)] = trip.turns[:reached]
     for stage, visit in zip(trip.stages, trip.served, strict=True):
         if 0 <= visit < reached:
             planned[visit] += stage.work + (stage.turn if visit < last else 0)
     pace = [ticks / least if least else 1 for ticks, least in zip(dwell, planned, strict=True)]
-    return [
+    stages = [
         [stage.vertex, round(stage.work * pace[visit]), round(stage.turn * pace[visit]), visit]
         if 0 <= visit < reached
         else [stage.vertex, stage.work, stage.turn, -1]
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
+    scaled = (round(ticks * each) for ticks, each in zip(trip.turns, pace, strict=False))
+    return stages, _sparse(scaled)
 
 
-def _differences(numbers: Iterable[int]) -> list[int]:
-    """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
-    found: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
-    return found
+def _sparse(numbers: Iterable[int]) -> list[list[int]]:
+    """Return the index and the value of each number that is not 0."""
+    return [[index, number] for index, number in enumerate(numbers) if number]
 
 
 def _loss(loss: Loss) -> list[int | None]:

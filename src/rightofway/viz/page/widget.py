@@ -12,14 +12,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from rightofway.model import Plan
-from rightofway.viz.page.document import (
-    FRAME_HEIGHT,
-    SCRIPTS,
-    asset,
-    lean_script,
-    payload_text,
-    style_sheet,
-)
+from rightofway.viz.page.document import FRAME_HEIGHT, payload_text, style_sheet
+from rightofway.viz.page.scripts import asset, classic_script, scripts_of
 
 WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;overflow:auto}}"
 """A page in a notebook has a height of its own."""
@@ -72,12 +66,12 @@ def widget_module() -> str:
     style = re.sub(r":root|\bbody\b", ".page", style_sheet())
     payload = '<script type="application/json" id="plan"></script>'
     markup = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1">{body[1]}</div>'
-    scripts = "\n".join(lean_script(name) for name in SCRIPTS)
+    scripts = "\n".join(classic_script(name) for name in scripts_of("main"))
     return "\n".join(
         [
             f"const MARKUP = {json.dumps(markup + payload)};",
             f"function mount(document) {{\n{scripts}\nreturn {{ clock }};\n}}",
-            lean_script("widget"),
+            classic_script("widget"),
         ]
     )
 

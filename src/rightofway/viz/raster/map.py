@@ -8,6 +8,9 @@ from itertools import pairwise
 from re import finditer
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
 from rightofway.viz.raster.canvas import Pen, Point, Scene
@@ -31,6 +34,8 @@ def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
     if scene.roadmap.grid is not None:
         _grid(pen, scene, scene.roadmap.grid)
+    elif scene.roadmap.sides is not None:
+        _squares(pen, scene, scene.roadmap.sides / scene.plane.unit / 2)
     else:
         _network(pen, scene, sizes)
     for robot in range(len(scene.trips)) if routes else ():
@@ -54,6 +59,16 @@ def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
             pen.box((run.start() - 0.5, y - 0.5), (run.end() - 0.5, y + 0.5), theme.wall)
     border = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom), (-0.5, -0.5)]
     pen.line(border, theme.wall, hair)
+
+
+def _squares(pen: Pen, scene: Scene, halves: NDArray[np.float64]) -> None:
+    """Draw the cells of a quadtree; half their sides are given."""
+    corner = (scene.plane.width - 0.5, scene.plane.height - 0.5)
+    pen.box((-0.5, -0.5), corner, scene.theme.wall)
+    for (x, y), half in zip(scene.points, halves.tolist(), strict=True):
+        pen.box((x - half, y - half), (x + half, y + half), scene.theme.line)
+        inner = half if pen.is_small else half - pen.hairline / 2
+        pen.box((x - inner, y - inner), (x + inner, y + inner), scene.theme.floor)
 
 
 def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:

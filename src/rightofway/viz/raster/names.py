@@ -129,7 +129,8 @@ class Names:
             return
         homes = {trip.vertices[0] for trip in scene.trips}
         marks = {*homes, *(stage.vertex for trip in scene.trips for stage in trip.stages)}
-        for vertex in sorted(range(len(scene.points)), key=lambda vertex: vertex not in marks):
+        named = range(len(scene.points)) if scene.roadmap.sides is None else sorted(marks)
+        for vertex in sorted(named, key=lambda vertex: vertex not in marks):
             x, y = (scale * part for part in scene.points[vertex])
             name = _cut(scene.roadmap.name(vertex))
             width = pen.text_width(name, PLACE_TYPE) * scale
@@ -161,9 +162,9 @@ class Names:
 
 
 def _points_along_lanes(scene: Scene, scale: float, apart: float) -> NDArray[np.float64]:
-    """Return points along all edges of a roadmap [pixels]; none for a grid; shape (P, 2)."""
+    """Return points along all lanes that are drawn [pixels]; shape (P, 2)."""
     found = [np.empty((0, 2))]
-    if scene.roadmap.grid is None:
+    if scene.roadmap.grid is None and scene.roadmap.sides is None:
         for tail, head in scene.edges:
             (x, y), (to_x, to_y) = scene.points[tail], scene.points[head]
             count = min(math.ceil(math.hypot(to_x - x, to_y - y) * scale / apart), 300) + 1

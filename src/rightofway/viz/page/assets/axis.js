@@ -1,10 +1,10 @@
-"use strict";
+import { line, shortened } from "./shapes.js";
 
-const AXIS_HEIGHT = 20;
+export const AXIS_HEIGHT = 20;
 const LABEL_GAP = 72; // pixels between two labelled moments, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
-class Area {
+export class Area {
   constructor(width, height, end, above = 0) {
     const style = getComputedStyle(document.documentElement);
     this.left = Number.parseFloat(style.getPropertyValue("--gutter"));
@@ -44,7 +44,7 @@ function labelStep(area, plan) {
 }
 
 /** Moments along the bottom, with hairlines up through the diagram. */
-function paintAxis(context, area, plan, theme, words) {
+export function paintAxis(context, area, plan, theme, words) {
   const step = Math.round(labelStep(area, plan));
   const perTick = (area.right - area.left) / area.end;
   context.strokeStyle = theme.line;
@@ -70,7 +70,7 @@ function paintAxis(context, area, plan, theme, words) {
 }
 
 /** Names along the left, as many as have room. */
-function paintRowNames(context, area, theme, names, rowHeight, middle) {
+export function paintRowNames(context, area, theme, names, rowHeight, middle) {
   const every = Math.max(Math.ceil(13 / rowHeight), 1);
   context.font = theme.font(Math.min(Math.max(rowHeight * 0.72, 10.5), 12.5));
   context.fillStyle = theme.muted;

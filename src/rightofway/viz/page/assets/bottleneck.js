@@ -1,7 +1,8 @@
-"use strict";
+import { disc, line } from "./shapes.js";
+import { NARROWEST_PERIOD } from "./steady_band.js";
 
 /** The critical circuit of the group that is looked at, lit on the map and in the diagram. */
-class Bottleneck {
+export class Bottleneck {
   constructor(plan, clock, choice, theme, words) {
     Object.assign(this, { plan, clock, choice, theme, words });
     this.button = document.getElementById("bottleneck");

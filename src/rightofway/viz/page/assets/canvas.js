@@ -1,10 +1,8 @@
-"use strict";
-
 /** Finer than this, sharpness costs more than it shows. */
 const MAX_PIXEL_RATIO = 2;
 
 /** Make a canvas as fine as the screen; returns its size in CSS pixels and whether that changed. */
-function fitCanvas(canvas) {
+export function fitCanvas(canvas) {
   const ratio = Math.min(devicePixelRatio || 1, MAX_PIXEL_RATIO);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   const [wide, high] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -14,7 +12,7 @@ function fitCanvas(canvas) {
 }
 
 /** A picture of what rarely changes, kept off the screen and painted again only when it does. */
-class Layer {
+export class Layer {
   constructor(paint) {
     this.canvas = document.createElement("canvas");
     this.context = this.canvas.getContext("2d");

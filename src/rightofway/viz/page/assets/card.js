@@ -1,11 +1,13 @@
-"use strict";
+import { element, facts, goTo, link, swatch } from "./dom.js";
+import { BROKEN, WAIT } from "./phases.js";
+import { counted } from "./quantities.js";
 
 const MOST_LINES = 200; // of stages or losses in a card
 
 /** All about the robot or decision that is chosen. */
-class Card {
-  constructor(plan, clock, choice, words, comparison) {
-    Object.assign(this, { plan, clock, choice, words, comparison });
+export class Card {
+  constructor(plan, clock, choice, words, comparison, space) {
+    Object.assign(this, { plan, clock, choice, words, comparison, space });
     this.box = document.getElementById("card");
     choice.on("choice", () => this.#show());
     choice.on("mode", () => this.#show());
@@ -46,13 +48,30 @@ class Card {
         ...this.#times(robot),
         ...(this.comparison ? [[`In ${this.plan.other.title}`, this.comparison.changeInWords(robot)]] : []),
         ["Speed", this.plan.quantities.speed(robot.speed)],
+        ["Radius", robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         ["Home", words.vertex(robot.home)],
         ["Another way", rerouted?.because ?? ""],
       ]),
       element("h3", {}, "Trip"),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
       ...this.#losses(robot),
+      ...this.#encounters(robot),
     ];
+  }
+
+  /** How near other robots come, the one with least room to spare first. */
+  #encounters(robot) {
+    const encounters = this.space.encounters(robot);
+    if (!encounters.length) return [];
+    const lines = this.#lines(encounters, (encounter) => {
+      const text = `${encounter.other.name}, ${this.words.apart(encounter)}`;
+      return goTo(this.words.time(encounter.tick), text, () => {
+        this.clock.pause();
+        this.clock.seek(encounter.tick);
+        this.choice.lookAtPair(encounter.other.index);
+      });
+    });
+    return [element("h3", {}, "Closest approaches"), lines];
   }
 
   /** Where the completion time goes: alone + detours + making room + waiting. */

@@ -1,10 +1,13 @@
-"use strict";
+import { FleetMemo } from "./fleet_memo.js";
+import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
+import { counted } from "./quantities.js";
+import { ACTIVITY_WORDS } from "./words.js";
 
 const MOST_SAMPLES = 1200;
 const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; who is done, is the empty space above
 
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
-class Census {
+export class Census {
   #counts;
   #beside;
 

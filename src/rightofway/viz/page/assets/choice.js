@@ -1,10 +1,12 @@
-"use strict";
+import { shortestWay } from "./corridor.js";
+import { Observable } from "./observable.js";
 
 /**
  * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
- * the bottleneck, a corridor. Tells `choice`, `heat`, `mode`, `bottleneck` and `corridor`.
+ * the bottleneck, a corridor, what robots book, places of a finding. Events: `choice`, `heat`, `mode`,
+ * `bottleneck`, `corridor`, `space`.
  */
-class Choice extends Observable {
+export class Choice extends Observable {
   constructor(plan) {
     super();
     this.plan = plan;
@@ -16,6 +18,9 @@ class Choice extends Observable {
     this.bottleneck = true;
     this.allFaulty = [...new Set(plan.faults.flatMap(({ robots }) => robots))];
     this.corridor = null; // the vertices of the way whose distances are the axis of the diagram
+    this.space = false; // whether bookings and the room that robots need are shown
+    this.pair = -1; // the robot whose distance to the one chosen is shown; -1 for the nearest one
+    this.lit = []; // the vertices that a finding is about
     this.picked = null; // the ends of the next corridor that are chosen so far
   }
 
@@ -62,6 +67,24 @@ class Choice extends Observable {
   toggleHeat() {
     this.heat = !this.heat;
     this.tell("heat");
+  }
+
+  toggleSpace() {
+    this.space = !this.space;
+    this.tell("space");
+  }
+
+  /** Show how near another robot is to the one chosen. */
+  lookAtPair(other) {
+    this.pair = other;
+    this.space = true;
+    this.tell("space");
+  }
+
+  /** Light places; none for an empty list. */
+  light(vertices) {
+    this.lit = vertices;
+    this.tell("choice");
   }
 
   toggleBottleneck() {
@@ -123,6 +146,7 @@ class Choice extends Observable {
 
   #set(robot, decision, fault = -1) {
     if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex) return;
+    if (robot !== this.robotIndex) this.pair = -1;
     this.faultIndex = fault;
     this.robotIndex = robot;
     this.decisionIndex = decision;

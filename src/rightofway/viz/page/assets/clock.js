@@ -1,7 +1,9 @@
-"use strict";
+import { lastAtMost } from "./arrays.js";
+import { FleetMemo } from "./fleet_memo.js";
+import { Observable } from "./observable.js";
 
 /** How many time units pass in a second. */
-const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
+export const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024];
 
 /** A whole plan, or two periods, play in about this long [s], unless the user changes the speed. */
 const PLEASANT_SECONDS = 24;
@@ -10,7 +12,7 @@ const PLEASANT_SECONDS = 24;
  * The moment shown. Tells `tick` when it changes, `playing` when it starts, stops, or changes pace,
  * `loop` when it begins or ends to play a stretch of time again and again.
  */
-class Clock extends Observable {
+export class Clock extends Observable {
   constructor(plan) {
     super();
     this.end = plan.end;

@@ -1,10 +1,18 @@
-"use strict";
+import { Bottleneck } from "./bottleneck.js";
+import { Choice } from "./choice.js";
+import { element, swatch } from "./dom.js";
+import { connectFind, matches } from "./find.js";
+import { MapView } from "./map_view.js";
+import { Motion } from "./motion.js";
+import { counted } from "./quantities.js";
+import { VirtualList } from "./virtual_list.js";
+import { Words } from "./words.js";
 
 /**
  * Another plan of the scenario beside the first one: a map of its own, the same clock and choice, and
  * what each robot gains or loses.
  */
-class Comparison {
+export class Comparison {
   constructor(plan, other, clock, choice, theme, mapView) {
     Object.assign(this, { plan, other, clock, choice, words: new Words(other), motion: new Motion(other) });
     this.otherChoice = new Choice(other);
@@ -13,8 +21,9 @@ class Comparison {
     const lit = new Bottleneck(other, clock, this.otherChoice, theme, this.words);
     const canvas = document.getElementById("other-map");
     canvas.parentElement.hidden = false;
-    this.view = new MapView(
-      canvas, other, this.motion, ghosts, clock, this.otherChoice, theme, this.words, new Use(other), lit, false);
+    this.view = new MapView(canvas, other, theme, {
+      motion: this.motion, ghosts, clock, choice: this.otherChoice, words: this.words, bottleneck: lit,
+    });
     this.#linkViews(mapView);
     document.body.classList.add("compared");
     for (const [id, shown] of [["map-title", plan], ["other-title", other]]) this.#title(document.getElementById(id), shown);
@@ -58,7 +67,10 @@ class Comparison {
     choice.on("choice", () => otherChoice.chooseRobot(choice.robotIndex));
     otherChoice.on("choice", () => otherChoice.robotIndex !== choice.robotIndex && choice.chooseRobot(otherChoice.robotIndex));
     choice.on("heat", () => otherChoice.toggleHeat());
-    for (const event of ["choice", "heat"]) otherChoice.on(event, () => (this.view.base.stale = true));
+    choice.on("space", () => {
+      if (otherChoice.space !== choice.space) otherChoice.toggleSpace();
+    });
+    for (const event of ["choice", "heat", "space"]) otherChoice.on(event, () => (this.view.base.stale = true));
   }
 
   /** Both maps show the same part. */

@@ -1,11 +1,9 @@
-"use strict";
-
 /**
  * A distance axis along a route: every way of the route is on it once, at its true length. A way
  * back is the way there; a loop ends where it began, and so that place is at both ends; a branch
  * begins a new section. An entry is { vertex, at, up, down, section }.
  */
-class Corridor {
+export class Corridor {
   #spots = new Map();
 
   constructor(roadmap, route) {
@@ -68,7 +66,7 @@ class Corridor {
 }
 
 /** The shortest way from a place to another as vertices; the way back where only that can be driven. */
-function shortestWay(roadmap, from, to) {
+export function shortestWay(roadmap, from, to) {
   return searchWay(roadmap, from, to) ?? searchWay(roadmap, to, from)?.reverse() ?? null;
 }
 

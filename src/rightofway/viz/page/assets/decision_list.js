@@ -1,7 +1,9 @@
-"use strict";
+import { element } from "./dom.js";
+import { connectFind, matches } from "./find.js";
+import { VirtualList } from "./virtual_list.js";
 
 /** All resolved conflicts, and the robots that were sent another way. */
-class DecisionList {
+export class DecisionList {
   constructor(plan, clock, choice, words) {
     Object.assign(this, { plan, clock, choice, words });
     this.items = [
@@ -54,7 +56,7 @@ class DecisionList {
 }
 
 /** Write an item with a head and a detail into a row. */
-function fillTwoLines(row, item) {
+export function fillTwoLines(row, item) {
   if (row.filled === item) return;
   row.filled = item;
   row.title = `${item.head}\n${item.detail}`;

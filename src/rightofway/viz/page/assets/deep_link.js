@@ -1,10 +1,8 @@
-"use strict";
-
-/** Whether the page is part of another one, such as a notebook. */
-const EMBEDDED = Boolean(document.isPart) || window.parent !== window;
+import { EMBEDDED } from "./dom.js";
+import { MODES } from "./mode_switch.js";
 
 /** Keeps moment and choice in the address, so that a link shows what its sender saw. */
-class DeepLink {
+export class DeepLink {
   #timer = 0;
 
   constructor(plan, clock, choice) {

@@ -1,7 +1,13 @@
-"use strict";
+import { Area, paintAxis } from "./axis.js";
+import { Layer, fitCanvas } from "./canvas.js";
+import { Census } from "./census.js";
+import { MOST_ROWS, RobotRows } from "./robot_rows.js";
+import { pointer } from "./shapes.js";
+import { SpaceTime } from "./space_time.js";
+import { SteadyBand } from "./steady_band.js";
 
 /** The diagram below the slider: of the views on the plan, the one that explains most. */
-class Diagram {
+export class Diagram {
   constructor(plan, clock, choice, theme, words, use, bottleneck) {
     Object.assign(this, { plan, clock, choice, theme, words });
     this.canvas = document.getElementById("diagram");

@@ -1,9 +1,11 @@
-"use strict";
+import { fillTwoLines } from "./decision_list.js";
+import { connectFind, matches } from "./find.js";
+import { VirtualList } from "./virtual_list.js";
 
 const LINE = 36; // letters of a fault that surely fit in a line
 
 /** All faults of a plan that breaks rules: the earliest first; choosing one goes to its moment and place. */
-class FaultList {
+export class FaultList {
   constructor(plan, clock, choice, words) {
     Object.assign(this, { plan, clock, choice, words });
     this.find = document.getElementById("find-fault");

@@ -1,7 +1,5 @@
-"use strict";
-
 /** A search field over a list: typing filters, Enter takes the first match, arrow keys move on in the list. */
-function connectFind(field, list, filter) {
+export function connectFind(field, list, filter) {
   field.addEventListener("input", filter);
   field.addEventListener("keydown", (event) => {
     if (event.key === "Enter") list.chooseFirst();
@@ -16,7 +14,7 @@ function connectFind(field, list, filter) {
 }
 
 /** Whether a text has all words of a search, in any order. */
-function matches(text, search) {
+export function matches(text, search) {
   const whole = text.toLowerCase();
   return search.trim().toLowerCase().split(/\s+/).every((word) => whole.includes(word));
 }

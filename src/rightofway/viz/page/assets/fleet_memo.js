@@ -1,7 +1,5 @@
-"use strict";
-
 /** What was made of the robots shown; made again when other robots are shown. */
-class FleetMemo {
+export class FleetMemo {
   #robots = null;
   #made;
 

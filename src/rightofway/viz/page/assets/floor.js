@@ -1,7 +1,9 @@
-"use strict";
+import { lastAtMost } from "./arrays.js";
+import { BROKEN, DONE, HELD, WAIT } from "./phases.js";
+import { Robot, giveLosses } from "./robot.js";
 
 /** The robots as they drove on the floor: the same visits at other ticks, and some of them never. */
-function onTheFloor(raw, planned) {
+export function onTheFloor(raw, planned) {
   const robots = raw.floor.robots.map((run, index) => new FloorRobot(raw.robots[index], run, planned[index]));
   giveLosses(robots, raw.floor.losses);
   return robots;

@@ -1,7 +1,5 @@
-"use strict";
-
 /** What the keyboard does wherever no text is being written. */
-function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
+export function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
   const help = document.getElementById("help");
   const about = document.getElementById("about");
   const find = document.getElementById("find-robot");
@@ -19,6 +17,7 @@ function listenToKeys(clock, choice, viewport, modeSwitch, loop) {
     0: () => viewport.fit(),
     h: () => choice.toggleHeat(),
     c: () => choice.toggleCorridor(),
+    s: () => choice.plan.hasSpace && choice.toggleSpace(),
     b: () => choice.toggleBottleneck(),
     l: () => loop.toggle(),
     f: () => modeSwitch.next(),

@@ -1,9 +1,7 @@
-"use strict";
-
 const SQUARE = 48; // pixels; side of the squares that taken places are sorted into
 
 /** Which places of a picture are taken, so that no two labels are written over each other. */
-class LabelBoard {
+export class LabelBoard {
   #squares = new Map();
 
   /** Start again on a canvas of a given size; nothing is free beyond its borders. */
@@ -51,10 +49,10 @@ class LabelBoard {
 }
 
 /** Where a label may stand round a disc, best first: how far right and down its middle is. */
-const SIDES = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.75, -0.8], [-0.75, -0.8], [0.75, 0.8], [-0.75, 0.8]];
+export const SIDES = [[1, 0], [-1, 0], [0, -1], [0, 1], [0.75, -0.8], [-0.75, -0.8], [0.75, 0.8], [-0.75, 0.8]];
 
 /** The box of a label on a side of a disc. */
-function boxBeside(x, y, radius, width, height, [right, down]) {
+export function boxBeside(x, y, radius, width, height, [right, down]) {
   const [middleX, middleY] = [x + right * (radius + 3 + width / 2), y + down * (radius + 2 + height / 2)];
   return [middleX - width / 2, middleY - height / 2, middleX + width / 2, middleY + height / 2];
 }

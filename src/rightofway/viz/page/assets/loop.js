@@ -1,7 +1,5 @@
-"use strict";
-
 /** The button that plays one period for ever. */
-class Loop {
+export class Loop {
   constructor(plan, clock, choice) {
     Object.assign(this, { plan, clock, choice });
     this.button = document.getElementById("loop");

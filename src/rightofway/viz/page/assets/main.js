@@ -1,4 +1,29 @@
-"use strict";
+import { Bottleneck } from "./bottleneck.js";
+import { Card } from "./card.js";
+import { Choice } from "./choice.js";
+import { Clock } from "./clock.js";
+import { Comparison } from "./comparison.js";
+import { DecisionList } from "./decision_list.js";
+import { DeepLink } from "./deep_link.js";
+import { Diagram } from "./diagram.js";
+import { EMBEDDED } from "./dom.js";
+import { FaultList } from "./fault_list.js";
+import { listenToKeys } from "./keys.js";
+import { Loop } from "./loop.js";
+import { MapView } from "./map_view.js";
+import { ModeSwitch } from "./mode_switch.js";
+import { Motion } from "./motion.js";
+import { Paper } from "./paper.js";
+import { Plan } from "./plan.js";
+import { RobotList } from "./robot_list.js";
+import { Share } from "./share.js";
+import { States } from "./states.js";
+import { Summary } from "./summary.js";
+import { Tabs } from "./tabs.js";
+import { Theme } from "./theme.js";
+import { Transport } from "./transport.js";
+import { Use } from "./use.js";
+import { Words } from "./words.js";
 
 const plan = new Plan(JSON.parse(document.getElementById("plan").textContent));
 const words = new Words(plan);
@@ -10,14 +35,14 @@ const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap }); // a
 const use = new Use(plan);
 const bottleneck = new Bottleneck(plan, clock, choice, theme, words);
 
-const mapView = new MapView(document.getElementById("map"), plan, motion, ghosts, clock, choice, theme, words, use, bottleneck);
+const mapView = new MapView(document.getElementById("map"), plan, theme, { motion, ghosts, clock, choice, words, use, bottleneck, tools: true });
 const diagram = new Diagram(plan, clock, choice, theme, words, use, bottleneck);
 const transport = new Transport(plan, clock, words);
 const loop = new Loop(plan, clock, choice);
 const modeSwitch = new ModeSwitch(plan, choice);
 const states = new States(motion, choice);
 const comparison = plan.other && new Comparison(plan, plan.other, clock, choice, theme, mapView);
-const card = new Card(plan, clock, choice, words, comparison); // before the lists, whose height depends on it
+const card = new Card(plan, clock, choice, words, comparison, mapView.space); // before the lists, whose height depends on it
 const robotList = new RobotList(plan, motion, clock, choice, words);
 const decisionList = new DecisionList(plan, clock, choice, words);
 const faultList = new FaultList(plan, clock, choice, words);
@@ -36,6 +61,7 @@ window.addEventListener("resize", layOut);
 document.querySelector(".caption").classList.toggle("full", Boolean(plan.happened || plan.steady));
 for (const row of document.querySelectorAll("#help .repeats")) row.hidden = !plan.steady;
 for (const row of document.querySelectorAll("#help .floor")) row.hidden = !plan.happened;
+for (const row of document.querySelectorAll("#help .sized")) row.hidden = !plan.hasSpace;
 listenToKeys(clock, choice, mapView.viewport, modeSwitch, loop);
 
 const frames = {
@@ -73,8 +99,8 @@ const frames = {
 
   /** Words change only when a tick is over, or the choice is another one. */
   refreshWords() {
-    if (this.told === clock.wholeTick) return;
-    this.told = clock.wholeTick;
+    if (this.written === clock.wholeTick) return;
+    this.written = clock.wholeTick;
     states.refresh();
     robotList.refresh();
   },
@@ -102,9 +128,10 @@ choice.on("choice", repaintAll);
 choice.on("heat", repaintAll);
 choice.on("bottleneck", repaintAll);
 choice.on("corridor", repaintAll);
+choice.on("space", repaintAll);
 clock.on("loop", repaintAll);
 choice.on("mode", () => {
-  frames.told = NaN;
+  frames.written = NaN;
   repaintAll();
 });
 theme.on("theme", repaintAll);

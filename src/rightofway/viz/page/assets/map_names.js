@@ -1,12 +1,21 @@
-"use strict";
+import { FleetMemo } from "./fleet_memo.js";
+import { LabelBoard, SIDES, boxBeside } from "./label_board.js";
+import { BROKEN, DONE, DRIVE, TURN, WORK } from "./phases.js";
+import { decimal, fraction } from "./quantities.js";
+import { LONGEST_BAR } from "./scale_bar.js";
+import { disc, haloed, ring } from "./shapes.js";
+import { inkOn } from "./theme.js";
 
 const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
 const MOST_PLACES = 300; // names of places in sight
 const MOST_VERTICES = 1500; // in sight; of more, only homes and stops have names
 const NAMED_CELL = 40; // vertices of a grid have their names from this size on [pixels]
+const SIGNED_LANE = 44; // pixels; a shorter lane has no sign of its speed limit
 const FEW_MARKS = 24; // robots up to which homes and stops on a grid are named at any size
 const ROBOT_TYPE = 13; // pixels
 const PLACE_TYPE = 12;
+const MOST_ANCHORS = 24; // vertices of a zone that its name may stand beside
+const LONGEST_MARK = 34; // characters of the name of a home, a stop or a station
 const LONGEST_NAME = 20; // characters; longer ones are cut
 
 /**
@@ -14,7 +23,7 @@ const LONGEST_NAME = 20; // characters; longer ones are cut
  * other vertices; a name without room is left out. A place keeps its spot while the view does, and
  * is left out while a robot or a robot's name covers it.
  */
-class MapNames {
+export class MapNames {
   #robots = new LabelBoard();
   #places = new LabelBoard();
   #marks = new LabelBoard(); // homes and stops
@@ -45,13 +54,16 @@ class MapNames {
     const inSight = this.#inSight(width, height);
     const named = inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
     if (!named.length && !this.#spots.length) return;
-    const radius = this.sizes.robot;
-    for (const index of inSight) this.#robots.takeDisc(...this.#at(index), radius);
-    const outside = named.filter((index) => !this.#fitsInside(context, index, radius));
-    for (const index of outside) this.#beside(context, index, radius);
+    for (const index of inSight) this.#robots.takeDisc(...this.#at(index), this.#radius(index));
+    const outside = named.filter((index) => !this.#fitsInside(context, index, this.#radius(index)));
+    for (const index of outside) this.#beside(context, index, this.#radius(index));
     const outsiders = new Set(outside);
-    for (const index of named) if (!outsiders.has(index)) this.#inside(context, index, radius);
+    for (const index of named) if (!outsiders.has(index)) this.#inside(context, index, this.#radius(index));
     this.#writePlaces(context);
+  }
+
+  #radius(index) {
+    return this.sizes.of(this.plan.robots[index]);
   }
 
   #isChosen(index) {
@@ -120,7 +132,7 @@ class MapNames {
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#width(context, name, font);
     const [x, y] = this.#at(index);
-    const away = Math.max(this.#isHome(index) ? this.sizes.home : 0, radius + (this.#isChosen(index) ? 5 : 0));
+    const away = Math.max(this.#isHome(index) ? this.sizes.homeOf(this.plan.robots[index]) : 0, radius + (this.#isChosen(index) ? 5 : 0));
     const change = this.clock.playing ? 9 : 1;
     let [best, least, box] = [-1, Infinity, null];
     for (let step = 0; step < SIDES.length; step++) {
@@ -164,11 +176,12 @@ class MapNames {
 
   #writePlaces(context) {
     context.textBaseline = "middle";
-    for (const { name, box, ink, font, halo, isUpright } of this.#spots) {
+    for (const { name, box, ink, font, halo, isUpright, isRinged } of this.#spots) {
       if (!this.#robots.isFree(...box)) continue;
       context.font = font;
       context.textAlign = "left";
-      if (isUpright) {
+      if (isRinged) this.#writeInRing(context, name, box);
+      else if (isUpright) {
         context.save();
         context.translate((box[0] + box[2]) / 2 + 0.5, box[3]);
         context.rotate(-Math.PI / 2);
@@ -177,6 +190,18 @@ class MapNames {
       } else haloed(context, name, box[0], (box[1] + box[3]) / 2 + 0.5, ink, halo, 3);
       this.written.push({ name, box });
     }
+  }
+
+  #writeInRing(context, text, [left, top, right, bottom]) {
+    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+    context.fillStyle = this.theme.paper;
+    disc(context, x, y, (right - left) / 2);
+    context.strokeStyle = this.theme.held;
+    context.lineWidth = 1.75;
+    ring(context, x, y, (right - left) / 2 - 1);
+    context.fillStyle = this.theme.ink;
+    context.textAlign = "center";
+    context.fillText(text, x, y + 0.5);
   }
 
   /** The names of places in sight and where they stand, the important ones first. */
@@ -191,17 +216,59 @@ class MapNames {
     const inSight = [...this.#named(marks)].filter(isInSight);
     const spots = [];
     for (const vertex of inSight.length > MOST_VERTICES ? inSight.filter((it) => marks.has(it)) : inSight) {
-      const isMark = marks.has(vertex);
-      const font = this.theme.font(PLACE_TYPE, isMark ? 600 : 400);
-      const name = cut(roadmap.name(vertex));
-      const box = this.#spot(vertex, this.#width(context, name, font), isMark);
+      const mark = marks.get(vertex);
+      const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
+      const name = cut(roadmap.label(vertex), mark ? LONGEST_MARK : LONGEST_NAME);
+      const box = this.#spot(vertex, this.#width(context, name, font), mark);
       if (!box) continue;
       this.#places.take(...box);
-      spots.push({ name, box, font, ...this.#colours(vertex, isMark) });
+      spots.push({ name, box, font, ...this.#colours(vertex, Boolean(mark)) });
       if (spots.length >= MOST_PLACES) break;
     }
     this.#nameObstacles(context, spots);
+    this.#nameZones(context, spots);
+    this.#signLimits(context, spots);
     return spots;
+  }
+
+  /** Beside one of its vertices, or of the ends of its lanes. */
+  #nameZones(context, spots) {
+    const font = this.theme.font(PLACE_TYPE, 600);
+    for (const { name: whole, vertices, edges } of this.plan.roadmap.zones) {
+      const name = cut(whole);
+      const wide = this.#width(context, name, font);
+      const anchors = new Set([...vertices, ...edges.flat()]);
+      const boxes = [...anchors].slice(0, MOST_ANCHORS).flatMap((vertex) =>
+        SIDES.map((side) => boxBeside(...this.#pointOf(vertex), this.sizes.zone / 2, wide, PLACE_TYPE + 2, side)));
+      const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
+      const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
+      if (!box) continue;
+      this.#places.take(...box);
+      spots.push({ name, box, font, ink: this.theme.zone, halo: this.#halo });
+    }
+  }
+
+  /** The speed limit of a lane, in a ring on its middle. */
+  #signLimits(context, spots) {
+    const { limits, usualLimit, x, y } = this.plan.roadmap;
+    const font = this.theme.font(11, 600);
+    for (const { tail, head, limit } of limits ?? []) {
+      if (limit === usualLimit) continue;
+      if (Math.hypot(x[head] - x[tail], y[head] - y[tail]) * this.viewport.scale < SIGNED_LANE) continue;
+      const name = decimal(fraction(limit));
+      const radius = Math.max(this.#width(context, name, font) / 2 + 4, 9);
+      const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
+      const [middleX, middleY] = [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2];
+      const box = [middleX - radius, middleY - radius, middleX + radius, middleY + radius];
+      if (!this.#places.isFree(...box) || !this.#marks.isFree(...box)) continue;
+      this.#places.take(...box);
+      spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.paper, isRinged: true });
+      if (spots.length >= 2 * MOST_PLACES) break;
+    }
+  }
+
+  get #halo() {
+    return this.plan.roadmap.hasCells ? this.theme.floor : this.theme.paper;
   }
 
   /** Along an obstacle or upwards in it, where there is room. */
@@ -228,9 +295,9 @@ class MapNames {
 
   #colours(vertex, isMark) {
     const { theme, plan: { roadmap } } = this;
-    const heat = this.choice.heat && roadmap.rows ? this.use.heat(vertex, theme) : null;
+    const heat = this.choice.heat && roadmap.hasCells ? this.use.heat(vertex, theme) : null;
     if (heat && this.viewport.scale >= NAMED_CELL) return { ink: inkOn(heat), halo: heat };
-    return { ink: isMark ? theme.ink : theme.muted, halo: roadmap.rows ? theme.floor : theme.paper };
+    return { ink: isMark ? theme.ink : theme.muted, halo: this.#halo };
   }
 
   #pointOf(vertex) {
@@ -238,13 +305,12 @@ class MapNames {
     return [left + this.plan.roadmap.x[vertex] * scale, top + this.plan.roadmap.y[vertex] * scale];
   }
 
-  /** Homes and stops, and on a roadmap lanes, that names rather do not cover. */
+  /** Marks, and on a roadmap lanes, that names rather do not cover. */
   #keepFree(marks, width, height) {
     for (const board of [this.#places, this.#marks, this.#lanes]) board.clear(width, height);
-    for (const [vertex, { isHome }] of marks) {
-      this.#marks.takeDisc(...this.#pointOf(vertex), isHome ? this.sizes.home : this.sizes.stop);
-    }
-    if (this.plan.roadmap.rows) return;
+    this.#places.take(width - LONGEST_BAR - (this.plan.roadmap.usualLimit ? 240 : 40), height - 28, width, height); // scale bar
+    for (const [vertex, mark] of marks) this.#marks.takeDisc(...this.#pointOf(vertex), this.#reach(mark));
+    if (this.plan.roadmap.hasCells) return;
     const { bothWays, oneWay } = this.plan.roadmap.lanes;
     const half = this.sizes.lane / 2;
     for (const [tail, head] of [...bothWays, ...oneWay]) {
@@ -257,27 +323,34 @@ class MapNames {
     }
   }
 
-  /** A box for the name of a place, or null without room; only homes and stops may cover a lane. */
-  #spot(vertex, wide, isMark) {
+  /** How far a mark reaches from its vertex. */
+  #reach({ homeOf, isStop }) {
+    if (homeOf) return this.sizes.homeOf(homeOf);
+    return isStop ? this.sizes.stop : this.sizes.sign;
+  }
+
+  /** A box for the name of a place, or null without room; names of homes and stops may cover a lane. */
+  #spot(vertex, wide, mark) {
     const [x, y] = this.#pointOf(vertex);
     const high = PLACE_TYPE + 2;
     const { scale } = this.viewport;
+    const mayCover = mark && (mark.robots.length > 0 || scale >= NAMED_CELL);
     if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
       const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
       const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
       return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
     }
-    const radius = isMark ? this.sizes.home : Math.max(this.sizes.lane / 2, this.sizes.vertex);
+    const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);
     const boxes = SIDES.map((side) => boxBeside(x, y, radius, wide, high, side));
     const free = boxes.filter((box) => this.#places.isFree(...box) && this.#marks.isFree(...box));
-    return free.find((box) => this.#lanes.isFree(...box)) ?? (isMark ? free[0] ?? null : null);
+    return free.find((box) => this.#lanes.isFree(...box)) ?? (mayCover ? free[0] ?? null : null);
   }
 
   /** The vertices that may have a name, in the order of their importance. */
   #named(marks) {
     const { roadmap } = this.plan;
     const isChosen = (vertex) => marks.get(vertex).robots.some((index) => this.#isChosen(index));
-    if (roadmap.rows && this.viewport.scale < NAMED_CELL) {
+    if (roadmap.hasCells && this.viewport.scale < NAMED_CELL) {
       const shown = [...marks.keys()].filter((vertex) => this.plan.robots.length <= FEW_MARKS || isChosen(vertex));
       return new Set([...(this.choice.decision?.vertices ?? []), ...shown]);
     }
@@ -285,21 +358,28 @@ class MapNames {
     return new Set([...chosenFirst, ...Array(roadmap.size).keys()]);
   }
 
-  /** The homes and stops, each with its robots. */
+  /** The homes and stops, each with its robots, then stations, parking places and chargers. */
   #usedPlaces() {
     const places = new Map();
-    for (const { home, stages, index } of this.plan.robots) {
-      for (const vertex of [home, ...stages.map((stage) => stage.vertex)]) {
-        if (!places.has(vertex)) places.set(vertex, { robots: [], isHome: false });
-        places.get(vertex).robots.push(index);
-        places.get(vertex).isHome ||= vertex === home;
+    const at = (vertex) => {
+      if (!places.has(vertex)) places.set(vertex, { robots: [], homeOf: null, isStop: false });
+      return places.get(vertex);
+    };
+    for (const robot of this.plan.robots) {
+      for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {
+        const place = at(vertex);
+        place.robots.push(robot.index);
+        if (vertex === robot.home) place.homeOf = robot;
+        else place.isStop = true;
       }
     }
+    const { stations, parking, charging } = this.plan.roadmap;
+    for (const vertex of [...stations.keys(), ...parking, ...charging]) at(vertex);
     return places;
   }
 }
 
 /** A name, and the beginning of one that is too long. */
-function cut(name) {
-  return name.length > LONGEST_NAME ? `${name.slice(0, LONGEST_NAME - 1)}…` : name;
+function cut(name, longest = LONGEST_NAME) {
+  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
 }

@@ -1,38 +1,46 @@
-"use strict";
+import { BROKEN, DONE, HELD, TURN, WAIT, WORK } from "./phases.js";
+import { arc, disc, line, ring } from "./shapes.js";
 
 const FEW = 80; // up to here, waiting robots point to where they want to go
 
-/** The robots: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
-class MapRobots {
+/** The robots at their true size, if they have one: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
+export class MapRobots {
   constructor(plan, motion, ghosts, sizes, theme, choice) {
     Object.assign(this, { plan, motion, ghosts, sizes, theme, choice });
   }
 
   /** Paint all robots in map units; those that stand out come last, and so on top. */
   paint(context, scale) {
-    const radius = this.sizes.robot / scale;
-    if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, radius, scale);
+    if (this.choice.ghosts) for (const robot of this.#haunted) this.#ghost(context, robot, this.#radius(robot, scale), scale);
     if (this.choice.robotIndex < 0) {
-      for (const robot of this.plan.robots) this.#robot(context, robot, radius, scale);
+      for (const robot of this.plan.robots) this.#robot(context, robot, this.#radius(robot, scale), scale);
     } else {
       context.globalAlpha = 0.4;
       for (const robot of this.plan.robots) {
-        if (!this.choice.standsOut(robot.index)) this.#robot(context, robot, radius, scale);
+        if (!this.choice.standsOut(robot.index)) this.#robot(context, robot, this.#radius(robot, scale), scale);
       }
       context.globalAlpha = 1;
       const chosen = this.choice.decision?.robots ?? [this.choice.robotIndex];
-      for (const index of chosen) this.#chosen(context, this.plan.robots[index], radius, scale);
+      for (const index of chosen) this.#chosen(context, this.plan.robots[index], scale);
     }
-    this.#faulty(context, radius, scale);
+    this.#faulty(context, scale);
+  }
+
+  #radius(robot, scale) {
+    return this.sizes.of(robot) / scale;
   }
 
   /** A red ring round the robots that break a rule. */
-  #faulty(context, radius, scale) {
+  #faulty(context, scale) {
     context.strokeStyle = this.theme.held;
     context.lineWidth = Math.max(0.03, 2 / scale);
     const { faulty } = this.choice;
-    const wide = faulty.length > FEW ? radius * 1.3 : Math.max(radius * 1.75, 9 / scale);
-    for (const index of faulty) ring(context, this.motion.x[index], this.motion.y[index], wide);
+    for (const index of faulty) {
+      const robot = this.plan.robots[index];
+      const radius = this.#radius(robot, scale);
+      const wide = robot.radius ? radius + 4 / scale : faulty.length > FEW ? radius * 1.3 : Math.max(radius * 1.75, 9 / scale);
+      ring(context, this.motion.x[index], this.motion.y[index], wide);
+    }
   }
 
   /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */
@@ -64,12 +72,13 @@ class MapRobots {
     context.globalAlpha = 1;
   }
 
-  #chosen(context, robot, radius, scale) {
+  #chosen(context, robot, scale) {
+    const radius = this.#radius(robot, scale);
     const [x, y] = [this.motion.x[robot.index], this.motion.y[robot.index]];
     const grown = Math.max(radius, 7 / scale);
     context.strokeStyle = this.theme.ink;
     context.lineWidth = 2.5 / scale;
-    ring(context, x, y, grown + (this.#dialled(robot.index) ? 0.42 * grown : 0) + 4 / scale);
+    ring(context, x, y, grown + (this.#dialled(robot.index) && !robot.radius ? 0.42 * grown : 0) + 4 / scale);
     this.#robot(context, robot, grown, scale);
   }
 
@@ -158,13 +167,14 @@ class MapRobots {
     context.lineCap = "butt";
   }
 
-  /** Work fills a circle; turning sweeps two arcs round half of it. */
-  #dial(context, robot, x, y, radius, scale) {
+  /** Work fills a circle; turning sweeps two arcs round half of it. A true size has it inside. */
+  #dial(context, robot, x, y, robotRadius, scale) {
     const i = robot.index;
     const share = this.motion.share[i];
     const start = -Math.PI / 2;
-    context.strokeStyle = robot.colour;
-    context.lineWidth = Math.max(radius * 0.17, 1 / scale);
+    const radius = robot.radius ? robotRadius * 0.62 : robotRadius;
+    context.strokeStyle = robot.radius ? this.theme.floor : robot.colour;
+    context.lineWidth = Math.max(robotRadius * (robot.radius ? 0.12 : 0.17), 1 / scale);
     if (this.motion.activity[i] === WORK) {
       arc(context, x, y, radius * 1.3, start, start + 2 * Math.PI * share);
       context.globalAlpha *= 0.25;

@@ -1,5 +1,3 @@
-"use strict";
-
 /** Where two lanes beside a route meet, seen from its vertex; two points where it turns back. */
 function corner(before, after) {
   const square = after.x ** 2 + after.y ** 2 || 1;
@@ -9,7 +7,7 @@ function corner(before, after) {
 }
 
 /** The routes of the robots chosen, and the place of the chosen decision. */
-class MapRoute {
+export class MapRoute {
   constructor(plan, motion, sizes, theme, choice) {
     Object.assign(this, { plan, motion, sizes, theme, choice });
   }

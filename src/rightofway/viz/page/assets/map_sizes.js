@@ -1,32 +1,47 @@
-"use strict";
-
 const READABLE_RADIUS = 10; // pixels; a robot need not be larger to be seen from afar
 const SMALLEST_CAP = { many: 4.5, few: 7 }; // pixels; robots may be as large where cells are smaller
+const SMALLEST_RADIUS = 2; // pixels, of a robot that is drawn at its true size
 const LARGEST_RADIUS = { grid: 44, network: 20 }; // pixels
 
 /**
- * How large things are on the map, in pixels. Where cells are large, robots and marks grow with
- * them; where cells are small, what moves stays large enough to be seen, as far as there is room.
+ * How large things are on the map, in pixels. A robot with a radius has its true size. Points and
+ * marks grow with large cells; where cells are small, they stay large enough to be seen, as far as
+ * there is room.
  */
-class MapSizes {
+export class MapSizes {
   constructor(plan, viewport) {
     Object.assign(this, { plan, viewport });
   }
 
-  /** Radius of a robot. */
+  /** Radius of a robot: its own, if it has one, as long as that can be seen. */
+  of(robot) {
+    return robot.radius ? Math.max((robot.radius / this.plan.roadmap.unit) * this.viewport.scale, SMALLEST_RADIUS) : this.#point;
+  }
+
+  /** Radius of the largest robot. */
   get robot() {
+    return this.plan.largestRadius ? this.of({ radius: this.plan.largestRadius }) : this.#point;
+  }
+
+  /** Radius of a robot that has none. */
+  get #point() {
     const { scale } = this.viewport;
     const { roadmap, robots } = this.plan;
     const apart = Math.sqrt((roadmap.width * roadmap.height) / robots.length) * scale; // on average
     const cap = Math.max(SMALLEST_CAP.many, Math.min(SMALLEST_CAP.few, apart * 0.1), scale * 0.95);
     const least = Math.min(apart * 0.16, READABLE_RADIUS, cap);
-    return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.rows ? "grid" : "network"]);
+    return Math.min(Math.max(scale * 0.31, least, 1.8), LARGEST_RADIUS[roadmap.hasCells ? "grid" : "network"]);
   }
 
-  /** Half the side of a home. */
-  get home() {
+  /** Half the side of a robot's home. */
+  homeOf(robot) {
     const inCell = this.plan.roadmap.rows ? this.viewport.scale * 0.345 : 0;
-    return Math.max(inCell, this.robot + 1.5);
+    return this.plan.roadmap.rows && robot.radius ? inCell : Math.max(inCell, this.of(robot) + 1.5);
+  }
+
+  /** Half the side of the sign of a station, a parking place or a charger. */
+  get sign() {
+    return Math.min(Math.max(this.lane * 0.55, 5), 10);
   }
 
   /** Half the width of a stop's diamond. */
@@ -38,6 +53,11 @@ class MapSizes {
   get lane() {
     const { scale } = this.viewport;
     return Math.min(Math.max(scale * 0.42, 7), Math.max(scale * 0.8, 1.5), 18);
+  }
+
+  /** Width of the band of a zone. */
+  get zone() {
+    return this.plan.roadmap.rows ? this.viewport.scale : this.lane * 1.5 + 8;
   }
 
   /** Radius of a vertex of a roadmap. */

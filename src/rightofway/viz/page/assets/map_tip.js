@@ -1,11 +1,14 @@
-"use strict";
+import { nearest } from "./arrays.js";
+import { element, swatch } from "./dom.js";
+import { DRIVE } from "./phases.js";
+import { ACTIVITY_WORDS, several } from "./words.js";
 
 const TIP_GAP = 16; // pixels from the pointer
 
 /** What is under the pointer, beside it: a robot and what it does, a place and who is there, where that is. */
-class MapTip {
-  constructor(canvas, plan, motion, clock, choice, words, use) {
-    Object.assign(this, { canvas, plan, motion, clock, choice, words, use });
+export class MapTip {
+  constructor(canvas, plan, motion, clock, choice, words, use, space) {
+    Object.assign(this, { canvas, plan, motion, clock, choice, words, use, space });
     this.box = canvas.parentElement.querySelector(".hover");
   }
 
@@ -40,6 +43,8 @@ class MapTip {
     return [
       ...(index < 0 ? [] : this.#aboutRobot(this.plan.robots[index])),
       ...(vertex < 0 ? [] : this.#aboutPlace(vertex, index)),
+      ...(vertex < 0 ? [] : this.#aboutZones(vertex)),
+      ...this.plan.closures.filter(({ vertices }) => vertices.includes(vertex)).map((closure) => ({ text: this.words.closure(closure) })),
       ...(obstacle ? [{ text: obstacle.name, kind: "title" }] : []),
       { text: this.#position(x, y), kind: "position" },
     ];
@@ -48,6 +53,7 @@ class MapTip {
   /** Its name, what it does, since when and until when. */
   #aboutRobot(robot) {
     const { words } = this;
+    if (this.plan.isStill) return [{ text: robot.name, robot, kind: "title" }];
     const phase = this.motion.phase[robot.index];
     const { begin, visit } = robot.phases;
     const activity = this.motion.activity[robot.index];
@@ -61,6 +67,17 @@ class MapTip {
     ];
   }
 
+  /** The zones of a place, and the robot that holds each. */
+  #aboutZones(vertex) {
+    const zones = this.space.zonesOf.get(String(vertex)) ?? [];
+    const holders = zones.length ? this.space.zoneHolders : null;
+    return zones.map((zone) => {
+      const { name } = this.plan.roadmap.zones[zone];
+      const robot = holders.get(zone);
+      return { text: `zone ${name}${robot ? `, held by ${robot.name}` : ""}`, robot };
+    });
+  }
+
   /** Its name, who is there but the robot that was named, and who comes next. */
   #aboutPlace(vertex, named) {
     const now = this.clock.tick;
@@ -69,6 +86,7 @@ class MapTip {
     const here = visits.find(([robot, visit]) => robot.enter[visit] <= now && now < robot.leave(visit));
     const next = visits.find(([robot, visit]) => robot.enter[visit] > now);
     const lines = [{ text: this.#placeName(vertex), kind: "title" }];
+    if (this.plan.isStill) return lines;
     if (here && here[0].index !== named) {
       const leave = here[0].leave(here[1]);
       const until = leave === Infinity ? "stays" : `until ${words.moment(leave)}`;
@@ -84,7 +102,7 @@ class MapTip {
     const homes = this.plan.robots.filter((robot) => robot.home === vertex).map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
     const uses = [homes.length ? `home of ${several(homes)}` : "", stops.length ? `stop of ${several(stops)}` : ""];
-    return [this.words.vertex(vertex), ...uses.filter(Boolean)].join(", ");
+    return [this.words.vertex(vertex), this.plan.roadmap.uses(vertex), ...uses].filter(Boolean).join(", ");
   }
 
   /** Coordinates in the site's frame, to a hundredth of a cell or so. */

@@ -1,12 +1,39 @@
-"use strict";
+import { nearest } from "./arrays.js";
+import { Layer, fitCanvas } from "./canvas.js";
+import { Choice } from "./choice.js";
+import { element } from "./dom.js";
+import { MapBase } from "./map_base.js";
+import { MapNames } from "./map_names.js";
+import { MapRobots } from "./map_robots.js";
+import { MapRoute } from "./map_route.js";
+import { MapSizes } from "./map_sizes.js";
+import { MapSpace } from "./map_space.js";
+import { MapTip } from "./map_tip.js";
+import { Motion } from "./motion.js";
+import { counted } from "./quantities.js";
+import { paintScaleBar } from "./scale_bar.js";
+import { Space } from "./space.js";
+import { Use } from "./use.js";
+import { Viewport } from "./viewport.js";
+import { Words } from "./words.js";
 
-/** The map: what does not move is painted once, robots at each frame. */
-class MapView {
-  constructor(canvas, plan, motion, ghosts, clock, choice, theme, words, use, bottleneck, hasTools = true) {
+/** The moment of a map on which nothing moves. */
+const STILL = Object.freeze({ tick: 0, playing: false });
+
+/**
+ * The map: what does not move is painted once, robots at each frame. Of a `Site` alone it needs canvas,
+ * site and theme; a page that plays a plan gives what it shares with its other views. The canvas lies in
+ * an element with room for a tip (class `hover`); without `tools`, no button of the page acts on it.
+ */
+export class MapView {
+  constructor(canvas, plan, theme, {
+    motion = new Motion(plan), ghosts = motion, clock = STILL, choice = new Choice(plan), words = new Words(plan),
+    use = new Use(plan), bottleneck = null, tools = false,
+  } = {}) {
     Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.roadmap = plan.roadmap;
-    this.viewport = new Viewport(canvas, plan.roadmap);
+    this.viewport = new Viewport(canvas, plan.roadmap, plan.largestRadius / plan.roadmap.unit);
     this.sizes = new MapSizes(plan, this.viewport);
     const base = new MapBase(plan, this.viewport, this.sizes, theme, choice, use, bottleneck);
     this.base = new Layer((context, width, height) => {
@@ -14,16 +41,19 @@ class MapView {
       paintScaleBar(context, width, height, plan, this.viewport, theme);
       this.names.refresh();
     });
+    this.space = new Space(plan, motion);
+    this.bookings = new MapSpace(plan, motion, clock, this.space, this.viewport, this.sizes, theme, choice, base.marks);
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
-    this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use);
+    this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
     canvas.parentElement.style.setProperty("--ratio", plan.roadmap.width / plan.roadmap.height);
-    canvas.setAttribute("aria-label", `Map with ${counted(plan.robots.length, "robot")}`);
+    const { length } = plan.robots;
+    canvas.setAttribute("aria-label", length ? `Map with ${counted(length, "robot")}` : `Map with ${plan.roadmap.size} vertices`);
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
     choice.on("choice", () => this.#bringIntoSight());
-    if (hasTools) this.#listenToTools();
+    if (tools) this.#listenToTools(plan);
   }
 
   /** Paint a frame. */
@@ -37,11 +67,14 @@ class MapView {
     const { left, top, scale } = this.viewport;
     context.translate(left, top);
     context.scale(scale, scale);
+    this.bookings.paint(context, scale);
     this.route.paint(context, scale);
-    this.bottleneck.paintRobots(context, this.motion, scale);
+    this.bottleneck?.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
+    this.bookings.paintOver(context, scale);
     context.setTransform(size.ratio, 0, 0, size.ratio, 0, 0);
     this.names.paint(context, size.width, size.height);
+    this.bookings.write(context, this.words);
     this.tip.refresh(this.viewport, this.sizes);
   }
 
@@ -61,13 +94,16 @@ class MapView {
     if (robotIndex >= 0) this.viewport.show(this.motion.x[robotIndex], this.motion.y[robotIndex]);
   }
 
-  #listenToTools() {
+  #listenToTools(plan) {
     const press = (id, action) => document.getElementById(id).addEventListener("click", action);
     press("zoom-in", () => this.viewport.zoom(1.5));
     press("zoom-out", () => this.viewport.zoom(1 / 1.5));
     press("fit", () => this.viewport.fit());
     press("heat", () => this.choice.toggleHeat());
     press("corridor", () => this.choice.toggleCorridor());
+    press("space", () => this.choice.toggleSpace());
+    document.getElementById("space").hidden = !plan.hasSpace;
+    this.choice.on("space", () => document.getElementById("space").setAttribute("aria-pressed", this.choice.space));
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
       document.getElementById("corridor").setAttribute("aria-pressed", Boolean(picked || corridor));

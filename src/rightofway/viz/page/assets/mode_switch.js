@@ -1,9 +1,7 @@
-"use strict";
-
-const MODES = ["plan", "floor", "both"];
+export const MODES = ["plan", "floor", "both"];
 
 /** What to show: the plan, what happened on the floor, or both. */
-class ModeSwitch {
+export class ModeSwitch {
   constructor(plan, choice) {
     Object.assign(this, { plan, choice });
     this.box = document.getElementById("mode");

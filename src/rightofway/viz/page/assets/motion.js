@@ -1,15 +1,17 @@
-"use strict";
+import { lastAtMost } from "./arrays.js";
+import { DRIVE } from "./phases.js";
 
 /** Where all robots are and what they do, at one instant. */
-class Motion {
+export class Motion {
   constructor(plan) {
     const count = plan.robots.length;
     this.plan = plan;
-    this.x = new Float32Array(count);
-    this.y = new Float32Array(count);
+    this.x = new Float64Array(count);
+    this.y = new Float64Array(count);
     this.activity = new Uint8Array(count);
     this.share = new Float32Array(count); // of the activity that is over, 0 to 1
     this.phase = new Int32Array(count);
+    this.ticks = new Float64Array(count); // the moment of each robot
     this.counts = new Int32Array(7); // robots by activity
     this.moveTo(0);
   }
@@ -39,6 +41,7 @@ class Motion {
 
   #move(robot, tick) {
     const i = robot.index;
+    this.ticks[i] = tick;
     const phase = (this.phase[i] = this.#find(robot, tick));
     const activity = (this.activity[i] = robot.phases.activity[phase]);
     this.counts[activity]++;

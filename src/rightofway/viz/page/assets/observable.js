@@ -1,7 +1,5 @@
-"use strict";
-
 /** Something others can listen to. */
-class Observable {
+export class Observable {
   #listeners = {};
 
   /** Call `listener` whenever `event` is told. */

@@ -1,9 +1,9 @@
-"use strict";
+import { element } from "./dom.js";
 
 const ROWS_ON_PAPER = 50;
 
 /** The page on paper: the head, the moment, and a table of the robots, in light colours. */
-class Paper {
+export class Paper {
   constructor(plan, clock, theme, words, comparison, repaint) {
     Object.assign(this, { plan, clock, theme, words, comparison, repaint });
     window.addEventListener("beforeprint", () => this.lay(true));

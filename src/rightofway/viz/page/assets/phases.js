@@ -1,13 +1,11 @@
-"use strict";
-
 /** What a robot does. */
-const DRIVE = 0;
-const WAIT = 1;
-const WORK = 2;
-const TURN = 3;
-const DONE = 4;
-const HELD = 5; // up, by itself: on the floor only
-const BROKEN = 6;
+export const DRIVE = 0;
+export const WAIT = 1;
+export const WORK = 2;
+export const TURN = 3;
+export const DONE = 4;
+export const HELD = 5; // up, by itself: on the floor only
+export const BROKEN = 6;
 
 /**
  * What a robot does when, one entry for each change: `begin[i]` to `begin[i + 1]`, during `visit[i]`.
@@ -16,7 +14,7 @@ const BROKEN = 6;
  * along the edge during those ticks: a visit is work, turning, waiting, and at last the drive. On the
  * floor a robot may stand still by itself; one that does so while it drives is shown to do so before.
  */
-function phasesOf(robot) {
+export function phasesOf(robot) {
   const phases = { begin: [], activity: [], visit: [] };
   const last = robot.vertices.length - 1;
   let stage = 0;
@@ -34,6 +32,7 @@ function phasesOf(robot) {
       add(robot.stages[stage].work, WORK);
       if (visit < last || robot.ending !== DONE) add(robot.stages[stage].turn, TURN);
     }
+    if (visit < last) add(robot.turns.get(visit) ?? 0, TURN);
     if (visit === last) pushEnd(phases, now, robot);
     else {
       if (go > now) pushStill(phases, now, go, WAIT, visit, robot);

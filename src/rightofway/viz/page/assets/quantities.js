@@ -1,10 +1,8 @@
-"use strict";
-
 /** Length of each unit of time [s]. */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
 
 /** A number ("30313/700", 0.5, 1e-7) as an exact fraction: numerator and denominator. */
-function fraction(value) {
+export function fraction(value) {
   const [top, bottom] = String(value).split("/");
   if (bottom) return [BigInt(top), BigInt(bottom)];
   const [digits, exponent = "0"] = top.split("e");
@@ -36,7 +34,7 @@ function fixed([top, bottom], digits = 2) {
  * A fraction as a person writes it: all decimals if `digits` are enough, else exactly `digits`, so
  * that a rounded number looks rounded; two significant digits for what would be 0.00.
  */
-function decimal([top, bottom], digits = 2) {
+export function decimal([top, bottom], digits = 2) {
   const scaled = top * 10n ** BigInt(digits);
   const text = fixed([top, bottom], digits);
   if (scaled % bottom === 0n) return digits ? text.replace(/\.?0+$/, "") : text;
@@ -46,7 +44,7 @@ function decimal([top, bottom], digits = 2) {
 }
 
 /** Times, lengths and speeds as people read them; the twin of model/quantities.py, case for case. */
-class Quantities {
+export class Quantities {
   #perTick;
 
   /** `units` has `length` and `time`, each a name or null; `tick` is a numerator and a denominator. */
@@ -120,6 +118,6 @@ function times([top, bottom], [otherTop, otherBottom]) {
 }
 
 /** "1 time unit", "1.5 time units". */
-function counted(number, thing) {
+export function counted(number, thing) {
   return `${number} ${thing}${String(number) === "1" ? "" : "s"}`;
 }

@@ -1,7 +1,11 @@
-"use strict";
+import { element, swatch } from "./dom.js";
+import { connectFind, matches } from "./find.js";
+import { BROKEN, WAIT } from "./phases.js";
+import { VirtualList } from "./virtual_list.js";
+import { ACTIVITY_WORDS } from "./words.js";
 
 /** All robots: what they do now, when they are done, how much the others cost them. */
-class RobotList {
+export class RobotList {
   constructor(plan, motion, clock, choice, words) {
     Object.assign(this, { plan, motion, clock, choice, words });
     this.find = document.getElementById("find-robot");

@@ -1,12 +1,14 @@
-"use strict";
+import { paintRowNames } from "./axis.js";
+import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
+import { crossedOut, stripes } from "./shapes.js";
 
-const MOST_ROWS = 60;
+export const MOST_ROWS = 60;
 const HIGHEST_ROW = 52; // pixels
 const THICKEST = 20; // pixels; a block
 const ROW_WITH_GHOST = 9; // pixels; in lower rows only the end of the plan is marked
 
 /** A row for each robot: a line while it drives, a frame while it waits, a block while it works. */
-class RobotRows {
+export class RobotRows {
   constructor(plan, theme, choice, bottleneck) {
     Object.assign(this, { plan, theme, choice, bottleneck });
   }

@@ -1,6 +1,7 @@
-"use strict";
+import { haloed } from "./shapes.js";
 
-const LONGEST_BAR = 130; // pixels
+export const LONGEST_BAR = 130; // pixels
+const LIMIT_NOTED = 480; // pixels; a narrower map has no room for the usual speed limit
 
 /** The longest round length that a bar of so many pixels has room for [length unit]. */
 function roundLength(perPixel) {
@@ -9,8 +10,8 @@ function roundLength(perPixel) {
   return [5, 2, 1].find((digit) => digit * power <= most) * power;
 }
 
-/** How long a length is on the map, at its lower right corner. */
-function paintScaleBar(context, width, height, plan, { scale }, theme) {
+/** How long a length is on the map, at its lower right corner, and the speed limit where no sign says another. */
+export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   const length = roundLength(plan.roadmap.unit / scale);
   const wide = (length / plan.roadmap.unit) * scale;
   const [right, bottom] = [width - 18, height - 10];
@@ -33,4 +34,7 @@ function paintScaleBar(context, width, height, plan, { scale }, theme) {
   context.textAlign = "right";
   context.textBaseline = "bottom";
   haloed(context, plan.quantities.length(Number(length.toPrecision(1))), right, bottom - 6, theme.ink, theme.paper, 3);
+  const { usualLimit } = plan.roadmap;
+  if (!usualLimit || width < LIMIT_NOTED) return;
+  haloed(context, `speed limit ${plan.quantities.speed(usualLimit)} without a sign`, right - wide - 20, bottom + 2, theme.muted, theme.paper, 3);
 }

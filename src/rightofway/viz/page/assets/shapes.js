@@ -1,12 +1,15 @@
-"use strict";
-
-function line(context, fromX, fromY, toX, toY) {
+export function line(context, fromX, fromY, toX, toY) {
   context.moveTo(fromX, fromY);
   context.lineTo(toX, toY);
 }
 
+/** A point in a path that is stroked with round caps. */
+export function dot(path, x, y) {
+  line(path, x, y, x + 1e-4, y); // a line of no length need not be drawn
+}
+
 /** An arrow head with its middle at a point, in the present stroke. */
-function chevron(context, x, y, angle, size) {
+export function chevron(context, x, y, angle, size) {
   const [along, across] = [Math.cos(angle) * size, Math.sin(angle) * size];
   context.moveTo(x - along * 0.5 - across, y - across * 0.5 + along);
   context.lineTo(x + along * 0.5, y + across * 0.5);
@@ -14,7 +17,7 @@ function chevron(context, x, y, angle, size) {
 }
 
 /** A text at the present alignment, set apart from what is behind it. */
-function haloed(context, text, x, y, ink, halo, width) {
+export function haloed(context, text, x, y, ink, halo, width) {
   context.strokeStyle = halo;
   context.lineWidth = width;
   context.lineJoin = "round";
@@ -23,30 +26,30 @@ function haloed(context, text, x, y, ink, halo, width) {
   context.fillText(text, x, y);
 }
 
-function disc(context, x, y, radius) {
+export function disc(context, x, y, radius) {
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.fill();
 }
 
-function ring(context, x, y, radius) {
+export function ring(context, x, y, radius) {
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
 }
 
-function arc(context, x, y, radius, from, to) {
+export function arc(context, x, y, radius, from, to) {
   context.beginPath();
   context.arc(x, y, radius, from, to);
   context.stroke();
 }
 
-function field(context, x, y, side) {
+export function field(context, x, y, side) {
   context.beginPath();
   context.roundRect(x - side / 2, y - side / 2, side, side, side * 0.16);
 }
 
-function diamond(context, x, y, radius) {
+export function diamond(context, x, y, radius) {
   context.beginPath();
   context.moveTo(x, y - radius);
   context.lineTo(x + radius, y);
@@ -56,7 +59,7 @@ function diamond(context, x, y, radius) {
 }
 
 /** A triangle that points down from the top edge. */
-function pointer(context, x, size) {
+export function pointer(context, x, size) {
   context.beginPath();
   context.moveTo(x - size, 0);
   context.lineTo(x + size, 0);
@@ -65,7 +68,7 @@ function pointer(context, x, size) {
 }
 
 /** A box with stripes in the present colour, and filled where it is too small for them. */
-function stripes(context, left, top, width, height) {
+export function stripes(context, left, top, width, height) {
   if (height < 5) {
     context.fillRect(left, top, width, height);
     return;
@@ -83,7 +86,7 @@ function stripes(context, left, top, width, height) {
 }
 
 /** A cross in the present colour at the left, and a line from there on. */
-function crossedOut(context, left, middle, width, height) {
+export function crossedOut(context, left, middle, width, height) {
   const reach = Math.max(Math.min(height / 2, 6), 2);
   context.fillRect(left, middle - 0.75, width, 1.5);
   context.save();
@@ -97,7 +100,7 @@ function crossedOut(context, left, middle, width, height) {
 }
 
 /** A text cut to fit a width, with an ellipsis. */
-function shortened(context, text, width) {
+export function shortened(context, text, width) {
   if (context.measureText(text).width <= width) return text;
   const share = width / context.measureText(text).width;
   return `${text.slice(0, Math.max(Math.floor(text.length * share) - 1, 1))}…`;

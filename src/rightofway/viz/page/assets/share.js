@@ -1,9 +1,10 @@
-"use strict";
+import { AXIS_HEIGHT } from "./axis.js";
+import { EMBEDDED, element } from "./dom.js";
 
 const SAID_FOR = 2000; // how long a button says what it did [ms]
 
 /** Takes the moment elsewhere: as a link, as a picture. */
-class Share {
+export class Share {
   constructor(plan, clock, maps, diagram, theme, words, deepLink) {
     Object.assign(this, { plan, clock, maps, diagram, theme, words, deepLink });
     const buttons = { "copy-link": () => this.copyLink(), "save-picture": () => this.savePicture(), print: () => window.print() };

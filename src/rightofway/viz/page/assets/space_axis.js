@@ -1,5 +1,3 @@
-"use strict";
-
 const NAME_GAP = 14; // pixels between two names, at least
 const SECTION_GAP = 22; // pixels between two sections of a corridor
 const TALLEST_FIELD = 24; // pixels
@@ -38,7 +36,7 @@ class SpaceAxis {
 }
 
 /** Rows along a corridor, true to scale: a slope is a speed. */
-class CorridorAxis extends SpaceAxis {
+export class CorridorAxis extends SpaceAxis {
   constructor(corridor, area) {
     const gaps = Math.min(SECTION_GAP * (corridor.sections.length - 1), area.height * 0.4);
     const room = area.height - 2 * PAD - gaps;
@@ -61,7 +59,7 @@ class CorridorAxis extends SpaceAxis {
 }
 
 /** Rows of all places of a small fleet in one line: at their distances, but never one over another. */
-class LineAxis extends SpaceAxis {
+export class LineAxis extends SpaceAxis {
   constructor(line, area, distance) {
     const steps = line.slice(1).map(({ at }, i) => at - line[i].at);
     const room = area.height - 2 * PAD;

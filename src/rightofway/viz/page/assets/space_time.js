@@ -1,11 +1,15 @@
-"use strict";
+import { Corridor } from "./corridor.js";
+import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "./phases.js";
+import { crossedOut, line, shortened, stripes } from "./shapes.js";
+import { CorridorAxis, LineAxis } from "./space_axis.js";
+import { several } from "./words.js";
 
 /**
  * Space and time, as in a railway's graphic timetable: places upwards, time to the right. Fields are
  * bookings; a line is level while its robot stays, dashed while it waits, and slopes while it drives.
  * Along a corridor or the route of the chosen robot distances are true, and so slopes are speeds.
  */
-class SpaceTime {
+export class SpaceTime {
   constructor(plan, theme, words, use, choice, bottleneck) {
     Object.assign(this, { plan, theme, words, use, choice, bottleneck });
   }

@@ -1,4 +1,6 @@
-"use strict";
+import { element } from "./dom.js";
+import { BROKEN, HELD } from "./phases.js";
+import { ACTIVITY_WORDS } from "./words.js";
 
 const DISC = '<circle cx="8" cy="8" r="4" fill="currentColor" stroke="none"/>';
 const SIGNS = [
@@ -13,7 +15,7 @@ const SIGNS = [
 const GHOST_SIGN = '<circle cx="8" cy="8" r="5" stroke-dasharray="2.6 2.63" stroke-width="1.3"/>';
 
 /** How many robots do what now; the legend of the map at the same time. */
-class States {
+export class States {
   #counts;
 
   constructor(motion, choice) {

@@ -1,7 +1,7 @@
-"use strict";
+import { lastAtMost } from "./arrays.js";
 
 /** The groups of robots that repeat themselves, each from its own start and with its own period. */
-class Steady {
+export class Steady {
   constructor(raw, robots) {
     this.groups = raw.steady.map((group) => new Group(group, robots));
     this.groupOf = robots.map(({ index }) => this.groups.find((group) => group.has(index)) ?? null);

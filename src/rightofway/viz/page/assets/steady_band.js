@@ -1,10 +1,10 @@
-"use strict";
+import { line } from "./shapes.js";
 
 const BAND_HEIGHT = 17;
-const NARROWEST_PERIOD = 5; // pixels; narrower ones are not drawn one by one
+export const NARROWEST_PERIOD = 5; // pixels; narrower ones are not drawn one by one
 
 /** Above the diagram: the transient, and each period of the group that is looked at. */
-class SteadyBand {
+export class SteadyBand {
   constructor(plan, clock, choice, theme, words) {
     Object.assign(this, { plan, clock, choice, theme, words });
   }

@@ -1,7 +1,9 @@
-"use strict";
+import { element, facts, link } from "./dom.js";
+import { DONE, WAIT } from "./phases.js";
+import { counted } from "./quantities.js";
 
 /** The head of the page: what the plan achieves, in plain words and few figures; how it was made, on request. */
-class Summary {
+export class Summary {
   constructor(plan, choice, words, comparison) {
     Object.assign(this, { plan, choice, words, comparison });
     const robots = counted(plan.robots.length, "robot");

@@ -1,7 +1,5 @@
-"use strict";
-
 /** Several lists in one place; those without items may be left out. */
-class Tabs {
+export class Tabs {
   constructor(counts, shown) {
     this.tabs = [...document.querySelectorAll("[role=tab]")];
     this.shown = shown;

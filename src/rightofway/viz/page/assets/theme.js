@@ -1,7 +1,7 @@
-"use strict";
+import { Observable } from "./observable.js";
 
 /** The page's colours for drawing on a canvas. Tells `theme` when light turns dark. */
-class Theme extends Observable {
+export class Theme extends Observable {
   constructor() {
     super();
     this.#read();
@@ -29,7 +29,7 @@ class Theme extends Observable {
 
 const THEME_COLOURS = [
   "paper", "panel", "floor", "wall", "line", "ink", "muted", "heat-low", "heat-high",
-  "drive", "wait", "work", "turn", "held", "broken", "lit", "lit-edge",
+  "drive", "wait", "work", "turn", "held", "broken", "lit", "lit-edge", "zone",
 ];
 
 /** The channels of "#rrggbb", 0 to 255. */
@@ -39,14 +39,14 @@ function channels(colour) {
 }
 
 /** The colour at `share` (0 to 1) of the way between two. */
-function blend(low, high, share) {
+export function blend(low, high, share) {
   const [from, to] = [channels(low), channels(high)];
   const mixed = from.map((start, i) => Math.round(start + (to[i] - start) * share));
   return `#${mixed.map((channel) => channel.toString(16).padStart(2, "0")).join("")}`;
 }
 
 /** White or near-black, whichever reads better on a colour. */
-function inkOn(colour) {
+export function inkOn(colour) {
   const [red, green, blue] = channels(colour).map((channel) => (channel / 255) ** 2.2);
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.25 ? "#16191d" : "#ffffff";
 }

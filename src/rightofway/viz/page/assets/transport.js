@@ -1,7 +1,8 @@
-"use strict";
+import { RATES } from "./clock.js";
+import { element } from "./dom.js";
 
 /** Play, step, slider, speed, and the moment in figures. */
-class Transport {
+export class Transport {
   #told = "";
 
   constructor(plan, clock, words) {

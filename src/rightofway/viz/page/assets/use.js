@@ -1,7 +1,8 @@
-"use strict";
+import { FleetMemo } from "./fleet_memo.js";
+import { blend } from "./theme.js";
 
 /** How much each vertex is used, and by whom when. */
-class Use {
+export class Use {
   #held;
   #byVertex;
 

@@ -1,4 +1,5 @@
-"use strict";
+import { EMBEDDED } from "./dom.js";
+import { Observable } from "./observable.js";
 
 const LARGEST_CELL = 400; // pixels
 const LARGEST_FITTED = { cell: 190, edge: 320 }; // pixels; an edge that is as long as a unit
@@ -6,13 +7,14 @@ const LEGEND_HEIGHT = 34; // pixels below the map: scale bar, legends
 
 /**
  * Which part of the map is shown, and how large. Dragging pans, wheel and two fingers zoom.
- * Tells `view` when it changes, `click` and `hover` with `pointer` in map units.
+ * Events: `view` when it changes, `click` and `hover` with `pointer` in map units.
  */
-class Viewport extends Observable {
-  constructor(canvas, roadmap) {
+export class Viewport extends Observable {
+  constructor(canvas, roadmap, reach = 0) {
     super();
     this.canvas = canvas;
     this.roadmap = roadmap;
+    this.reach = reach; // how far robots reach beyond the vertices they stand on [units]
     this.scale = 1; // pixels in a unit
     this.left = 0; // pixels from the canvas to the map's origin
     this.top = 0;
@@ -37,7 +39,8 @@ class Viewport extends Observable {
   fit() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const { rows, width: columns, height: lines } = this.roadmap;
-    const [across, down] = rows ? [columns, lines] : [columns - 1, lines - 1];
+    const beyond = 2 * Math.max(this.reach, rows ? 0.5 : 0);
+    const [across, down] = [columns - 1 + beyond, lines - 1 + beyond];
     const margin = rows ? 16 : 26;
     const title = this.canvas.parentElement.querySelector(".map-title");
     const above = Math.max(1.25 * margin, title?.textContent ? title.offsetTop + title.offsetHeight + 4 : 0);
@@ -75,6 +78,20 @@ class Viewport extends Observable {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [right, down] = [this.left + x * this.scale, this.top + y * this.scale];
     if (right < 0 || right > width || down < 0 || down > height) this.pan(width / 2 - right, height / 2 - down);
+  }
+
+  /** Bring several points into sight: as they are if they all are, else their middle, smaller if need be. */
+  showAll(points) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+    const [left, top, right, bottom] = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+    const isInSight = left >= this.toX(20) && right <= this.toX(width - 20) && top >= this.toY(20) && bottom <= this.toY(height - 20);
+    if (isInSight) return;
+    const fitting = Math.min((width - 80) / Math.max(right - left, 1e-9), (height - 80) / Math.max(bottom - top, 1e-9));
+    this.scale = Math.min(this.scale, fitting);
+    this.left = width / 2 - ((left + right) / 2) * this.scale;
+    this.top = height / 2 - ((top + bottom) / 2) * this.scale;
+    this.#changed(false);
   }
 
   #changed(fitted) {

@@ -1,4 +1,4 @@
-"use strict";
+import { element } from "./dom.js";
 
 const SPARE_ROWS = 4;
 
@@ -7,7 +7,7 @@ const SPARE_ROWS = 4;
  *
  * `fill(row, item)` writes an item into a row, `choose(item)` is called for the one that was picked.
  */
-class VirtualList {
+export class VirtualList {
   #rows = [];
   #first = 0;
 

@@ -1,9 +1,10 @@
-"use strict";
+import { BROKEN } from "./phases.js";
+import { FOLLOWS, MAKES_ROOM } from "./robot.js";
 
-const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
+export const ACTIVITY_WORDS = ["driving", "waiting", "working", "turning", "done", "held up", "broken down"];
 
 /** "R1, R2 and R3"; the first few of many. */
-function several(names) {
+export function several(names) {
   if (names.length > 4) return `${names.slice(0, 3).join(", ")} and ${names.length - 3} more`;
   return names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
 }
@@ -15,12 +16,17 @@ function isTie({ level, completionSums }) {
 
 const EQUAL_CONFLICTS = "either choice leaves as many conflicts in the whole system";
 
-function upperFirst(text) {
+/** A length without the noise of floating point. */
+function rounded(length) {
+  return Number(length.toPrecision(9));
+}
+
+export function upperFirst(text) {
   return text[0].toUpperCase() + text.slice(1);
 }
 
 /** Durations as people write them, names, and sentences made of them. */
-class Words {
+export class Words {
   constructor(plan) {
     this.plan = plan;
   }
@@ -58,6 +64,18 @@ class Words {
   loss(loss, robot) {
     const more = robot.planned ? robot.unplanned(loss) : 0;
     return more > 0 ? `${this.#loss(loss)}, ${this.time(more)} more than planned` : this.#loss(loss);
+  }
+
+  /** How far two robots are apart, and how far they have to be: "0.95 m apart, 0.9 m needed". */
+  apart({ distance, room }) {
+    const { quantities } = this.plan;
+    return `${quantities.length(rounded(distance))} apart, ${quantities.length(rounded(room))} needed`;
+  }
+
+  /** When a place is closed. */
+  closure({ from, until, vertices }) {
+    const what = vertices.length > 1 ? `${this.vertex(vertices[0])} to ${this.vertex(vertices.at(-1))} closed` : "closed";
+    return `${what} from ${this.moment(from)} ${until === Infinity ? "on" : `until ${this.moment(until)}`}`;
   }
 
   /** Why a robot never gets on. */
@@ -105,11 +123,15 @@ class Words {
     const [who, where] = [several(names), several(places) ?? "a place that is not on the map"];
     switch (kind) {
       case "vertex conflict": return `${who} are both in ${where}`;
+      case "too close": return `${who} come nearer than their sizes allow, ${where}`;
+      case "space conflict": return `${who} book places that are too near to each other, ${where}`;
+      case "zone conflict": return `${who} are both in one zone, ${where}`;
       case "headway": return `${who} come to ${where} too soon after each other`;
       case "swap conflict": return `${who} drive through each other between ${where}`;
       case "rotation": return `${who} move round ${where} all at once`;
       case "jump": return `${who} jumps from ${places[0]} to ${places[1] ?? "nowhere"}`;
       case "too fast": return `${who} drives from ${places[0]} to ${places[1]} faster than it can`;
+      case "turn cut short": return `${who} turns at ${places[0]} faster than it can`;
       case "work cut short": return `${who} leaves ${where} before its work there is done`;
       case "stop missed": return `${who} does not come to its stop ${where}`;
       case "wrong home": return `${who} does not start at its home: it starts in ${where}`;
@@ -130,6 +152,7 @@ class Words {
       rotation: "The rules forbid rotations: let one wait until its place is empty.",
       jump: "No way joins these two places.",
       "too fast": "Let the drive take as long as the robot needs.",
+      "turn cut short": "Let it stay until it has turned.",
       "work cut short": "Let it stay until its work and turning are done.",
       "stop missed": "Let it visit its stops in their order.",
       "wrong home": "Let it start at its home at time 0.",

@@ -1,0 +1,67 @@
+"""``rightofway studio``: draw, plan, watch and compare in a browser."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+
+import click
+
+from rightofway.cli.completion import SCENARIOS, files
+from rightofway.cli.inputs import point_to_examples
+from rightofway.cli.terminal import complain
+from rightofway.errors import InputError
+
+EXAMPLES = """\b
+Examples:
+  rightofway studio
+  rightofway studio examples/door.yaml
+  rightofway studio . --api-only --port 8000
+"""
+
+
+@click.command(epilog=EXAMPLES, short_help="Draw, plan, watch and compare in a browser.")
+@click.argument("path", type=click.Path(), default=".", metavar="[FILE|FOLDER]",
+                shell_complete=files(*SCENARIOS))  # fmt: skip
+@click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
+              help="Address to listen on. Other machines than this one need the token that is"
+              " in the printed address.")  # fmt: skip
+@click.option("--port", type=click.IntRange(1, 65535), metavar="PORT",
+              help="Port to listen on; a free one by default.")  # fmt: skip
+@click.option("--planners", type=click.IntRange(1, 64), default=1, show_default=True, metavar="N",
+              help="Plans to work on at once, each in a process of its own.")  # fmt: skip
+@click.option("--no-browser", is_flag=True, help="Do not open a browser.")
+@click.option("--api-only", is_flag=True, help="Serve the API without the page.")
+@click.option("--no-history", is_flag=True,
+              help="Keep drafts and runs in memory instead of in the folder.")  # fmt: skip
+def studio(
+    *,
+    path: str,
+    host: str,
+    port: int | None,
+    planners: int,
+    no_browser: bool,
+    api_only: bool,
+    no_history: bool,
+) -> None:
+    """Serve a page to draw, plan, watch and compare, and the API behind it.
+
+    The studio sees the files of one FOLDER, or of the folder of FILE, and no others. It needs the
+    extra `studio`.
+    """
+    if not (find_spec("fastapi") and find_spec("uvicorn")):
+        message = "needs packages that are not installed (pip install 'rightofway[studio]')"
+        raise InputError.at("studio", message)
+    from rightofway.studio.serve import folder_and_file, serve
+    from rightofway.studio.session import Studio
+
+    point_to_examples(path)
+    folder, file = folder_and_file(Path(path))
+    serve(
+        Studio(folder, file=file, planners=planners, keeps=not no_history),
+        host=host,
+        port=port,
+        has_page=not api_only,
+        opens_browser=not (no_browser or api_only),
+        say=complain,
+    )

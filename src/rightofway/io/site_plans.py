@@ -1,0 +1,298 @@
+"""Plans for programs on the site: events as CSV, paths for Nav2, trajectories for Open-RMF.
+
+All are in metres, seconds and radians, in the frame of the site. A robot stays at a vertex until it
+drives to the next one straight and at one speed, so a visit gives two poses: when the robot arrives
+and when it drives on; one where both are at the same instant.
+
+References
+----------
+ROS 2, *nav_msgs/Path* and *nav2_msgs/action/FollowWaypoints*. Open-RMF, *rmf_traffic_msgs/Route*:
+waypoints of a trajectory have a time, a position (x, y, yaw) and a velocity.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from rightofway.io.text import json_line
+from rightofway.metrics.events import events
+from rightofway.model import Plan, Stays, Track, stays_of
+
+FRAME = "map"
+"""The frame of a site in ROS."""
+
+LEVEL = "L1"
+"""The level of a site in Open-RMF, as navigation graphs of one level are written."""
+
+DECIMALS = 6
+"""Coordinates are written to a micrometre, times to a microsecond, angles to a microradian."""
+
+BILLION = 10**9
+
+COLUMNS = ("time", "robot", "event", "place", "x", "y", "heading", "purpose", "waits_for")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SitePlanFormat:
+    """A format of plans for programs on the site.
+
+    Attributes
+    ----------
+    summary
+        What it is, in a few words.
+    write
+        Returns the text of a plan.
+    """
+
+    summary: str
+    write: Callable[[Plan], str]
+
+
+def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
+    """Return a plan as the text of a file for a program on the site.
+
+    Parameters
+    ----------
+    plan
+        A plan; its units are converted.
+    name
+        A key of `SITE_PLAN_FORMATS`.
+
+    Returns
+    -------
+    tuple
+        The text, and what had to be assumed, a sentence each.
+    """
+    return SITE_PLAN_FORMATS[name].write(plan), tuple(_assumed(plan, name))
+
+
+def _assumed(plan: Plan, name: str) -> Iterator[str]:
+    units = plan.scenario.units
+    missing = [
+        f"{what} {unit}"
+        for what, unit, given in (
+            ("lengths", "count as metres", units.length),
+            ("times", "count as seconds", units.time),
+        )
+        if given is None
+    ]
+    if missing:
+        yield f"{' and '.join(missing)}, because the scenario names no units"
+    if name != "events" and not plan.scenario.roadmap.frame.y_up:
+        yield "y is negated: it grows downwards in the scenario, and upwards in ROS"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pose:
+    """Where a robot is at an instant.
+
+    Attributes
+    ----------
+    visit
+        The number of the visit.
+    seconds
+        The instant [s].
+    x, y
+        Where it is [m].
+    heading
+        Which way it points, from x to y [rad]; the way that it drives next, or came.
+    speed
+        How fast it drives on [m/s]; 0 where it stays or turns.
+    """
+
+    visit: int
+    seconds: Fraction
+    x: Fraction
+    y: Fraction
+    heading: float
+    speed: float
+
+
+class _Site:
+    """A plan in metres, seconds and radians."""
+
+    def __init__(self, plan: Plan, *, y_up: bool) -> None:
+        scenario = plan.scenario
+        self.plan, self.roadmap = plan, scenario.roadmap
+        self.metre = scenario.units.metres or Fraction(1)
+        self.second = (scenario.units.seconds or Fraction(1)) * scenario.problem.clock.tick
+        self.down = -1 if y_up and not self.roadmap.frame.y_up else 1
+        self.stays = stays_of(scenario, plan.tracks)
+
+    def point(self, vertex: int) -> tuple[Fraction, Fraction]:
+        """Return where a vertex is [m]."""
+        x, y = self.roadmap.point(vertex)
+        return x * self.metre, y * self.metre * self.down
+
+    def poses(self, robot: int) -> Iterator[Pose]:
+        """Yield the poses of a robot in order of time, each at an instant of its own."""
+        track, stays = self.plan.tracks[robot], self.stays[robot]
+        points = [self.point(vertex) for vertex in track.vertices.tolist()]
+        headings, speeds = self._drives(points, stays)
+        came, last = headings[0], len(points) - 1
+        for visit, ((x, y), (arrives, departs)) in enumerate(
+            zip(points, _instants(track, stays), strict=True)
+        ):
+            goes = came if visit == last else headings[visit]
+            passes = 0 < visit < last and arrives == departs
+            straight = passes and math.isclose(goes, came, abs_tol=1e-9)
+            speed = min(speeds[visit - 1], speeds[visit]) if straight else 0.0
+            if not passes and arrives < departs:
+                yield Pose(visit=visit, seconds=arrives * self.second, x=x, y=y,
+                           heading=came, speed=0.0)  # fmt: skip
+            yield Pose(visit=visit, seconds=departs * self.second, x=x, y=y,
+                       heading=goes, speed=speed)  # fmt: skip
+            came = goes
+
+    def _drives(
+        self, points: list[tuple[Fraction, Fraction]], stays: Stays
+    ) -> tuple[list[float], list[float]]:
+        """Return heading [rad] and speed [m/s] of the drive that ends each visit."""
+        headings, speeds, heading = list[float](), list[float](), 0.0
+        for (x, y), (to_x, to_y), ticks in zip(points, points[1:], stays.drive.tolist(),
+                                               strict=False):  # fmt: skip
+            run, rise = float(to_x - x), float(to_y - y)
+            heading = math.atan2(rise, run) if run or rise else heading
+            headings.append(heading)
+            speeds.append(math.hypot(run, rise) / float(ticks * self.second) if ticks else 0.0)
+        return headings or [0.0], speeds
+
+
+def _instants(track: Track, stays: Stays) -> Iterator[tuple[int, int]]:
+    """Yield when each visit begins, and when the drive that ends it begins [ticks]."""
+    enter = track.enter.tolist()
+    for begin, leave, drive in zip(enter, enter[1:], stays.drive.tolist(), strict=False):
+        yield begin, max(leave - drive, begin)
+    yield enter[-1], max(int(stays.completion), enter[-1])
+
+
+def _rounded(number: Fraction | float) -> float:
+    return round(float(number), DECIMALS) + 0.0  # without a negative zero
+
+
+def _events(plan: Plan) -> str:
+    """Return one event a line, by time and robot.
+
+    ``start``, ``arrive``, ``work`` (work and turning begin), ``wait``, ``depart``, ``done``.
+    """
+    site = _Site(plan, y_up=False)
+    robots, name = plan.scenario.robots, plan.scenario.roadmap.name
+    came: dict[int, float] = {}
+    rows = list[tuple[int, int, tuple[Any, ...]]]()
+    headings = [
+        {pose.visit: pose.heading for pose in site.poses(robot)} for robot in range(len(robots))
+    ]
+    for event in events(plan):
+        stays, robot, now = site.stays[event.robot], event.robot, int(event.enter)
+        dwell, drive = int(stays.dwell[event.visit]), int(stays.drive[event.visit])
+        goes = headings[robot][event.visit]
+        is_last = event.leave is None
+        steps = [(now, "arrive" if event.visit else "start", came.get(robot, goes), "")]
+        if dwell:
+            steps.append((now, "work", came.get(robot, goes), ""))
+        if event.waits:
+            for_robot = "" if event.waits_for is None else robots[event.waits_for].name
+            steps.append((now + dwell, "wait", came.get(robot, goes), for_robot))
+        if event.leave is not None:
+            steps.append((max(event.leave - drive, now), "depart", goes, ""))
+        if is_last:
+            steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
+        came[robot] = goes
+        x, y = map(_rounded, site.point(event.vertex))
+        for tick, what, heading, for_robot in steps:
+            row = (
+                _rounded(tick * site.second), robots[robot].name, what, name(event.vertex), x, y,
+                _rounded(heading), event.purpose, for_robot,
+            )  # fmt: skip
+            rows.append((tick, robot, row))
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    writer.writerows(row for _, _, row in sorted(rows, key=lambda each: each[:2]))
+    return text.getvalue()
+
+
+def _nav2(plan: Plan) -> str:
+    """Return for each robot a path of ROS, and the node of each of its poses."""
+    site, names = _Site(plan, y_up=True), plan.scenario.roadmap.name
+    robots = {}
+    for robot, track in enumerate(plan.tracks):
+        poses = list(site.poses(robot))
+        nodes = [names(int(track.vertices[pose.visit])) for pose in poses]
+        path = {
+            "header": _header(Fraction(0)),
+            "poses": [{"header": _header(pose.seconds), "pose": _ros_pose(pose)} for pose in poses],
+        }
+        are_ids = all(node.isascii() and node.isdecimal() for node in nodes)
+        robots[plan.scenario.robots[robot].name] = {
+            "path": path,
+            "nodes": list(map(int, nodes)) if are_ids else nodes,
+        }
+    return _spread({"frame_id": FRAME, "robots": robots}) + "\n"
+
+
+def _header(seconds: Fraction) -> dict[str, Any]:
+    whole, rest = divmod(int(seconds * BILLION), BILLION)
+    return {"stamp": {"sec": whole, "nanosec": rest}, "frame_id": FRAME}
+
+
+def _ros_pose(pose: Pose) -> dict[str, Any]:
+    half = pose.heading / 2
+    turn = {"z": round(math.sin(half), 9) + 0.0, "w": round(math.cos(half), 9) + 0.0}
+    return {
+        "position": {"x": _rounded(pose.x), "y": _rounded(pose.y), "z": 0.0},
+        "orientation": {"x": 0.0, "y": 0.0, **turn},
+    }
+
+
+def _open_rmf(plan: Plan) -> str:
+    """Return for each robot an itinerary of one route; times are nanoseconds from the start."""
+    site, itineraries = _Site(plan, y_up=True), {}
+    for robot in range(len(plan.tracks)):
+        waypoints, yaw = list[dict[str, Any]](), 0.0
+        for pose in site.poses(robot):
+            yaw += math.remainder(pose.heading - yaw, math.tau)  # the shorter way round
+            velocity = pose.speed * math.cos(yaw), pose.speed * math.sin(yaw)
+            waypoints.append(
+                {
+                    "time": int(pose.seconds * BILLION),
+                    "position": [_rounded(pose.x), _rounded(pose.y), _rounded(yaw)],
+                    "velocity": [*map(_rounded, velocity), 0.0],
+                }
+            )
+        route = {"map": LEVEL, "trajectory": {"waypoints": waypoints}}
+        itineraries[plan.scenario.robots[robot].name] = [route]
+    return _spread({"itineraries": itineraries}) + "\n"
+
+
+def _spread(value: Any, margin: str = "\n") -> str:
+    """Return JSON with one pose or waypoint on a line."""
+    inner = margin + "  "
+    if isinstance(value, dict) and not {"pose", "position", "stamp"} & set(value):
+        pairs = (f"{json_line(key)}: {_spread(child, inner)}" for key, child in value.items())
+        return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return f"[{inner}{f',{inner}'.join(_spread(item, inner) for item in value)}{margin}]"
+    return json_line(value)
+
+
+SITE_PLAN_FORMATS: dict[str, SitePlanFormat] = {
+    "events": SitePlanFormat(
+        summary="events as CSV: who starts, arrives, works, waits and departs, where and when",
+        write=_events,
+    ),
+    "nav2": SitePlanFormat(
+        summary="Nav2: a path (nav_msgs/Path) and the nodes of each robot, JSON", write=_nav2
+    ),
+    "open-rmf": SitePlanFormat(
+        summary="Open-RMF: an itinerary (rmf_traffic_msgs/Route) of each robot, JSON",
+        write=_open_rmf,
+    ),
+}
+"""The formats of plans for programs on the site, by name."""

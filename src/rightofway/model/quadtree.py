@@ -1,0 +1,269 @@
+"""Cells that fit: a floor cut into squares of a quadtree, small where it is narrow.
+
+Smallest cells that are all free are joined four by four, as long as the tree stays balanced: the
+sides of two squares that touch differ by a factor of two at most. Vertices are the centres of
+squares, and squares that share a part of a side are joined by two edges.
+
+References
+----------
+Samet, *The quadtree and related hierarchical data structures*, ACM Computing Surveys, 1984.
+Kambhampati & Davis, *Multiresolution path planning for mobile robots*, IEEE Journal on Robotics
+and Automation, 1986. It searches trees that are not balanced; ours are, so that no drive between
+two centres comes near a third square.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.model.clustering import MAX_CELLS
+from rightofway.model.geometry import Frame, Point
+from rightofway.model.roadmap import Roadmap
+
+MAX_SMALLEST = 64_000_000
+"""The most smallest cells, free and blocked."""
+
+LARGEST = 4
+"""How many smallest cells the largest square is wide where nothing else is said."""
+
+OBLIQUE = Fraction(19, 12)
+"""Length of an edge between two squares of different size, in sides of the smaller one.
+
+The distance of their centres is sqrt(5/2) = 1.5811, this is 0.14 % more. Of all edges of a map the
+lengths are then multiples of a twelfth of the smallest cell, and the tick stays long.
+"""
+
+CLEARANCE = Fraction(1, 10)
+"""Square of the distance that such an edge keeps from what lies beside the smaller square, in sides
+of that square: the edge passes the corner of the two at 1/sqrt(10)."""
+
+EAST, SOUTH, WEST, NORTH = range(4)
+
+Cell = TypeVar("Cell", np.bool_, np.int32)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Squares:
+    """The squares of a floor, in rows from the least y on and from the least x on in each.
+
+    Attributes
+    ----------
+    column, row
+        The smallest cell in the corner that has the least x and y; int32, shape (V,).
+    side
+        How many smallest cells a square is wide; int32, shape (V,).
+    at
+        The square of each smallest cell, -1 where it is blocked; int32, shape (rows, columns).
+    """
+
+    column: NDArray[np.int32]
+    row: NDArray[np.int32]
+    side: NDArray[np.int32]
+    at: NDArray[np.int32]
+
+    def names(self) -> Iterator[str]:
+        """Yield the name of each square: ``Q<column>-<row>``, and ``x<side>`` above 1."""
+        of = (each.tolist() for each in (self.column, self.row, self.side))
+        for column, row, side in zip(*of, strict=True):
+            yield f"Q{column}-{row}x{side}" if side > 1 else f"Q{column}-{row}"
+
+
+def squares_of(free: NDArray[np.bool_], *, largest: int, near: bool) -> Squares:
+    """Join free cells to the largest squares of a balanced quadtree.
+
+    Parameters
+    ----------
+    free
+        Which smallest cells are free, the least x and y first; bool, shape (rows, columns).
+    largest
+        The most smallest cells that a square may be wide.
+    near
+        Whether an edge may pass a corner at 1/sqrt(10) of a smallest cell. If not, a square of two
+        by two cells is not joined where only one of the two cells beside it is free. All other
+        edges keep at least half a smallest cell from what is not free.
+
+    Notes
+    -----
+    Squares are connected as the smallest cells are: no edge has to be left out.
+    """
+    rows, columns = free.shape
+    levels = max(min(largest, rows, columns), 1).bit_length() - 1
+    block = 1 << levels
+    padded = np.pad(free, ((0, -rows % block), (0, -columns % block)))
+    joined = _joined(padded, levels, near=near)
+    found: list[tuple[NDArray[np.int64], NDArray[np.int64], int]] = []
+    for level, whole in enumerate(joined):
+        alone = whole & ~_halved(joined[level + 1]) if level < levels else whole
+        row, column = np.nonzero(alone)
+        found.append((row << level, column << level, 1 << level))
+    row = np.concatenate([each[0] for each in found])
+    column = np.concatenate([each[1] for each in found])
+    side = np.concatenate([np.full(len(each[0]), each[2]) for each in found])
+    order = np.lexsort((column, row))
+    row, column, side = row[order], column[order], side[order]
+    at = np.full((1, 1), -1, np.int32)
+    for level in range(levels, -1, -1):
+        at = np.full(joined[level].shape, -1, np.int32) if level == levels else _halved(at)
+        here = np.flatnonzero(side == 1 << level)
+        at[row[here] >> level, column[here] >> level] = here
+    return Squares(
+        column=column.astype(np.int32),
+        row=row.astype(np.int32),
+        side=side.astype(np.int32),
+        at=at[:rows, :columns],
+    )
+
+
+def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray[np.bool_]]:
+    """Return for each level which blocks of 2**level cells may be in one square.
+
+    A block may if its four parts may, and if no square beside it can be smaller than they are.
+    """
+    found = [free]
+    sides = [free] * 4  # whether a block has a free cell at its low x, high x, low y, high y
+    for level in range(levels):
+        part = found[-1]
+        whole = _all_of_four(part)
+        if level or not near:
+            join = np.logical_or if level else np.logical_xor
+            low_x, high_x, low_y, high_y = [~part & side for side in sides] if level else sides
+            whole[:, 1:] &= ~join(high_x[0::2, 1:-1:2], high_x[1::2, 1:-1:2])
+            whole[:, :-1] &= ~join(low_x[0::2, 2::2], low_x[1::2, 2::2])
+            whole[1:] &= ~join(high_y[1:-1:2, 0::2], high_y[1:-1:2, 1::2])
+            whole[:-1] &= ~join(low_y[2::2, 0::2], low_y[2::2, 1::2])
+        low_x, high_x, low_y, high_y = sides
+        sides = [
+            low_x[0::2, 0::2] | low_x[1::2, 0::2],
+            high_x[0::2, 1::2] | high_x[1::2, 1::2],
+            low_y[0::2, 0::2] | low_y[0::2, 1::2],
+            high_y[1::2, 0::2] | high_y[1::2, 1::2],
+        ]
+        found.append(whole)
+    return found
+
+
+def _all_of_four(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    result: NDArray[np.bool_] = part[0::2, 0::2] & part[1::2, 0::2]
+    result &= part[0::2, 1::2]
+    result &= part[1::2, 1::2]
+    return result
+
+
+def _halved(blocks: NDArray[Cell]) -> NDArray[Cell]:
+    """Return blocks cut into four each."""
+    return blocks.repeat(2, axis=0).repeat(2, axis=1)
+
+
+def roadmap_of_squares(
+    free: NDArray[np.bool_],
+    smallest: Fraction,
+    *,
+    largest: Fraction | None = None,
+    radius: Fraction = Fraction(0),
+    y_up: bool = False,
+    corner: Point = (Fraction(0), Fraction(0)),
+    origin: Point = (Fraction(0), Fraction(0)),
+    yaw: Fraction = Fraction(0),
+    max_squares: int = MAX_CELLS,
+) -> Roadmap:
+    """Make the roadmap of a floor whose cells are squares of a quadtree.
+
+    Parameters
+    ----------
+    free
+        Which smallest cells are free, the least x and y first; bool, shape (rows, columns).
+    smallest
+        Side of a smallest cell [length unit].
+    largest
+        Limit on the side of a square [length unit]; by default `LARGEST` smallest cells.
+    radius
+        Radius of the largest robot [length unit]. What is above half a smallest cell is to be kept
+        clear by ``free``.
+    y_up
+        Whether y grows upwards in the site's frame.
+    corner
+        The corner of the floor that has the least x and y, in the site's frame before its yaw.
+    origin, yaw
+        The point about which the floor is turned, and the angle [rad].
+    max_squares
+        The most squares to make.
+
+    Raises
+    ------
+    InputError
+        If no cell is free, the largest square is below the smallest, or there are too many.
+    """
+    if largest is None:
+        largest = LARGEST * smallest
+    if largest < smallest:
+        message = f"{largest} is below the smallest cell, {smallest} (give at least that)"
+        raise InputError.at("largest", message)
+    if not free.any():
+        raise InputError.at("", f"no free cell in {free.size} (give a smaller one)")
+    least = min(radius, smallest / 2)
+    near = least**2 <= CLEARANCE * smallest**2
+    squares = squares_of(free, largest=int(largest // smallest), near=near)
+    count = len(squares.side)
+    if count > max_squares:
+        message = f"{count} squares, more than {max_squares} (give a larger one)"
+        raise InputError.at("smallest", message)
+    tails, heads, lengths = _edges(squares, y_up=y_up)
+    known, length_class = np.unique(lengths, return_inverse=True)
+    left, low = (corner[0] - origin[0], corner[1] - origin[1]) if yaw else corner
+    half = smallest / 2
+    middles = [2 * along + squares.side for along in (squares.column, squares.row)]
+    halves = range(2 * max(free.shape) + 1)
+    x, y = (
+        np.array([float(start + step * half) for step in halves])[middle]
+        for start, middle in zip((left, low), middles, strict=True)
+    )
+    turned = {"x": origin[0], "y": origin[1], "yaw": yaw} if yaw else {}
+    return Roadmap(
+        indptr=np.concatenate(([0], np.cumsum(np.bincount(tails, minlength=count)))).astype(
+            np.int32
+        ),
+        heads=heads.astype(np.int32),
+        length_class=length_class.astype(np.int32),
+        lengths=tuple(Fraction(int(twelfths), 12) * smallest for twelfths in known),
+        positions=np.column_stack((x, -y if y_up else y)),
+        labels=tuple(squares.names()),
+        frame=Frame(y_up=y_up, **turned),
+        sides=np.asarray(squares.side * float(smallest), np.float64),
+    )
+
+
+def _edges(
+    squares: Squares, *, y_up: bool
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return tails, heads and lengths of all edges [twelfths of a smallest cell], by tail.
+
+    East comes first, then south, west and north, as on a grid.
+    """
+    rows, columns = squares.at.shape
+    side, found = squares.side, list[NDArray[np.int64]]()
+    for way in (EAST, SOUTH, WEST, NORTH):
+        downwards = (way == SOUTH) != y_up  # to larger y
+        for share in (side * 0, side // 2):  # of two smaller neighbours, a cell of each
+            if way in {EAST, WEST}:
+                row = squares.row + share
+                column = squares.column + (side if way == EAST else -1)
+            else:
+                column = squares.column + share
+                row = squares.row + (side if downwards else -1)
+            inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+            tails = np.flatnonzero(inside)
+            heads = squares.at[row[inside], column[inside]].astype(np.int64)
+            there = heads >= 0
+            found.append((tails[there] * 4 + way) * len(side) + heads[there])
+    tails, heads = np.divmod(np.unique(np.concatenate(found)), len(side))
+    tails //= 4
+    small, large = np.minimum(side[tails], side[heads]), np.maximum(side[tails], side[heads])
+    lengths = small.astype(np.int64) * np.where(small == large, 12, int(12 * OBLIQUE))
+    return tails, heads, lengths

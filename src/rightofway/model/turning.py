@@ -1,0 +1,175 @@
+"""Turning on the spot: how long a change of heading takes between two edges.
+
+Two edges that follow each other have a *kind* of angle, as an edge has a class of length; a robot
+with a turn rate has ticks for each kind. The heading of an edge is that of the straight line
+between its ends. An edge between equal positions, such as a lift, has none: turns into it and out
+of it take no time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.errors import InputError
+from rightofway.model.resources import exact_positions
+from rightofway.model.roadmap import Roadmap
+from rightofway.model.units import Clock, Tick
+
+ANGLE_STEP = Fraction(1, 10**6)
+"""Angles are rounded to this [degrees]."""
+
+LONGEST_TURN = 2**40
+"""The most ticks of a turn."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Angles:
+    """The angles between edges that follow each other.
+
+    Attributes
+    ----------
+    offset
+        The angle from edge ``e`` to edge ``f`` is of kind ``kind[offset[e] + f]``; int64, shape
+        (E,).
+    kind
+        Index into `angles`; int32.
+    angles
+        The distinct angles, the shorter way round, increasing [1e-6 degrees].
+    """
+
+    offset: NDArray[np.int64]
+    kind: NDArray[np.int32]
+    angles: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Turning:
+    """How long a robot turns between edges that follow each other.
+
+    Attributes
+    ----------
+    angles
+        The angles of the roadmap.
+    ticks
+        Ticks for each kind of angle; int64.
+    """
+
+    angles: Angles
+    ticks: NDArray[np.int64]
+
+    def of(self, before: int, after: int) -> Tick:
+        """Return how long the robot turns between two edges [ticks]; before the first one, -1, 0.
+
+        Parameters
+        ----------
+        before, after
+            Two edges, the second of which begins where the first ends.
+        """
+        if before < 0:
+            return Tick(0)
+        return Tick(int(self.ticks[self.angles.kind[self.angles.offset[before] + after]]))
+
+    def between(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
+        """Return how long the robot turns between each edge and the next [ticks]; int64.
+
+        Parameters
+        ----------
+        edges
+            Edges that follow each other; -1 for none, where no turn takes place. Shape (n,); the
+            answer has shape (n - 1,).
+        """
+        before, after = edges[:-1], edges[1:]
+        turns = np.zeros(len(before), np.int64)
+        known = np.flatnonzero((before >= 0) & (after >= 0))
+        place = self.angles.offset[before[known]] + after[known]
+        turns[known] = self.ticks[self.angles.kind[place]]
+        return turns
+
+
+def turnings_of(
+    roadmap: Roadmap, rates: Sequence[Fraction | None], clock: Clock
+) -> list[Turning | None]:
+    """Return how long each robot turns; None for a robot without a rate.
+
+    Parameters
+    ----------
+    roadmap
+        The edges.
+    rates
+        The turn rate of each robot [degrees per time unit], positive, or None.
+    clock
+        How long a tick is.
+
+    Raises
+    ------
+    InputError
+        For a rate at which a turn takes more than `LONGEST_TURN` ticks.
+    """
+    made: dict[Fraction | None, Turning | None] = {None: None}
+    for robot, rate in enumerate(rates):
+        if rate is not None and rate not in made:
+            angles = angles_of(roadmap)
+            ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
+            if ticks and ticks[-1] > LONGEST_TURN:
+                message = f"{rate} is too slow: a turn takes more than 2**40 ticks (give more)"
+                raise InputError.at(f"robots[{robot}].turn_rate", message)
+            made[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
+    return [made[rate] for rate in rates]
+
+
+def longest_turn(turning: Turning | None) -> Tick:
+    """Return how long the largest turn of a robot takes [ticks]; 0 for None.
+
+    Parameters
+    ----------
+    turning
+        How long the robot turns.
+    """
+    return Tick(0 if turning is None else int(turning.ticks.max(initial=0)))
+
+
+@lru_cache(maxsize=4)
+def angles_of(roadmap: Roadmap) -> Angles:
+    """Return the angles between the edges of a roadmap.
+
+    Parameters
+    ----------
+    roadmap
+        The edges.
+    """
+    heading, has_heading = _headings(roadmap)
+    first, degree = roadmap.indptr[roadmap.heads].astype(np.int64), np.diff(roadmap.indptr)
+    counts = degree[roadmap.heads].astype(np.int64)
+    begin = np.cumsum(counts) - counts
+    offset = begin - first
+    before = np.repeat(np.arange(roadmap.n_edges), counts)
+    after = np.arange(len(before)) - np.repeat(offset, counts)
+    angle = np.abs(heading[before] - heading[after])
+    angle = np.rint(np.minimum(angle, 360 - angle) / float(ANGLE_STEP)).astype(np.int64)
+    angle[~(has_heading[before] & has_heading[after])] = 0
+    angles, kind = np.unique(angle, return_inverse=True)
+    kinds: NDArray[np.int32] = kind.reshape(-1).astype(np.int32)  # NumPy 2.0 keeps an axis
+    offset.flags.writeable = kinds.flags.writeable = False
+    return Angles(offset=offset, kind=kinds, angles=tuple(angles.tolist()))
+
+
+def _headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the heading of each edge [degrees], and whether it has one."""
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+    if roadmap.grid is not None:
+        y, x = np.divmod(roadmap.grid.cells.astype(np.int64), roadmap.grid.columns)
+        dx, dy = (at[roadmap.heads] - at[tails] for at in (x, y))
+    else:
+        positions = exact_positions(roadmap)
+        ends = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
+        dx, dy = (
+            np.array([float(positions[b][k] - positions[a][k]) for a, b in ends], np.float64)
+            for k in (0, 1)
+        )
+    return np.degrees(np.arctan2(dy, dx)), (dx != 0) | (dy != 0)

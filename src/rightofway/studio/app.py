@@ -1,0 +1,123 @@
+"""The server: version 1 of the API, the page, and one form for all errors."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any, get_args
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+
+from rightofway import __version__
+from rightofway.errors import InputError
+from rightofway.io.faults import checked
+from rightofway.studio.errors import StudioError
+from rightofway.studio.guard import Access, Guard, error_body
+from rightofway.studio.routes import documents, pages, planning
+from rightofway.studio.routes.models import kind_of
+from rightofway.studio.session import Studio
+from rightofway.studio.worker import as_error
+
+API = "/api/v1"
+
+DESCRIPTION = """Plans for fleets of mobile robots: documents, runs, plans, questions.
+
+Errors have one form: `{"error": {"status", "kind", "message", "faults"}}`. Each fault has the
+`place` in the document, a `message` with what is wrong and what to do, and `named`, the place with
+the names of its list items. Times in plans are ticks unless a key says otherwise.
+"""
+
+
+def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> FastAPI:
+    """Return the server of a studio.
+
+    Parameters
+    ----------
+    studio
+        What it serves; it is started and closed with the server.
+    access
+        Who may send requests.
+    has_page
+        Whether it serves the page, beside the API.
+    """
+
+    @asynccontextmanager
+    async def life(_app: FastAPI) -> AsyncIterator[None]:
+        await studio.start()
+        try:
+            yield
+        finally:
+            await studio.close()
+
+    app = FastAPI(
+        title="rightofway studio",
+        version=__version__,
+        description=DESCRIPTION,
+        openapi_url=f"{API}/openapi.json",
+        docs_url=None,  # their pages load scripts from elsewhere
+        redoc_url=None,
+        lifespan=life,
+    )
+    app.state.studio = studio
+    for router in (pages.about, documents.router, planning.router):
+        app.include_router(router, prefix=API)
+    if has_page:
+        app.include_router(pages.router)
+    app.add_exception_handler(StudioError, _refused)
+    app.add_exception_handler(InputError, _faulty)
+    app.add_exception_handler(RequestValidationError, _not_fitting)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_middleware(Guard, access=access)
+    return app
+
+
+def _answer(status: int, error: dict[str, Any]) -> Response:
+    return Response(error_body(status, error), status, media_type="application/json")
+
+
+def _refused(_request: Request, error: Exception) -> Response:
+    assert isinstance(error, StudioError), "it is registered for these"
+    return _answer(error.status, error.error)
+
+
+def _faulty(_request: Request, error: Exception) -> Response:
+    return _answer(422, as_error(error))
+
+
+def _http(_request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException), "it is registered for these"
+    return _answer(error.status_code, {"message": str(error.detail)})
+
+
+def _not_fitting(request: Request, error: Exception) -> Response:
+    """Name the faults of a body in the words that those of a file have."""
+    assert isinstance(error, RequestValidationError), "it is registered for these"
+    faults = error.errors()
+    if any(fault["type"] == "json_invalid" for fault in faults):
+        where = faults[0]["loc"][-1]
+        message = f"the body is no JSON: character {where} does not fit (send JSON)"
+        return _answer(400, {"kind": "input", "message": message})
+    model = _model_of(request, error.body)
+    if model is not None and isinstance(error.body, dict):
+        try:
+            checked(model, error.body)
+        except InputError as found:
+            return _answer(422, as_error(found))
+    place = ".".join(str(part) for part in faults[0]["loc"])
+    message = f"{place}: {faults[0]['msg']} (see {API}/openapi.json)"
+    return _answer(422, {"kind": "input", "message": message})
+
+
+def _model_of(request: Request, body: Any) -> Any:
+    """Return the model that a body is to fit, of several the one of its kind; None without one."""
+    parameters = request.scope["route"].dependant.body_params
+    wanted = parameters[0].field_info.annotation if parameters else None
+    if wanted is not None and hasattr(wanted, "model_fields"):
+        return wanted
+    for each in get_args(wanted):  # each is annotated with the kind that it is for
+        model, tag = get_args(each)
+        if tag.tag == kind_of(body):
+            return model
+    return None

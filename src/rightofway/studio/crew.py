@@ -1,0 +1,256 @@
+"""Workers from the side of the server: started, given one job each, killed where they must be."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import os
+import signal
+import sys
+import tempfile
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from rightofway.studio.errors import Busy, TaskFailed
+from rightofway.studio.worker import LENGTH, Blobs, packed
+
+MAX_MESSAGE = 2**29
+"""The longest message of a worker [bytes]."""
+
+OnEvent = Callable[[dict[str, Any], list[bytes]], None]
+"""Takes an event of a job and its blobs."""
+
+_numbers = count(1)
+
+
+@dataclass(slots=True)
+class Job:
+    """A job that is to be done, or is being done.
+
+    Attributes
+    ----------
+    task
+        Its name in `rightofway.studio.tasks.TASKS`.
+    arguments, blobs
+        What the task gets.
+    limit
+        The time after which its worker is killed [s].
+    on_event
+        Takes progress.
+    on_start
+        Called when a worker takes it.
+    """
+
+    task: str
+    arguments: dict[str, Any] = field(default_factory=dict)
+    blobs: Blobs = ()
+    limit: float = 60.0
+    on_event: OnEvent = lambda _event, _blobs: None
+    on_start: Callable[[], None] = lambda: None
+    number: int = field(default_factory=lambda: next(_numbers))
+    worker: Worker | None = field(default=None, repr=False)
+
+    def stop(self) -> None:
+        """Ask the worker to return with the best that it has."""
+        if self.worker is not None:
+            self.worker.send({"stop": self.number})
+
+    def kill(self) -> None:
+        """End the worker; the job fails."""
+        if self.worker is not None:
+            self.worker.kill()
+
+
+class Worker:
+    """One process."""
+
+    def __init__(self, process: asyncio.subprocess.Process, complaints: Any) -> None:
+        self._process = process
+        self._complaints = complaints
+
+    @classmethod
+    async def started(cls, folder: Path, scratch: str) -> Worker:
+        """Return a new process; it imports the library meanwhile."""
+        complaints = tempfile.TemporaryFile()  # noqa: SIM115 (it lives as long as the process)
+        process = await asyncio.create_subprocess_exec(
+            sys.executable,
+            "-P",  # a module in the user's folder must not stand for one of ours
+            "-m",
+            "rightofway.studio.worker",
+            str(folder),
+            scratch,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=complaints,
+            start_new_session=True,  # an interrupt from the keyboard is for the server
+        )
+        return cls(process, complaints)
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can be given a job."""
+        return self._process.returncode is None
+
+    def send(self, message: dict[str, Any], blobs: Blobs = ()) -> None:
+        """Send a message; one that is dead does not hear it."""
+        assert self._process.stdin is not None, "it is a pipe"
+        with contextlib.suppress(OSError, RuntimeError):
+            self._process.stdin.write(packed(message, blobs))
+
+    async def receive(self) -> tuple[dict[str, Any], list[bytes]]:
+        """Return the next message; `asyncio.IncompleteReadError` of one that is dead."""
+        reader = self._process.stdout
+        assert reader is not None, "it is a pipe"
+        (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
+        if length > MAX_MESSAGE:
+            raise asyncio.IncompleteReadError(b"", length)
+        message = json.loads(await reader.readexactly(length))
+        return message, [await reader.readexactly(size) for size in message["sizes"]]
+
+    def kill(self) -> None:
+        """End the process, and what it has started."""
+        with contextlib.suppress(ProcessLookupError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            else:
+                self._process.kill()
+
+    async def end(self) -> str:
+        """End the process, and return its last words."""
+        self.kill()
+        await self._process.wait()
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        self._complaints.seek(0)
+        lines = self._complaints.read().decode("utf-8", "replace").split("\n")
+        self._complaints.close()
+        return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+    async def why_dead(self) -> str:
+        """Return how the process ended, in words."""
+        code = await self._process.wait()
+        if code >= 0:
+            return f"its process ended with code {code}"
+        name = next((each.name for each in signal.Signals if each == -code), f"signal {-code}")
+        hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
+        return f"its process was ended by {name}{hint}"
+
+
+class Crew:
+    """Workers that are used again.
+
+    Parameters
+    ----------
+    folder
+        The folder that they may read.
+    scratch
+        A folder for files that live for one job.
+    size
+        How many jobs are done at once.
+    queue
+        How many jobs may wait.
+    """
+
+    def __init__(self, folder: Path, scratch: str, *, size: int, queue: int) -> None:
+        self.size = size
+        self._folder = folder
+        self._scratch = scratch
+        self._queue = queue
+        self._free: deque[Worker] = deque()
+        self._all: set[Worker] = set()
+        self._slots = asyncio.Semaphore(size)
+        self._waiting = 0
+
+    async def start(self) -> None:
+        """Start one worker in advance."""
+        self._free.append(await self._new())
+
+    async def do(self, job: Job) -> tuple[Any, list[bytes]]:
+        """Return the result of a job, with its blobs.
+
+        Raises
+        ------
+        TaskFailed
+            With the fault that the task has found; or because the worker died, or took too long.
+        Busy
+            If too many jobs wait.
+        """
+        if self._waiting >= self._queue:
+            message = f"{self._waiting} requests wait already (try again in a moment)"
+            raise Busy(message)
+        self._waiting += 1
+        try:
+            await self._slots.acquire()
+        finally:
+            self._waiting -= 1
+        try:
+            return await self._done(job)
+        finally:
+            self._slots.release()
+
+    async def _done(self, job: Job) -> tuple[Any, list[bytes]]:
+        worker = await self._one()
+        job.worker, is_done = worker, False
+        try:
+            job.on_start()
+            order = {"job": job.number, "task": job.task, "arguments": job.arguments}
+            worker.send(order, job.blobs)
+            async with asyncio.timeout(job.limit):
+                answer, blobs = await self._answer(worker, job)
+            is_done = True
+        except TimeoutError:
+            message = f"this took longer than {job.limit:g} s (give a smaller problem)"
+            raise TaskFailed({"kind": "too_long", "message": message}) from None
+        except asyncio.IncompleteReadError:
+            error = {"kind": "died", "message": f"no result: {await worker.why_dead()}"}
+            raise TaskFailed(error) from None
+        finally:
+            job.worker = None
+            await self._back(worker, is_whole=is_done)
+        if "error" in answer:
+            raise TaskFailed(answer["error"])
+        return answer["result"], blobs
+
+    async def _answer(self, worker: Worker, job: Job) -> tuple[dict[str, Any], list[bytes]]:
+        while True:
+            message, blobs = await worker.receive()
+            if message["job"] != job.number:
+                continue
+            if "event" not in message:
+                return message, blobs
+            job.on_event(message["event"], blobs)
+
+    async def _one(self) -> Worker:
+        while self._free:
+            worker = self._free.popleft()
+            if worker.is_alive:
+                return worker
+            await self._gone(worker)
+        return await self._new()
+
+    async def _new(self) -> Worker:
+        worker = await Worker.started(self._folder, self._scratch)
+        self._all.add(worker)
+        return worker
+
+    async def _back(self, worker: Worker, *, is_whole: bool) -> None:
+        """Take a worker back; one that died or was killed is replaced at once."""
+        if is_whole:
+            self._free.append(worker)
+        else:
+            await asyncio.shield(self._gone(worker))
+
+    async def _gone(self, worker: Worker) -> None:
+        self._all.discard(worker)
+        await worker.end()
+
+    async def close(self) -> None:
+        """End all workers."""
+        await asyncio.gather(*(worker.end() for worker in self._all))
+        self._all.clear()
+        self._free.clear()

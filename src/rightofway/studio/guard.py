@@ -1,0 +1,290 @@
+"""What a request must be before any route sees it, and the headers of every answer.
+
+Each page that is open in the same browser can send requests to this server. So a request must name
+the server by a name of its own (a foreign page that has its name lead here, by DNS rebinding, names
+itself), must not come from a foreign page, and what it changes must be JSON, which a form cannot
+send. Where the server listens to other machines, each request also needs the token.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import secrets
+import sys
+from collections.abc import Awaitable, Callable, MutableMapping
+from dataclasses import dataclass, field
+from http.cookies import CookieError, SimpleCookie
+from typing import Any
+from urllib.parse import parse_qs, unquote_to_bytes, urlencode
+
+from starlette.exceptions import HTTPException
+
+from rightofway.studio.errors import Refused, StudioError
+
+MAX_BODY = 20_000_000
+"""The longest body of a request [bytes]."""
+
+LONGEST_PATH = 2000
+"""The longest path of a request, with its query [bytes]."""
+
+COOKIE = "rightofway-token"
+"""Where a browser keeps the token."""
+
+READS = {"GET", "HEAD"}
+CHANGES = {"POST", "PUT", "PATCH", "DELETE"}
+
+CLIMBS = re.compile(rb"(^|[/\\])\.\.?($|[/\\])|[\x00-\x1f\\]")
+"""What no path of ours has, once it is decoded."""
+
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; font-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self'"
+)
+"""What pages of the studio may load, unless a route has a policy of its own."""
+
+HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cache-control", b"no-store"),
+)
+
+Scope = MutableMapping[str, Any]
+Message = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[Message]]
+Send = Callable[[Message], Awaitable[None]]
+App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Access:
+    """Who may send requests.
+
+    Attributes
+    ----------
+    hosts
+        Names by which the server may be called, with port; None for any.
+    token
+        What a request must show; empty for nothing.
+    """
+
+    hosts: frozenset[str] | None
+    token: str = ""
+
+    @classmethod
+    def on(cls, host: str, port: int) -> Access:
+        """Return the access to a server that listens on an address.
+
+        Parameters
+        ----------
+        host
+            Where it listens.
+        port
+            The port.
+        """
+        if is_loopback(host):
+            names = ("127.0.0.1", "localhost", "[::1]", host)
+            return cls(hosts=frozenset(f"{name}:{port}" for name in names))
+        return cls(hosts=None, token=secrets.token_urlsafe(24))
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether only this machine reaches an address."""
+    return host in {"localhost", "::1", "[::1]"} or host.startswith("127.")
+
+
+@dataclass(slots=True)
+class _Request:
+    """A request, as far as it is judged before its body is read."""
+
+    scope: Scope
+    headers: dict[bytes, bytes] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name, value in self.scope["headers"]:
+            if name in self.headers and name in {b"host", b"origin", b"content-length"}:
+                raise Refused(f"the header {name.decode()} stands twice (send it once)")
+            self.headers[name] = value
+
+    def header(self, name: str) -> str:
+        """Return a header, empty where there is none."""
+        return self.headers.get(name.encode(), b"").decode("latin-1")
+
+
+class Guard:
+    """Refuses requests, bounds their bodies, and puts headers on answers.
+
+    Parameters
+    ----------
+    app
+        What requests go to that are not refused.
+    access
+        Who may send requests.
+    """
+
+    def __init__(self, app: App, access: Access) -> None:
+        self._app = app
+        self._access = access
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer one request."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            await send({"type": "websocket.close", "code": 1008})
+            return
+        answer = _Answer(send)
+        try:
+            request = _Request(scope)
+            self._judge(request)
+            if await self._signs_in(request, answer):
+                return
+            self._ask_token(request)
+            await self._app(scope, _Body(receive).receive, answer.send)
+        except StudioError as refused:
+            await answer.refuse(refused.status, refused.error)
+        except Exception as error:  # noqa: BLE001 (a defect of ours: one line, and the server goes on)
+            what = " ".join([f"{type(error).__name__}:", *str(error).split()])[:500]
+            print(f"unexpected {what} (please report it)", file=sys.stderr)  # noqa: T201 (a server's log)
+            await answer.refuse(500, {"kind": "defect", "message": f"unexpected {what}"})
+
+    def _judge(self, request: _Request) -> None:
+        """Refuse what is not a request of our own page, of a program here, or of an address bar."""
+        scope, method = request.scope, request.scope["method"]
+        if method not in READS | CHANGES:
+            raise Refused(f"the method {method[:20]!r} is not known (see /api/v1/docs)", 405)
+        raw = scope.get("raw_path") or scope["path"].encode()
+        if len(raw) + len(scope["query_string"]) > LONGEST_PATH:
+            raise Refused(f"the path is longer than {LONGEST_PATH} bytes (shorten it)", 414)
+        if CLIMBS.search(unquote_to_bytes(raw)):
+            raise Refused("the path has a part that climbs, or a control code (give plain names)")
+        host, origin = request.header("host"), request.header("origin")
+        if self._access.hosts is not None and host.lower() not in self._access.hosts:
+            names = " or ".join(sorted(self._access.hosts)[:2])
+            raise Refused(f"{host[:100]!r} is no name of this studio (call it {names})", 421)
+        if origin and origin.lower() not in {f"http://{host}".lower(), f"https://{host}".lower()}:
+            raise Refused("a page of another origin asks (open the studio itself)", 403)
+        site, mode = request.header("sec-fetch-site"), request.header("sec-fetch-mode")
+        is_opened = method in READS and mode == "navigate" and scope["path"] == "/"
+        if site in {"cross-site", "same-site"} and not is_opened:
+            raise Refused("a page of another site asks (open the studio itself)", 403)
+        self._judge_body(request, method)
+
+    @staticmethod
+    def _judge_body(request: _Request, method: str) -> None:
+        length = request.header("content-length")
+        if length and not (length.isascii() and length.isdecimal()):
+            raise Refused(f"{length[:20]!r} is no length of a body (give a whole number)")
+        if length and int(length[:20]) > MAX_BODY:
+            raise Refused(f"the body has {length[:20]} bytes (give at most {MAX_BODY})", 413)
+        has_body = length not in {"", "0"} or bool(request.header("transfer-encoding"))
+        kind = request.header("content-type").partition(";")[0].strip().lower()
+        wanted = {"application/json"}
+        if (
+            method == "PUT"
+        ):  # a page cannot put without asking first, and we answer no such question
+            wanted.add("application/octet-stream")
+        if has_body and method in CHANGES and kind not in wanted:
+            raise Refused(f"{kind[:50]!r} is no type of a body here (give application/json)", 415)
+
+    async def _signs_in(self, request: _Request, answer: _Answer) -> bool:
+        """Put the token of the address that was printed into a cookie; true if that is all."""
+        query = parse_qs(request.scope["query_string"].decode("latin-1"))
+        given = query.pop("token", [""])[0]
+        if not (self._access.token and given and request.scope["path"] == "/"):
+            return False
+        if not secrets.compare_digest(given.encode(), self._access.token.encode()):
+            raise Refused("the token is wrong (use the address that the studio printed)", 401)
+        rest = f"?{urlencode(query, doseq=True)}" if query else ""
+        cookie = f"{COOKIE}={self._access.token}; HttpOnly; SameSite=Strict; Path=/"
+        await answer.send(
+            {
+                "type": "http.response.start",
+                "status": 303,
+                "headers": [(b"location", f"/{rest}".encode()), (b"set-cookie", cookie.encode())],
+            }
+        )
+        await answer.send({"type": "http.response.body", "body": b""})
+        return True
+
+    def _ask_token(self, request: _Request) -> None:
+        if not self._access.token:
+            return
+        shown = request.header("authorization").removeprefix("Bearer ")
+        try:
+            kept = SimpleCookie(request.header("cookie")).get(COOKIE)
+        except CookieError:
+            kept = None
+        wanted = self._access.token.encode()
+        for given in (shown, kept.value if kept else ""):
+            if secrets.compare_digest(given.encode(), wanted):
+                return
+        raise Refused("a token is needed (use the address that the studio printed)", 401)
+
+
+class _Body:
+    """The body of a request, cut off where it is too long."""
+
+    def __init__(self, receive: Receive) -> None:
+        self._receive = receive
+        self._length = 0
+
+    async def receive(self) -> Message:
+        message = await self._receive()
+        self._length += len(message.get("body", b""))
+        if self._length > MAX_BODY:
+            # As an exception of Starlette, because FastAPI takes any other one for broken JSON.
+            raise HTTPException(413, f"the body is longer than {MAX_BODY} bytes (give less)")
+        return message
+
+
+class _Answer:
+    """An answer with our headers."""
+
+    def __init__(self, send: Send) -> None:
+        self._send = send
+        self._has_begun = False
+
+    async def send(self, message: Message) -> None:
+        if message["type"] == "http.response.start":
+            self._has_begun = True
+            headers = list(message.get("headers", ()))
+            known = {name.lower() for name, _ in headers}
+            headers += [pair for pair in HEADERS if pair[0] not in known]
+            if b"content-security-policy" not in known:
+                headers.append((b"content-security-policy", POLICY.encode()))
+            message = {**message, "headers": headers}
+        await self._send(message)
+
+    async def refuse(self, status: int, error: dict[str, Any]) -> None:
+        """Answer with an error, where the answer has not begun."""
+        if self._has_begun:
+            return
+        body = error_body(status, error)
+        headers = [
+            (b"content-type", b"application/json"),
+            (b"content-length", str(len(body)).encode()),
+        ]
+        if status == 413:  # noqa: PLR2004 (the rest of the body is not read)
+            headers.append((b"connection", b"close"))
+        await self.send({"type": "http.response.start", "status": status, "headers": headers})
+        await self.send({"type": "http.response.body", "body": body})
+
+
+def error_body(status: int, error: dict[str, Any]) -> bytes:
+    """Return the one form of all errors.
+
+    Parameters
+    ----------
+    status
+        The status of HTTP.
+    error
+        ``message``, and what else is known.
+    """
+    return json.dumps(
+        {"error": {"status": status, "kind": "refused", "faults": [], **error}}
+    ).encode()

@@ -1,0 +1,163 @@
+"""Files of the folder, documents in them, drafts of documents."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import PurePosixPath
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query, Response
+
+from rightofway.studio.errors import Busy, Refused
+from rightofway.studio.routes.models import Draft, FilePath, InStudio, Placed, Save, ToText
+from rightofway.studio.runs import Run, Runs
+from rightofway.studio.session import checked_json
+from rightofway.studio.workspace import revision_of
+
+MAX_DRAFTS = 200
+"""Drafts that are kept."""
+
+router = APIRouter()
+MEDIA = {
+    ".json": "application/json",
+    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+}
+
+
+def folder_of(path: str) -> str:
+    """Return the folder of a path, empty for the studio's own."""
+    parent = PurePosixPath(path).parent.as_posix()
+    return "" if parent == "." else parent
+
+
+@router.get("/files", tags=["files"])
+def list_files(studio: InStudio) -> dict[str, Any]:
+    """List the files that may be opened."""
+    return {"files": [asdict(entry) for entry in studio.workspace.files()]}
+
+
+@router.get("/files/{path:path}", tags=["files"], response_class=Response)
+def download(studio: InStudio, path: FilePath) -> Response:
+    """Return a file as it is."""
+    headers = {"content-disposition": "attachment"}
+    return Response(
+        studio.workspace.read(path), media_type="application/octet-stream", headers=headers
+    )
+
+
+@router.put("/files/{path:path}", tags=["files"])
+def upload(
+    studio: InStudio,
+    path: FilePath,
+    content: Annotated[bytes, Body(media_type="application/octet-stream")],
+    replace: Annotated[bool, Query(description="whether a file of that name is replaced")] = False,
+) -> dict[str, Any]:
+    """Put a file into the folder, as drag and drop does; the body is its content."""
+    revision = studio.workspace.write(path, content, revision=None if replace else "")
+    return {"path": path, "revision": revision}
+
+
+@router.get("/documents/{path:path}", tags=["documents"])
+async def open_document(
+    studio: InStudio,
+    path: FilePath,
+    count: Annotated[
+        int | None, Query(ge=1, description="robots to take from a .scen file")
+    ] = None,
+) -> dict[str, Any]:
+    """Open any file that the library reads: a scenario, a layout, a workbook, or a plan.
+
+    A layout becomes the map of a new scenario. A plan becomes a run that is done.
+    """
+    content = studio.workspace.read(path)
+    result, blobs = await studio.ask("open", path=path, count=count)
+    answer = {"path": path, "folder": folder_of(path), "revision": revision_of(content), **result}
+    if result["kind"] != "plan":
+        return answer
+    name = PurePosixPath(path).name
+    run = Run(kind="opened", name=name, source=path, figures=result["figures"])
+    return {**answer, "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}
+
+
+@router.put("/documents/{path:path}", tags=["documents"])
+async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[str, Any]:
+    """Save a document as a .yaml, .yml, .json or .xlsx file; .yaml and .json also with faults."""
+    studio.workspace.path(path)
+    _, blobs = await studio.ask(
+        "write", document=save.document, folder=studio.place(save.folder), name=path
+    )
+    return {
+        "path": path,
+        "revision": studio.workspace.write(path, blobs[0], revision=save.revision),
+    }
+
+
+@router.post("/validate", tags=["documents"])
+async def validate(studio: InStudio, placed: Placed) -> dict[str, Any]:
+    """List the faults of a document, each with its place, or what the reader notes."""
+    result, _ = await studio.ask(
+        "validate", document=placed.document, folder=studio.place(placed.folder)
+    )
+    return dict(result)
+
+
+@router.post("/inspect", tags=["documents"])
+async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
+    """List what will hurt on the floor of a document, as `rightofway inspect --json` does."""
+    result, _ = await studio.ask(
+        "inspect", document=placed.document, folder=studio.place(placed.folder)
+    )
+    return dict(result)
+
+
+@router.post("/draw", tags=["documents"], response_class=Response)
+async def draw(studio: InStudio, placed: Placed) -> Response:
+    """Return what the viewer needs to draw the map and the robots of a document."""
+    _, blobs = await studio.ask(
+        "draw", document=placed.document, folder=studio.place(placed.folder)
+    )
+    return Response(blobs[0], media_type="application/json")
+
+
+@router.post("/convert", tags=["documents"], response_class=Response)
+async def convert(studio: InStudio, text: ToText) -> Response:
+    """Return a document as the content of a file; the ending of the name decides the format."""
+    folder = studio.place(text.folder)
+    _, blobs = await studio.ask("write", document=text.document, folder=folder, name=text.name)
+    kind = MEDIA.get(PurePosixPath(text.name).suffix.lower(), "application/yaml")
+    return Response(blobs[0], media_type=kind, headers={"content-disposition": "attachment"})
+
+
+@router.get("/drafts", tags=["drafts"])
+def list_drafts(studio: InStudio) -> dict[str, Any]:
+    """List the drafts, the latest first."""
+    return {"drafts": studio.store.drafts(), "are_kept": studio.store.is_kept}
+
+
+@router.get("/drafts/{name:path}", tags=["drafts"])
+def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
+    """Return a draft."""
+    found = studio.store.draft(name)
+    if found is None:
+        raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
+    return found
+
+
+@router.put("/drafts/{name:path}", tags=["drafts"])
+def put_draft(studio: InStudio, name: str, draft: Draft) -> dict[str, Any]:
+    """Keep what somebody draws; when the answer comes, it is on the disk."""
+    if not name or len(name) > 500:  # noqa: PLR2004
+        raise Refused("the name of a draft has from 1 to 500 characters (give such a name)")
+    known = studio.store.drafts()
+    if len(known) >= MAX_DRAFTS and all(each["name"] != name for each in known):
+        raise Busy(f"{len(known)} drafts are kept already (delete some)")
+    checked_json(draft.document)
+    return {"name": name, "saved": studio.store.put_draft(name, draft.document)}
+
+
+@router.delete("/drafts/{name:path}", tags=["drafts"])
+def delete_draft(studio: InStudio, name: str) -> dict[str, Any]:
+    """Delete a draft."""
+    if not studio.store.delete_draft(name):
+        raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
+    return {"name": name}

@@ -1,0 +1,155 @@
+"""What requests hold and answers return: pydantic, at this border only."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from fastapi import Depends, Path, Request
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+from rightofway.studio.session import Studio
+
+
+def studio_of(request: Request) -> Studio:
+    """Return the studio that a request is for."""
+    found: Studio = request.app.state.studio
+    return found
+
+
+InStudio = Annotated[Studio, Depends(studio_of)]
+RunNumber = Annotated[int, Path(ge=1, le=2**53, description="number of a run")]
+FilePath = Annotated[str, Path(description="path in the folder, with / between names")]
+Document = Annotated[dict[str, Any], Field(description="a scenario, as in a YAML or JSON file")]
+Folder = Annotated[str, Field("", description="folder of the document, for files that it names")]
+Name = Annotated[str, Field(max_length=200, description="a name of at most 200 characters")]
+MAX_SECONDS = 3600
+
+
+class Model(BaseModel):
+    """Refuses what it does not know."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Placed(Model):
+    """A document, and where it stands."""
+
+    document: Document
+    folder: Folder
+
+
+class Save(Placed):
+    """A document that is to be saved."""
+
+    revision: str | None = Field(
+        None, description="revision that the file must have; empty if there must be none"
+    )
+
+
+class Draft(Model):
+    """A document that somebody draws."""
+
+    document: Document
+
+
+class ToText(Placed):
+    """A document that is to be converted."""
+
+    name: str = Field("scenario.yaml", description="name that ends in .yaml, .json or .xlsx")
+
+
+class Search(Model):
+    """How to search for a plan; None for the defaults of the library."""
+
+    planner: str | None = Field(None, description="name of a planner, see /api/v1/planners")
+    options: dict[str, str | int] = Field({}, description="options of the planner by name")
+    time_limit: float = Field(10, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
+    seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
+
+    def settings(self) -> dict[str, Any]:
+        """Return the settings that are given, as `solve` takes them."""
+        chosen = {} if self.planner is None else {"planner": self.planner}
+        return {
+            **chosen,
+            "options": dict(self.options),
+            "time_limit": self.time_limit,
+            "seed": self.seed,
+        }
+
+
+class NewPlan(Search):
+    """A document that is to be planned."""
+
+    kind: Literal["plan"] = "plan"
+    document: Document
+    folder: Folder
+    source: str = Field("", max_length=500, description="file that the document is from, if any")
+    name: Name = ""
+    based_on: int | None = Field(None, description="run that it is a change of, if any")
+
+
+class NewImprovement(Search):
+    """A run whose plan is to be improved."""
+
+    kind: Literal["improve"]
+    based_on: int = Field(description="number of a run that has a plan")
+    name: Name = ""
+
+
+class NewLaps(Model):
+    """A document whose robots are to repeat their trips."""
+
+    kind: Literal["laps"]
+    document: Document
+    folder: Folder
+    source: str = Field("", max_length=500, description="file that the document is from, if any")
+    name: Name = ""
+    rule: str = Field("first-come", description="as in rightofway laps --rule")
+    routes: str | None = Field(None, description="clear, direct or shortest")
+    time_limit: float = Field(10, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
+    seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
+
+
+class NewSimulation(Model):
+    """A run whose plan is to be executed with delays."""
+
+    kind: Literal["simulate"]
+    based_on: int = Field(description="number of a run that has a plan")
+    name: Name = ""
+    delays: list[str] = Field([], max_length=50, description="as in rightofway simulate --delays")
+    runs: int = Field(1000, ge=1, le=100_000, description="a number of runs up to 100000")
+    run: int | None = Field(None, ge=0, description="the run to play, from 0")
+    seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
+    switch: bool = False
+    replan: bool = False
+    time_limit: float = Field(60, gt=0, le=MAX_SECONDS, description="seconds, up to 3600")
+
+
+def kind_of(body: Any) -> Any:
+    """Return the kind of run that a body asks for: a plan where it names none."""
+    return body.get("kind", "plan") if isinstance(body, dict) else getattr(body, "kind", "plan")
+
+
+NewRun = Annotated[
+    Annotated[NewPlan, Tag("plan")]
+    | Annotated[NewImprovement, Tag("improve")]
+    | Annotated[NewLaps, Tag("laps")]
+    | Annotated[NewSimulation, Tag("simulate")],
+    Discriminator(kind_of),
+]
+
+
+class Rename(Model):
+    """A name for a run."""
+
+    name: Name
+
+
+class Flip(Model):
+    """A right of way that is to be flipped."""
+
+    waits: str = Field(description="name of the robot that waits")
+    goes_first: str = Field(description="name of the robot that it waits for")
+    tick: int = Field(ge=0, description="when the wait ends, in ticks")
+    time_limit: float = Field(2, gt=0, le=30, description="seconds, up to 30")
+    name: Name = ""

@@ -1,0 +1,303 @@
+"""Planners, runs with their events, exports, comparison, and questions about plans."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import shlex
+from collections.abc import AsyncIterator
+from contextlib import aclosing
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query, Response
+from fastapi.responses import StreamingResponse
+
+from rightofway.io import FOREIGN_FORMATS
+from rightofway.planners import DEFAULT, IMPROVER, find, registered
+from rightofway.studio.errors import Refused
+from rightofway.studio.routes.models import (
+    Flip,
+    InStudio,
+    NewImprovement,
+    NewLaps,
+    NewPlan,
+    NewRun,
+    NewSimulation,
+    Rename,
+    RunNumber,
+)
+from rightofway.studio.runs import Run, Runs
+from rightofway.studio.session import Studio, checked_json
+
+EXPORTS = {
+    "json": "application/json",
+    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    "html": "text/html; charset=utf-8",
+    "png": "image/png",
+    "gif": "image/gif",
+}
+"""Endings of exports, and their media types."""
+
+ALONE = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
+"""Beside the page's own policy: it is an origin of its own, so its scripts cannot use the API."""
+
+MAX_COMPARED = 8
+"""Runs that are compared at once."""
+
+router = APIRouter()
+
+
+@router.get("/planners", tags=["planners"])
+def list_planners() -> dict[str, Any]:
+    """List the planners and their options, those of other packages too."""
+    return {
+        "default": DEFAULT,
+        "improver": IMPROVER,
+        "planners": [
+            {
+                "name": spec.name,
+                "summary": spec.summary,
+                "improves": spec.improves,
+                "knows_sizes": spec.knows_sizes,
+                "options": [
+                    {
+                        "name": option.name,
+                        "default": option.default,
+                        "summary": option.summary,
+                        "choices": list(option.choices),
+                        "least": option.least,
+                    }
+                    for option in spec.options
+                ],
+            }
+            for spec in registered().values()
+        ],
+    }
+
+
+@router.get("/runs", tags=["runs"])
+async def list_runs(studio: InStudio) -> dict[str, Any]:
+    """List the runs, the latest first."""
+    return {"runs": [Runs.data(run) for run in studio.runs.all()], "are_kept": studio.store.is_kept}
+
+
+@router.post("/runs", tags=["runs"], status_code=202)
+async def create_run(studio: InStudio, new: Annotated[NewRun, Body()]) -> dict[str, Any]:
+    """Queue a run: a plan, an improvement, laps, or a simulation."""
+    match new:
+        case NewPlan():
+            request = new.settings()
+            run = Run(kind="plan", source=new.source, based_on=new.based_on, request=request)
+        case NewImprovement():
+            run = Run(kind="improve", based_on=new.based_on, request=new.settings())
+        case NewLaps():
+            request = new.model_dump(include={"rule", "routes", "time_limit", "seed"})
+            run = Run(kind="laps", source=new.source, request=request)
+        case NewSimulation():
+            keys = {"delays", "runs", "run", "seed", "switch", "replan", "time_limit"}
+            run = Run(kind="simulate", based_on=new.based_on, request=new.model_dump(include=keys))
+    run.name = new.name
+    if isinstance(new, NewPlan | NewImprovement):
+        default = DEFAULT if isinstance(new, NewPlan) else IMPROVER
+        find(new.planner or default).settle(new.options)
+    if isinstance(new, NewPlan | NewLaps):
+        arguments = {"document": new.document, "folder": studio.place(new.folder)}
+        checked_json(arguments)
+        return Runs.data(await studio.runs.submit(run, arguments))
+    given = await studio.runs.blob(new.based_on, "plan")
+    return Runs.data(await studio.runs.submit(run, {}, {"given": given}))
+
+
+@router.get("/runs/{number}", tags=["runs"])
+async def get_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Return a run."""
+    return Runs.data(studio.runs.get(number))
+
+
+@router.patch("/runs/{number}", tags=["runs"])
+async def rename_run(studio: InStudio, number: RunNumber, rename: Rename) -> dict[str, Any]:
+    """Name a run."""
+    return Runs.data(await studio.runs.rename(number, rename.name))
+
+
+@router.delete("/runs/{number}", tags=["runs"])
+async def delete_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Cancel a run where it is not over, and forget it."""
+    await studio.runs.delete(number)
+    return {"number": number}
+
+
+@router.post("/runs/{number}/stop", tags=["runs"])
+async def stop_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Ask a run to end with the best plan that it has; its state changes when it has."""
+    return Runs.data(await studio.runs.stop(number))
+
+
+@router.post("/runs/{number}/cancel", tags=["runs"])
+async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """End a run at once."""
+    return Runs.data(await studio.runs.cancel(number))
+
+
+@router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
+async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
+    """Send the events of a run as they come, as server-sent events.
+
+    ``run``: the run, at first and whenever its state changes. ``progress``: seconds, flowtime,
+    lower bound or a message. ``plan``: there is a better plan so far; get its payload. The stream
+    ends when the run is over.
+    """
+    events = studio.runs.listen(number)
+    first = await anext(events)
+
+    async def stream() -> AsyncIterator[str]:
+        async with aclosing(events):
+            yield _line(first)
+            async for event in events:
+                yield _line(event)
+
+    return StreamingResponse(stream(), media_type="text/event-stream")
+
+
+def _line(event: tuple[str, dict[str, Any]] | None) -> str:
+    return ":\n\n" if event is None else f"event: {event[0]}\ndata: {json.dumps(event[1])}\n\n"
+
+
+@router.get("/runs/{number}/payload", tags=["plans"], response_class=Response)
+async def run_payload(
+    studio: InStudio,
+    number: RunNumber,
+    other: Annotated[int | None, Query(description="run to show beside it")] = None,
+) -> Response:
+    """Return what the viewer plays: the plan, or the plan so far, perhaps beside another one."""
+    run = studio.runs.get(number)
+    if run.has_payload and other is None:
+        content = await studio.runs.blob(number, "payload")
+    else:
+        content = await _played(studio, "payload", run, other)
+    return Response(content, media_type="application/json")
+
+
+@router.get("/runs/{number}/page", tags=["plans"], response_class=Response)
+async def run_page(
+    studio: InStudio,
+    number: RunNumber,
+    other: Annotated[int | None, Query(description="run to show beside it")] = None,
+) -> Response:
+    """Return the page that plays the plan, as `rightofway show --page` writes it."""
+    content = await _played(studio, "page", studio.runs.get(number), other)
+    headers = {"content-security-policy": ALONE}
+    return Response(content, media_type="text/html; charset=utf-8", headers=headers)
+
+
+async def _played(studio: Studio, task: str, run: Run, other: int | None) -> bytes:
+    plans = [await studio.runs.blob(run.number, "plan")]
+    titles = {"title": title_of(run)}
+    if other is not None:
+        plans.append(await studio.runs.blob(other, "plan"))
+        titles["other"] = title_of(studio.runs.get(other))
+    _, blobs = await studio.ask(task, *plans, **titles)
+    return blobs[0]
+
+
+def title_of(run: Run) -> str:
+    """Return how a page calls a run."""
+    return run.name or run.source or f"run {run.number}"
+
+
+@router.get("/runs/{number}/export/{form}", tags=["plans"], response_class=Response)
+async def export_run(studio: InStudio, number: RunNumber, form: str) -> Response:
+    """Return the plan as a file: json, xlsx, html, png, gif, or a format of another program."""
+    if form not in EXPORTS and form not in FOREIGN_FORMATS:
+        known = ", ".join([*EXPORTS, *FOREIGN_FORMATS])
+        raise Refused(f"{form[:50]!r} is no format (give one of: {known})", 404)
+    _, blobs = await studio.ask("export", await studio.runs.blob(number, "plan"), form=form)
+    ending = form if form in EXPORTS else "txt"
+    headers = {
+        "content-disposition": f'attachment; filename="run-{number}.{ending}"',
+        "content-security-policy": ALONE,
+    }
+    media = EXPORTS.get(form, "text/plain; charset=utf-8")
+    return Response(blobs[0], media_type=media, headers=headers)
+
+
+@router.get("/runs/{number}/document", tags=["plans"])
+async def run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Return the document that a run was made from, so that it can be changed."""
+    found = json.loads(await studio.runs.blob(number, "arguments"))
+    if "document" not in found:
+        plan = json.loads(await studio.runs.blob(number, "plan"))
+        found = {"document": plan["scenario"], "folder": "."}
+    return {"document": found["document"], "folder": found["folder"].removeprefix(".")}
+
+
+@router.get("/runs/{number}/report", tags=["plans"], response_class=Response)
+async def run_report(studio: InStudio, number: RunNumber) -> Response:
+    """Return the report of `plan`, `laps` or `simulate` with ``--json``."""
+    run = studio.runs.get(number)
+    if run.has_report:
+        content = await studio.runs.blob(number, "report")
+    else:
+        result, _ = await studio.ask("summary", await studio.runs.blob(number, "plan"))
+        content = json.dumps(result).encode()
+    return Response(content, media_type="application/json")
+
+
+@router.get("/runs/{number}/command", tags=["plans"])
+async def run_command(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Return the command line that gives the same."""
+    return {"command": command_of(studio.runs.get(number))}
+
+
+def command_of(run: Run) -> str:
+    """Return the command line of a run."""
+    request, words = run.request, ["rightofway", run.kind]
+    if run.kind in {"opened", "flip"}:
+        raise Refused(f"run {run.number} was not made by a command (export its plan)", 404)
+    words.append(run.source or ("plan.json" if run.based_on else "scenario.yaml"))
+    if run.kind in {"plan", "improve"}:
+        default = DEFAULT if run.kind == "plan" else IMPROVER
+        words += ["--planner", request.get("planner", default)]
+        for name, value in request["options"].items():
+            words += ["--option", f"{name}={value}"]
+    for key in ("rule", "routes", "runs", "run", "seed"):
+        if request.get(key) is not None:
+            words += [f"--{key}", str(request[key])]
+    for delay in request.get("delays", ()):
+        words += ["--delays", delay]
+    words += [f"--{key}" for key in ("switch", "replan") if request.get(key)]
+    if run.kind != "simulate":
+        words += ["--time-limit", f"{request['time_limit']:g}"]
+    return shlex.join(words)
+
+
+@router.get("/compare", tags=["plans"])
+async def compare(
+    studio: InStudio, run: Annotated[list[int], Query(min_length=2, max_length=MAX_COMPARED)]
+) -> dict[str, Any]:
+    """Compare plans: what each costs, and when each robot completes in each of them."""
+    plans = await asyncio.gather(*(studio.runs.blob(number, "plan") for number in run))
+    result, _ = await studio.ask("compare", *plans)
+    return {"runs": run, **result}
+
+
+@router.get("/runs/{number}/losses", tags=["questions"])
+async def run_losses(
+    studio: InStudio, number: RunNumber, robot: Annotated[str | None, Query(max_length=200)] = None
+) -> dict[str, Any]:
+    """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
+    plan = await studio.runs.blob(number, "plan")
+    result, _ = await studio.ask("losses", plan, robot=robot)
+    return dict(result)
+
+
+@router.post("/runs/{number}/flip", tags=["questions"])
+async def flip(studio: InStudio, number: RunNumber, flipped: Flip) -> dict[str, Any]:
+    """Let a robot that waits go first, and keep the timetable that follows as a run."""
+    plan = await studio.runs.blob(number, "plan")
+    request = flipped.model_dump(exclude={"name"})
+    result, blobs = await studio.ask("flip", plan, **request)
+    name = flipped.name or f"{flipped.waits} before {flipped.goes_first}"
+    run = Run(kind="flip", name=name, based_on=number, request=request)
+    run.figures, run.status = result["figures"], result["status"]
+    return {"before": result["before"], "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}

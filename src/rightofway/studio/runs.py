@@ -1,0 +1,382 @@
+"""Runs: plans that are queued, made by workers, watched, stopped and kept."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import time
+from collections.abc import AsyncGenerator, Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any, Literal
+
+from rightofway.studio.crew import Crew, Job
+from rightofway.studio.errors import Busy, Refused, StudioError
+from rightofway.studio.store import Store
+from rightofway.studio.worker import as_error
+
+MAX_QUEUED = 100
+"""Runs that may wait."""
+
+MAX_KEPT = 1000
+"""Runs that are kept."""
+
+MAX_LISTENERS = 64
+"""Browsers that may watch at once."""
+
+MAX_POINTS = 500
+"""Points of the curve of flowtime over time; of more, every second one is left out."""
+
+MAX_BEHIND = 1000
+"""Events that a slow listener may be behind before it is hung up on."""
+
+GRACE = 10.0
+"""A worker that was asked to stop is killed after that time [s]."""
+
+SPARE = 30.0
+"""A worker is killed that long after half as much again as its time limit [s]."""
+
+HEARTBEAT = 15.0
+"""So often a listener hears something [s]."""
+
+State = Literal["queued", "running", "done", "stopped", "cancelled", "failed", "interrupted"]
+Kind = Literal["plan", "improve", "laps", "simulate", "flip", "opened"]
+
+OVER = {"done", "stopped", "cancelled", "failed", "interrupted"}
+"""States that are not left any more."""
+
+Event = tuple[str, dict[str, Any]]
+
+
+@dataclass(slots=True, kw_only=True)
+class Run:
+    """A run, without its blobs.
+
+    Attributes
+    ----------
+    number, name, kind, state
+        What it is.
+    request
+        The settings of its task: planner, options, time limit, seed.
+    source
+        The file or the draft that it was made from, for people and for the command line.
+    based_on
+        The run that it was made from, if it was.
+    created, started, ended
+        Seconds since 1970.
+    status
+        What the planner did, in words.
+    figures
+        What its plan costs.
+    error
+        Why it failed.
+    points
+        Seconds since the start, and the flowtime that was reached then [ticks].
+    revision
+        How many plans there have been; 0 without one.
+    has_report, has_payload
+        Whether there is a report, and something to play that is not the plan alone.
+    """
+
+    number: int = 0
+    name: str = ""
+    kind: Kind = "plan"
+    state: State = "queued"
+    request: dict[str, Any] = field(default_factory=dict)
+    source: str = ""
+    based_on: int | None = None
+    created: float = field(default_factory=time.time)
+    started: float | None = None
+    ended: float | None = None
+    status: str = ""
+    figures: dict[str, Any] | None = None
+    error: dict[str, Any] | None = None
+    points: list[tuple[float, int]] = field(default_factory=list)
+    revision: int = 0
+    has_report: bool = False
+    has_payload: bool = False
+
+    def add_point(self, seconds: float, flowtime: int) -> None:
+        """Add a point of the curve."""
+        if len(self.points) >= MAX_POINTS:
+            del self.points[1:-1:2]
+        self.points.append((seconds, flowtime))
+
+
+@dataclass(slots=True, kw_only=True)
+class _Work:
+    """What belongs to a run while it is worked on."""
+
+    job: Job | None = None
+    wants: Literal["", "stopped", "cancelled"] = ""  # how the user has it end
+    is_saving: asyncio.Lock = field(default_factory=asyncio.Lock)
+    plan: bytes | None = None  # that waits to be saved
+    tasks: set[asyncio.Task[None]] = field(default_factory=set)
+
+
+class Runs:
+    """The runs of a studio.
+
+    Parameters
+    ----------
+    store
+        Where they are kept.
+    crew
+        Who works on them.
+    """
+
+    def __init__(self, store: Store, crew: Crew) -> None:
+        self._store = store
+        self._crew = crew
+        self._runs: dict[int, Run] = {}
+        self._work: dict[int, _Work] = {}
+        self._queue: asyncio.Queue[int] = asyncio.Queue()
+        self._listeners: dict[int, set[asyncio.Queue[Event | None]]] = {}
+        self._consumers: list[asyncio.Task[None]] = []
+
+    async def start(self) -> None:
+        """Take up what was left when the server went down, and begin to work."""
+        known = {each.name for each in fields(Run)}
+        for number, data in await asyncio.to_thread(self._store.runs):
+            run = Run(**{key: value for key, value in data.items() if key in known})
+            run.number = number
+            self._runs[number] = run
+            if run.state == "running":
+                run.state, run.ended = "interrupted", time.time()
+                run.status = "the studio went down; the best plan so far is kept"
+                await self._save(run)
+            elif run.state == "queued":
+                self._queue.put_nowait(number)
+        self._consumers = [asyncio.create_task(self._consume()) for _ in range(self._crew.size)]
+
+    async def close(self) -> None:
+        """End all work; runs that are running become interrupted when the studio starts again."""
+        self.hang_up()
+        for consumer in self._consumers:
+            consumer.cancel()
+        await asyncio.gather(*self._consumers, return_exceptions=True)
+
+    def hang_up(self) -> None:
+        """End all streams of events."""
+        for listeners in self._listeners.values():
+            for listener in listeners:
+                listener.put_nowait(None)
+
+    def all(self) -> list[Run]:
+        """Return all runs, the latest first."""
+        return [self._runs[number] for number in sorted(self._runs, reverse=True)]
+
+    def get(self, number: int) -> Run:
+        """Return a run; `Refused` if there is none of that number."""
+        if number not in self._runs:
+            raise Refused(f"there is no run {number} (see the list of runs)", 404)
+        return self._runs[number]
+
+    async def blob(self, number: int, kind: str) -> bytes:
+        """Return the ``plan``, the ``report``, the ``payload`` or the ``document`` of a run."""
+        run = self.get(number)
+        found = await asyncio.to_thread(self._store.blob, number, kind)
+        if found is None:
+            raise Refused(f"run {number} is {run.state} and has no {kind}", 404)
+        return found
+
+    async def submit(
+        self, run: Run, arguments: Mapping[str, Any], blobs: Mapping[str, bytes] | None = None
+    ) -> Run:
+        """Queue a run; its arguments beyond the request, a document for example, are kept beside.
+
+        Raises
+        ------
+        Busy
+            If too many runs wait, or are kept.
+        """
+        waiting = sum(each.state == "queued" for each in self._runs.values())
+        if waiting >= MAX_QUEUED:
+            raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
+        await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
+        self._queue.put_nowait(run.number)
+        return run
+
+    async def add_done(self, run: Run, plan: bytes) -> Run:
+        """Keep a plan that was made elsewhere as a run that is done."""
+        run.state, run.revision = "done", 1
+        run.started = run.ended = run.created
+        await self._add(run, {"plan": plan})
+        return run
+
+    async def _add(self, run: Run, blobs: Mapping[str, bytes]) -> None:
+        if len(self._runs) >= MAX_KEPT:
+            raise Busy(f"{len(self._runs)} runs are kept already (delete some)")
+        run.number = await asyncio.to_thread(self._store.add_run, asdict(run))
+        self._runs[run.number] = run
+        await self._save(run, blobs)
+
+    async def rename(self, number: int, name: str) -> Run:
+        """Give a run a name."""
+        run = self.get(number)
+        run.name = name
+        await self._save(run)
+        return run
+
+    async def stop(self, number: int) -> Run:
+        """End a run with the best plan that there is."""
+        return await self._end(number, "stopped")
+
+    async def cancel(self, number: int) -> Run:
+        """End a run at once."""
+        return await self._end(number, "cancelled")
+
+    async def _end(self, number: int, wanted: Literal["stopped", "cancelled"]) -> Run:
+        run, work = self.get(number), self._work.get(number)
+        if run.state == "queued":
+            run.state = wanted
+            await self._over(run)
+        elif work is not None:
+            work.wants = wanted
+            if work.job is not None and wanted == "stopped":
+                work.job.stop()
+                asyncio.get_running_loop().call_later(GRACE, work.job.kill)
+            elif work.job is not None:
+                work.job.kill()
+        return run
+
+    async def delete(self, number: int) -> None:
+        """Cancel a run, and forget it."""
+        await self.cancel(number)
+        self._runs.pop(number, None)
+        await asyncio.to_thread(self._store.delete_run, number)
+
+    @staticmethod
+    def data(run: Run) -> dict[str, Any]:
+        """Return what is told of a run."""
+        return {**asdict(run), "has_plan": run.revision > 0}
+
+    async def _consume(self) -> None:
+        while True:
+            run = self._runs.get(await self._queue.get())
+            if run is not None and run.state == "queued":
+                await self._execute(run)
+
+    async def _execute(self, run: Run) -> None:
+        work = self._work[run.number] = _Work()
+        try:
+            run.state, run.started = "running", time.time()
+            await self._save(run)
+            self._tell(run, "run", self.data(run))
+            await self._finish(run, work)
+        except StudioError as failed:
+            await asyncio.gather(*work.tasks)
+            is_wanted = work.wants == "cancelled" or (work.wants and run.revision)
+            run.state, run.error = work.wants or "failed", None if is_wanted else failed.error
+            run.status = "the best plan so far is kept" if run.revision else ""
+        except Exception as error:  # noqa: BLE001 (the other runs go on)
+            run.state, run.error = "failed", as_error(error)
+        finally:
+            self._work.pop(run.number, None)
+        await self._over(run)
+
+    async def _over(self, run: Run) -> None:
+        """Keep how a run ended, and hang up."""
+        run.ended = time.time()
+        await self._save(run)
+        self._tell(run, "run", self.data(run))
+        for listener in self._listeners.get(run.number, ()):
+            listener.put_nowait(None)
+
+    async def _finish(self, run: Run, work: _Work) -> None:
+        """Have the task of a run done, and note how it ended."""
+        arguments = json.loads(await self.blob(run.number, "arguments"))
+        given = await asyncio.to_thread(self._store.blob, run.number, "given")
+        limit = run.request.get("time_limit") or 0.0
+        work.job = Job(
+            run.kind,
+            {**run.request, **arguments},
+            [] if given is None else [given],
+            limit=1.5 * limit + SPARE,
+            on_event=lambda event, blobs: self._note(run, work, event, blobs),
+        )
+        if work.wants:
+            run.state = work.wants
+            return
+        result, blobs = await self._crew.do(work.job)
+        await asyncio.gather(*work.tasks)
+        await self._keep(run, result, blobs)
+        run.state = work.wants or "done"
+
+    async def _keep(self, run: Run, result: dict[str, Any], blobs: list[bytes]) -> None:
+        """Keep the result of a task: a report, something to play, a plan."""
+        kept, left = dict[str, bytes](), list(blobs)
+        if "report" in result:
+            kept["report"] = json.dumps(result["report"]).encode()
+            run.has_report = True
+        if result.get("has_payload"):
+            kept["payload"] = left.pop(0)
+            run.has_payload = True
+        if left:
+            kept["plan"] = left.pop(0)
+            run.revision += 1
+        run.figures = result.get("figures", run.figures)
+        run.status = result.get("status") or run.status
+        if run.kind in {"plan", "improve"} and run.figures and run.started:
+            run.add_point(round(time.time() - run.started, 3), run.figures["flowtime"])
+        await self._save(run, kept)
+
+    def _note(self, run: Run, work: _Work, event: dict[str, Any], blobs: list[bytes]) -> None:
+        """Note progress, and tell listeners."""
+        if "flowtime" in event:
+            run.add_point(event["seconds"], event["flowtime"])
+        self._tell(run, "progress", {key: event[key] for key in event if key != "figures"})
+        if blobs:
+            work.plan, run.figures = blobs[0], event["figures"]
+            saving = asyncio.create_task(self._save_plan(run, work))
+            work.tasks.add(saving)
+            saving.add_done_callback(work.tasks.discard)
+
+    async def _save_plan(self, run: Run, work: _Work) -> None:
+        async with work.is_saving:
+            plan, work.plan = work.plan, None
+            if plan is None:
+                return  # a later one is saved already
+            run.revision += 1
+            await self._save(run, {"plan": plan})
+        self._tell(run, "plan", {"revision": run.revision, "figures": run.figures})
+
+    async def _save(self, run: Run, blobs: Mapping[str, bytes] | None = None) -> None:
+        listed = list((blobs or {}).items())
+        await asyncio.to_thread(self._store.put_run, run.number, asdict(run), listed)
+
+    def _tell(self, run: Run, event: str, data: dict[str, Any]) -> None:
+        for listener in self._listeners.get(run.number, ()):
+            if listener.qsize() < MAX_BEHIND:
+                listener.put_nowait((event, data))
+            else:
+                listener.put_nowait(None)
+
+    async def listen(self, number: int) -> AsyncGenerator[Event | None]:
+        """Yield the events of a run: first all that is known; None from time to time.
+
+        It ends when the run is over, or the server closes.
+
+        Raises
+        ------
+        Busy
+            If too many listen already.
+        """
+        run = self.get(number)
+        if sum(map(len, self._listeners.values())) >= MAX_LISTENERS:
+            raise Busy(f"{MAX_LISTENERS} browsers watch already (close some)")
+        listener: asyncio.Queue[Event | None] = asyncio.Queue()
+        self._listeners.setdefault(number, set()).add(listener)
+        try:
+            yield "run", self.data(run)
+            while run.state not in OVER or number in self._work:
+                event: Event | None = None
+                with contextlib.suppress(TimeoutError):
+                    event = await asyncio.wait_for(listener.get(), HEARTBEAT)
+                    if event is None:
+                        return
+                yield event
+        finally:
+            self._listeners[number].discard(listener)
+            if not self._listeners[number]:
+                del self._listeners[number]

@@ -1,0 +1,148 @@
+"""The studio as a program: an address, a server, a browser, an end."""
+
+from __future__ import annotations
+
+import contextlib
+import ipaddress
+import socket
+import threading
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+
+from rightofway.errors import InputError
+from rightofway.studio.app import create_app
+from rightofway.studio.guard import Access
+from rightofway.studio.session import Studio
+
+PORT = 7477
+"""The port that is taken where it is free, so that an address can be kept."""
+
+NOT_KEPT = (
+    "drafts and runs are kept in memory only (by --no-history, or because the folder cannot be"
+    " written, or because another studio has it open)"
+)
+
+
+class _Server(uvicorn.Server):
+    """Hangs up on listeners before it waits for them."""
+
+    def __init__(self, config: uvicorn.Config, studio: Studio, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._studio = studio
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._ready()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._studio.runs.hang_up()
+        await super().shutdown(sockets)
+
+
+def serve(
+    studio: Studio,
+    *,
+    host: str,
+    port: int | None,
+    has_page: bool,
+    opens_browser: bool,
+    say: Callable[[str], None],
+) -> None:
+    """Serve a studio until it is interrupted.
+
+    Parameters
+    ----------
+    studio
+        What to serve.
+    host
+        The address to listen on.
+    port
+        The port; None for a free one.
+    has_page
+        Whether the page is served, beside the API.
+    opens_browser
+        Whether a browser is opened.
+    say
+        Takes what the user shall read: the address.
+
+    Raises
+    ------
+    InputError
+        If the address cannot be listened on.
+    """
+    listener = bound(host, port)
+    actual = listener.getsockname()[1]
+    access = Access.on(host, actual)
+    query = f"?token={access.token}" if access.token else ""
+    address = f"http://{_called(host)}:{actual}/{query}"
+
+    def ready() -> None:
+        say(f"studio: {address} (end it with Ctrl-C)")
+        if not studio.store.is_kept:
+            say(NOT_KEPT)
+        if opens_browser:
+            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+    config = uvicorn.Config(
+        create_app(studio, access, has_page=has_page),
+        log_level="critical",
+        access_log=False,
+        server_header=False,
+        timeout_graceful_shutdown=3,
+        h11_max_incomplete_event_size=16_384,
+    )
+    with contextlib.closing(listener), contextlib.suppress(KeyboardInterrupt):
+        _Server(config, studio, ready).run(sockets=[listener])
+
+
+def bound(host: str, port: int | None) -> socket.socket:
+    """Return a socket that listens on an address; on a free port where none is given."""
+    for candidate in (PORT, 0) if port is None else (port,):
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        listener = socket.socket(family, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((host.strip("[]"), candidate))
+            listener.listen(100)
+        except (OSError, OverflowError) as error:
+            listener.close()
+            if port is not None or candidate == 0:
+                reason = getattr(error, "strerror", None) or str(error)
+                message = f"{host}:{port or ''} cannot be listened on: {reason} (give another)"
+                raise InputError.at("--host, --port", message) from None
+        else:
+            return listener
+    raise AssertionError("the last port is returned or refused")
+
+
+def _called(host: str) -> str:
+    """Return how a browser on this machine calls an address."""
+    with contextlib.suppress(ValueError):
+        if ipaddress.ip_address(host.strip("[]")).is_unspecified:
+            return socket.gethostname()
+    return f"[{host}]" if ":" in host and not host.startswith("[") else host
+
+
+def folder_and_file(given: Path) -> tuple[Path, str | None]:
+    """Return the folder that a studio is for, and the file in it that is opened first.
+
+    Parameters
+    ----------
+    given
+        A file or a folder.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if given.is_dir():
+        return given, None
+    if given.is_file():
+        return given.parent, given.name
+    raise InputError.at("", "there is no such file or folder (check the path)", str(given))

@@ -1,0 +1,141 @@
+"""Drafts and runs in one SQLite file: what is written is on the disk when the call returns."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import threading
+import time
+import zlib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+FILE = ".rightofway-studio.sqlite"
+"""The name of the file in the folder of the studio."""
+
+TABLES = """
+CREATE TABLE IF NOT EXISTS drafts (name TEXT PRIMARY KEY, saved REAL, document TEXT);
+CREATE TABLE IF NOT EXISTS runs (id INTEGER PRIMARY KEY AUTOINCREMENT, data TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS blobs (
+    run INTEGER REFERENCES runs(id) ON DELETE CASCADE, kind TEXT, content BLOB,
+    PRIMARY KEY (run, kind)
+);
+"""
+
+
+class Store:
+    """The drafts and the runs of a folder.
+
+    Parameters
+    ----------
+    folder
+        Where the file is; None, a folder that cannot be written, or one that another studio has
+        open, for memory.
+
+    Attributes
+    ----------
+    is_kept
+        Whether what is written outlives the process.
+    """
+
+    def __init__(self, folder: Path | None) -> None:
+        self._lock = threading.Lock()
+        try:
+            self._database = self._opened(str(folder / FILE) if folder else ":memory:")
+            self.is_kept = folder is not None
+        except sqlite3.Error:
+            self._database, self.is_kept = self._opened(":memory:"), False
+
+    @staticmethod
+    def _opened(path: str) -> sqlite3.Connection:
+        database = sqlite3.connect(path, timeout=0.5, check_same_thread=False)
+        try:
+            database.execute("PRAGMA locking_mode = EXCLUSIVE")
+            database.execute("PRAGMA journal_mode = WAL")
+            database.execute("PRAGMA synchronous = FULL")
+            database.execute("PRAGMA foreign_keys = ON")
+            database.executescript(TABLES)
+            database.execute("INSERT OR REPLACE INTO drafts VALUES ('', 0, 'null')")  # takes a lock
+            database.execute("DELETE FROM drafts WHERE name = ''")
+            database.commit()
+        except sqlite3.Error:
+            database.close()
+            raise
+        return database
+
+    @contextmanager
+    def _work(self) -> Iterator[sqlite3.Connection]:
+        with self._lock, self._database:
+            yield self._database
+
+    def close(self) -> None:
+        """Close the file."""
+        with self._lock:
+            self._database.close()
+
+    def put_draft(self, name: str, document: Any) -> float:
+        """Keep a draft, and return when [s since 1970]."""
+        saved = time.time()
+        with self._work() as database:
+            row = (name, saved, json.dumps(document))
+            database.execute("INSERT OR REPLACE INTO drafts VALUES (?, ?, ?)", row)
+        return saved
+
+    def draft(self, name: str) -> dict[str, Any] | None:
+        """Return a draft with when it was kept, or None."""
+        with self._work() as database:
+            query = "SELECT saved, document FROM drafts WHERE name = ?"
+            row = database.execute(query, (name,)).fetchone()
+        return row and {"name": name, "saved": row[0], "document": json.loads(row[1])}
+
+    def drafts(self) -> list[dict[str, Any]]:
+        """Return name, time and size of all drafts, the latest first."""
+        with self._work() as database:
+            query = "SELECT name, saved, length(document) FROM drafts ORDER BY saved DESC"
+            rows = database.execute(query).fetchall()
+        return [{"name": name, "saved": saved, "size": size} for name, saved, size in rows]
+
+    def delete_draft(self, name: str) -> bool:
+        """Delete a draft; false if there is none."""
+        with self._work() as database:
+            return bool(database.execute("DELETE FROM drafts WHERE name = ?", (name,)).rowcount)
+
+    def add_run(self, data: dict[str, Any]) -> int:
+        """Keep a new run, and return its number."""
+        with self._work() as database:
+            added = database.execute("INSERT INTO runs (data) VALUES (?)", (json.dumps(data),))
+            number = added.lastrowid
+        assert number is not None, "a row was added"
+        return number
+
+    def put_run(
+        self, number: int, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()
+    ) -> None:
+        """Keep what is known of a run, and blobs by kind, at once."""
+        packed = [(number, kind, zlib.compress(content, 1)) for kind, content in blobs]
+        with self._work() as database:
+            found = database.execute(
+                "UPDATE runs SET data = ? WHERE id = ?", (json.dumps(data), number)
+            )
+            if found.rowcount:
+                database.executemany("INSERT OR REPLACE INTO blobs VALUES (?, ?, ?)", packed)
+
+    def runs(self) -> list[tuple[int, dict[str, Any]]]:
+        """Return all runs, the earliest first."""
+        with self._work() as database:
+            rows = database.execute("SELECT id, data FROM runs ORDER BY id").fetchall()
+        return [(number, json.loads(data)) for number, data in rows]
+
+    def blob(self, number: int, kind: str) -> bytes | None:
+        """Return a blob of a run, or None."""
+        with self._work() as database:
+            query = "SELECT content FROM blobs WHERE run = ? AND kind = ?"
+            row = database.execute(query, (number, kind)).fetchone()
+        return row and zlib.decompress(row[0])
+
+    def delete_run(self, number: int) -> None:
+        """Delete a run and its blobs."""
+        with self._work() as database:
+            database.execute("DELETE FROM runs WHERE id = ?", (number,))

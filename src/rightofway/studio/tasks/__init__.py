@@ -1,0 +1,34 @@
+"""What workers can do, by name: a task takes ``emit``, blobs and arguments, and returns a result.
+
+The result is plain data, with blobs after it where there are some. Faults are raised as everywhere
+in the library; `rightofway.studio.worker` turns them into data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rightofway.studio.tasks import asking, documents, planning, views
+
+Task = Callable[..., tuple[Any, ...]]
+
+TASKS: dict[str, Task] = {
+    "open": documents.opened,
+    "validate": documents.validated,
+    "inspect": documents.inspected,
+    "draw": documents.drawn,
+    "write": documents.written,
+    "plan": planning.plan,
+    "improve": planning.improve,
+    "laps": planning.laps,
+    "simulate": planning.simulate,
+    "payload": views.payload,
+    "page": views.page,
+    "export": views.exported,
+    "summary": views.summary,
+    "compare": views.compared,
+    "losses": asking.losses,
+    "flip": asking.flip,
+}
+"""Every task by name."""

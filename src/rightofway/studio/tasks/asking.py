@@ -1,0 +1,93 @@
+"""Questions about a plan: why a robot waits, and what if it went first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from rightofway.check import check
+from rightofway.cli.plan_report import Words, decision_in_words, reason_in_words, sentence_on
+from rightofway.errors import InputError, InvalidPlan, nearest
+from rightofway.io import plan_text
+from rightofway.metrics import lost_time
+from rightofway.model import Decision, Loss, Plan, Tick
+from rightofway.planners.flip import flipped
+from rightofway.studio.tasks.documents import figures
+from rightofway.studio.tasks.views import read
+from rightofway.studio.worker import Blobs, Emit
+
+Result = tuple[Any, ...]
+
+
+def losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
+    """Return each cause of lost time in a sentence, with the decision that it follows from."""
+    plan = read(blobs[0])
+    words = Words(plan=plan, quantities=plan.scenario.quantities)
+    wanted = None if robot is None else _index(plan, "robot", robot)
+    found = [
+        _loss_data(words, loss)
+        for one in lost_time(plan)
+        if wanted in {None, one.robot}
+        for loss in one.losses
+    ]
+    return ({"losses": found},)
+
+
+def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
+    decision = _decision_behind(words.plan, loss)
+    because = None
+    if decision is not None:
+        because = {
+            "decision": decision_in_words(words, decision),
+            "reason": reason_in_words(words, decision),
+        }
+    return {
+        "kind": loss.kind,
+        "robot": words.robot(loss.robot),
+        "for": words.robot(loss.for_robot) or None,
+        "vertex": words.place(loss.vertex),
+        "towards": words.place(loss.towards),
+        "freed": words.place(loss.freed) or None,
+        "tick": loss.tick,
+        "end": loss.end,
+        "ticks": loss.ticks,
+        "sentence": sentence_on(words, [loss]),
+        "because": because,
+    }
+
+
+def _decision_behind(plan: Plan, loss: Loss) -> Decision | None:
+    """Return the last decision on both robots at a place of the loss; None where none is kept."""
+    places = {loss.vertex, loss.towards, loss.freed}
+    pair = {loss.robot, loss.for_robot}
+    decisions = (
+        each
+        for each in reversed(plan.run.decisions)
+        if set(each.robots) == pair and each.waits == loss.robot
+    )
+    return next((each for each in decisions if places.intersection(each.vertices)), None)
+
+
+def flip(
+    _emit: Emit, blobs: Blobs, *, waits: str, goes_first: str, tick: int, time_limit: float
+) -> Result:
+    """Return the plan in which a robot that waits goes first, judged, and what it costs."""
+    plan = read(blobs[0])
+    pair = _index(plan, "waits", waits), _index(plan, "goes_first", goes_first)
+    tracks = flipped(plan, *pair, Tick(tick), time_limit=time_limit)
+    run = replace(plan.run, status=f"{waits} goes before {goes_first}", seconds=None, decisions=())
+    found = Plan(scenario=plan.scenario, tracks=tuple(tracks), run=run)
+    report = check(found)
+    if not report.ok:
+        raise InvalidPlan(f"a flipped right of way made a plan with {report}")
+    result = {"figures": figures(found), "before": figures(plan), "status": run.status}
+    return (result, plan_text(found).encode())
+
+
+def _index(plan: Plan, place: str, name: str) -> int:
+    names = [robot.name for robot in plan.scenario.robots]
+    if name not in names:
+        near = nearest(name, names)
+        hint = f"did you mean {near!r}?" if near else "name one of the scenario's robots"
+        raise InputError.at(place, f"no robot is named {name!r} ({hint})")
+    return names.index(name)

@@ -1,0 +1,160 @@
+"""Documents: opened from any file that the library reads, validated, inspected, drawn, written."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, replace
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError, InputFault
+from rightofway.io import (
+    Loaded,
+    dump_scenario,
+    example_of_layout,
+    is_layout,
+    load_either,
+    load_with_notes,
+    plan_text,
+    read_layout,
+)
+from rightofway.io.layouts import described
+from rightofway.io.marks import document_of, marked
+from rightofway.io.opening import WORKBOOKS
+from rightofway.io.scenario.reader import read_scenario
+from rightofway.io.scenario.writer import yaml_of
+from rightofway.io.sites import sites_of
+from rightofway.io.text import json_text, parse_yaml
+from rightofway.metrics import inspect, measure
+from rightofway.model import Plan
+from rightofway.planners.impossible import fleet_at_home
+from rightofway.studio.worker import Blobs, Emit, fault_data
+from rightofway.viz.page.document import compact_json
+from rightofway.viz.page.payload import payload_of
+
+Result = tuple[Any, ...]
+
+
+def opened(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -> Result:
+    """Open a file: a scenario as its document, faults and all; a layout as the map of a new one.
+
+    A plan is a blob, with what it costs.
+    """
+    file = Path(path)
+    if is_layout(file):
+        document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
+        layout = read_layout(file)
+        notes = [*getattr(layout, "notes", ()), f"a new scenario on {described(layout)}"]
+        return ({"kind": "layout", "document": plain(document), "notes": notes},)
+    if file.suffix.lower() in {".scen", *WORKBOOKS}:
+        return (_of_loaded("scenario", load_with_notes(file, count)),)
+    try:
+        found = load_either(file, count)
+    except InputError:
+        return (_with_faults(file),)
+    if isinstance(found, Plan):
+        return ({"kind": "plan", "figures": figures(found)}, plan_text(found).encode())
+    return ({**_of_loaded("scenario", found), "document": _raw(file)},)
+
+
+def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
+    document = plain(dump_scenario(loaded.scenario))
+    return {"kind": kind, "document": document, "notes": list(loaded.notes)}
+
+
+def _with_faults(file: Path) -> dict[str, Any]:
+    """Return a scenario that has faults, to be mended in the studio; what is none is refused."""
+    with document_of(file) as document:
+        if isinstance(document, dict) and isinstance(document.get("map"), dict):
+            return {"kind": "scenario", "document": plain(document), "notes": []}
+    load_either(file)
+    raise AssertionError("a file with faults is refused")
+
+
+def _raw(file: Path) -> Any:
+    with document_of(file) as document:
+        return plain(document)
+
+
+def plain(value: Any) -> Any:
+    """Return a document for JSON; a decimal that no float stands for exactly becomes text."""
+    if isinstance(value, Decimal):
+        number = float(value)
+        return number if Decimal(repr(number)) == value else str(value)
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    return [plain(item) for item in value] if isinstance(value, list) else value
+
+
+def loaded_of(document: Any, folder: str) -> Loaded:
+    """Return the scenario of a document that would stand in a folder, with names in its faults."""
+    try:
+        return read_scenario(document, Path(folder))
+    except InputError as error:
+        raise InputError(_named(error.faults, document)) from None
+
+
+def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
+    """Return faults with the names of list items; lines mean nothing here."""
+    text = json.dumps(document)
+    return [replace(fault, line=None) for fault in marked(faults, text)]
+
+
+def validated(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
+    """Return the faults of a document, or what its reader notes."""
+    try:
+        loaded = loaded_of(document, folder)
+    except InputError as error:
+        return ({"ok": False, "faults": [fault_data(each) for each in error.faults], "notes": []},)
+    return ({"ok": True, "faults": [], "notes": list(loaded.notes)},)
+
+
+def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
+    """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
+    loaded = loaded_of(document, folder)
+    found = sites_of(loaded.scenario, loaded.notes)
+    results = [(site, inspect(site)) for _, site in found.sites]
+    (result,) = (each for _, each in results)
+    return (
+        {
+            "what": found.what,
+            "notes": list(found.notes),
+            **{key: value for key, value in asdict(result).items() if key != "findings"},
+            "findings": [{**asdict(each), "sentence": str(each)} for each in result.findings],
+        },
+    )
+
+
+def drawn(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, title: str = "") -> Result:
+    """Return what the viewer needs to draw a document: its robots stay at their homes."""
+    payload = payload_of(fleet_at_home(loaded_of(document, folder).scenario), title=title)
+    payload["faults"] = {"count": 0, "kinds": {}, "listed": []}  # of a plan, and there is none
+    return (None, compact_json(payload).encode())
+
+
+def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str) -> Result:
+    """Return the text of a document as a file of some name has it: .yaml, .yml, .json or .xlsx."""
+    suffix = Path(name).suffix.lower()
+    if suffix in {".yaml", ".yml"}:
+        return (None, yaml_of(document).encode())
+    if suffix == ".json":
+        return (None, json_text(document).encode())
+    if suffix == ".xlsx":
+        from rightofway.io.workbook.writer import workbook_of
+
+        return (None, workbook_of(dump_scenario(loaded_of(document, folder).scenario)))
+    message = f"{name!r} does not end in .yaml, .yml, .json or .xlsx (give a name that does)"
+    raise InputError.at("path", message)
+
+
+def figures(plan: Plan) -> dict[str, Any]:
+    """Return what a plan costs, in ticks and as people read it."""
+    metrics, duration = measure(plan), plan.scenario.quantities.duration
+    costs = {
+        "flowtime": metrics.flowtime,
+        "makespan": metrics.makespan,
+        "lower_bound": metrics.lower_bound,
+    }
+    return {**costs, "text": {key: duration(ticks) for key, ticks in costs.items()}}

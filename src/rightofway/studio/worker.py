@@ -1,0 +1,213 @@
+"""A process that works for the studio: one job at a time, and no file outside of one folder.
+
+Messages in both directions are a JSON object with its length before it, and blobs after it. To a
+worker goes ``{"job", "task", "arguments"}`` with blobs, or ``{"stop"}``. From it come
+``{"job", "event"}`` and, last of a job, ``{"job", "result"}`` or ``{"job", "error"}``, each with
+blobs.
+"""
+
+from __future__ import annotations
+
+import _thread
+import contextlib
+import errno
+import json
+import mimetypes
+import os
+import queue
+import struct
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists
+
+LENGTH = struct.Struct(">Q")
+"""How the length of a message is written."""
+
+SHARE_OF_MEMORY = 0.5
+"""The part of the machine's memory that a worker may take."""
+
+LEAST_MEMORY = 2**30
+"""What a worker may take in any case [bytes]."""
+
+Blobs = Sequence[bytes]
+Emit = Callable[..., None]
+"""Sends an event of the current job: ``emit({"flowtime": 3}, b"a plan")``."""
+
+
+def packed(message: dict[str, Any], blobs: Blobs = ()) -> bytes:
+    """Return a message as it is sent.
+
+    Parameters
+    ----------
+    message
+        Plain data.
+    blobs
+        Bytes that travel as they are.
+    """
+    text = json.dumps({**message, "sizes": list(map(len, blobs))}, allow_nan=False).encode()
+    return b"".join([LENGTH.pack(len(text)), text, *blobs])
+
+
+def main() -> None:
+    """Work until the server hangs up; the arguments are the folder and a scratch folder."""
+    folder, scratch = (os.path.realpath(given) for given in sys.argv[1:3])
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # nothing that prints can break the messages
+    os.chdir(folder)
+    tempfile.tempdir = scratch
+    mimetypes.init()  # openpyxl needs it, and it reads files of the system
+    limit_memory()
+    end_before_others()
+    confine(folder, scratch)
+    Worker(sys.stdin.buffer, answers).run()
+
+
+class Worker:
+    """Takes jobs one after the other; a thread listens meanwhile."""
+
+    def __init__(self, orders: IO[bytes], answers: IO[bytes]) -> None:
+        self._orders = orders
+        self._answers = answers
+        self._jobs: queue.SimpleQueue[tuple[dict[str, Any], list[bytes]]] = queue.SimpleQueue()
+        self._current: int | None = None
+        self._lock = threading.Lock()
+
+    def run(self) -> None:
+        """Do what is ordered, for ever."""
+        from rightofway.studio.tasks import TASKS
+
+        threading.Thread(target=self._listen, daemon=True).start()
+        while True:
+            with contextlib.suppress(KeyboardInterrupt):  # a stop that came too late
+                self._do(*self._jobs.get(), TASKS)
+
+    def _do(self, order: dict[str, Any], blobs: list[bytes], tasks: dict[str, Any]) -> None:
+        job = order["job"]
+
+        def emit(event: dict[str, Any], *parts: bytes) -> None:
+            self._send({"job": job, "event": event}, parts)
+
+        self._current = job
+        try:
+            result, *parts = tasks[order["task"]](emit, blobs, **order["arguments"])
+            answer: tuple[dict[str, Any], Blobs] = ({"job": job, "result": result}, parts)
+        except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (each is an answer)
+            answer = ({"job": job, "error": as_error(error)}, ())
+        finally:
+            self._current = None
+        self._send(*answer)
+
+    def _send(self, message: dict[str, Any], blobs: Blobs) -> None:
+        data = packed(message, blobs)
+        with self._lock:
+            self._answers.write(data)
+            self._answers.flush()
+
+    def _listen(self) -> None:
+        try:
+            while True:
+                (length,) = LENGTH.unpack(self._orders.read(LENGTH.size))
+                order = json.loads(self._orders.read(length))
+                blobs = [self._orders.read(size) for size in order["sizes"]]
+                if "task" in order:
+                    self._jobs.put((order, blobs))
+                elif order["stop"] == self._current:
+                    _thread.interrupt_main()
+        except (OSError, struct.error, ValueError):
+            pass
+        os._exit(0)  # the server is gone: whatever is planned, no program waits for it
+
+
+def as_error(error: BaseException) -> dict[str, Any]:
+    """Return what went wrong as plain data: ``kind``, ``message``, and details by kind.
+
+    Parameters
+    ----------
+    error
+        What a task raised.
+    """
+    match error:
+        case InputError():
+            listed = [fault_data(fault) for fault in error.faults]
+            message = "\n".join(fault.after("") for fault in error.faults)
+            return {"kind": "input", "message": message, "faults": listed}
+        case NoPlanExists():
+            return {"kind": "no_plan", "message": f"no plan exists: {error}", **error.as_dict()}
+        case GaveUp():
+            return {"kind": "gave_up", "message": f"no plan found: {error}"}
+        case KeyboardInterrupt():
+            return {"kind": "stopped", "message": "stopped before there was a plan"}
+        case MemoryError():
+            message = "this needs more memory than a worker may take (give a smaller problem)"
+            return {"kind": "memory", "message": message}
+        case _:
+            what = " ".join([f"{type(error).__name__}:", *str(error).split()])
+            return {"kind": "defect", "message": f"unexpected {what} (please report it)"}
+
+
+def fault_data(fault: InputFault) -> dict[str, Any]:
+    """Return a fault as plain data.
+
+    Parameters
+    ----------
+    fault
+        One thing wrong with an input.
+    """
+    return {
+        "place": fault.place,
+        "message": fault.message,
+        "line": fault.line,
+        "named": fault.named,
+    }
+
+
+def confine(*folders: str) -> None:
+    """Refuse, from now on and for ever, to open a file outside of some folders.
+
+    Documents name other files, and so do these; whichever reader opens them, Python asks here
+    first. Python's own folders are open, because modules are imported when they are first used.
+
+    Parameters
+    ----------
+    folders
+        Without symbolic links.
+    """
+    package = Path(__file__).parents[2]
+    own = {sys.prefix, sys.base_prefix, str(package), "/dev/null", "/proc", "/sys", *sys.path}
+    known = {os.path.realpath(path) for path in own if path}
+    roots = tuple(f"{root.rstrip(os.sep)}{os.sep}" for root in {*known, *folders})
+
+    def watch(event: str, arguments: tuple[Any, ...]) -> None:
+        if event != "open" or not isinstance(arguments[0], str | bytes | os.PathLike):
+            return
+        path = os.fsdecode(arguments[0])
+        if not f"{os.path.realpath(path)}{os.sep}".startswith(roots):
+            reason = "it is outside of the folder that the studio was given"
+            raise PermissionError(errno.EACCES, reason, path)
+
+    sys.addaudithook(watch)
+
+
+def limit_memory() -> None:
+    """Let this process have a part of the machine's memory; where the system can limit it."""
+    with contextlib.suppress(ImportError, OSError, ValueError, AttributeError):
+        import resource
+
+        whole = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        most = max(int(SHARE_OF_MEMORY * whole), LEAST_MEMORY)
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def end_before_others() -> None:
+    """Ask the system to end this process first where memory is short; where it can be asked."""
+    with contextlib.suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,179 @@
+"""The files of one folder: listed, read and written whole; no path climbs out."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from rightofway.errors import InputError
+from rightofway.files import write_whole
+from rightofway.studio.errors import Refused
+
+MAX_FILES = 2000
+"""Files that a list holds; the folder may have more."""
+
+MAX_DEPTH = 6
+"""Folders inside each other that a list goes into."""
+
+MAX_FILE = 20_000_000
+"""The largest file that is opened or uploaded [bytes]."""
+
+LONGEST_NAME = 200
+"""Characters of a file's or a folder's name."""
+
+KINDS = {
+    **dict.fromkeys((".yaml", ".yml", ".json"), "document"),
+    **dict.fromkeys((".xlsx", ".xlsm"), "workbook"),
+    **dict.fromkeys((".xml", ".graphml", ".geojson", ".csv", ".map"), "layout"),
+    ".scen": "scenario",
+    ".txt": "document",
+    **dict.fromkeys((".png", ".pgm", ".jpg", ".jpeg", ".bmp"), "picture"),
+}
+"""Which files a list holds, by their endings; what is in them is seen when they are opened."""
+
+UNSAFE = re.compile(r"[\x00-\x1f\x7f\\:*?\"<>|]")
+"""Characters that some system reads as something else than a part of a name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A file in a list.
+
+    Attributes
+    ----------
+    path
+        From the folder on, with ``/`` between names.
+    kind
+        ``document``, ``workbook``, ``layout``, ``scenario`` or ``picture``.
+    size
+        In bytes.
+    modified
+        In seconds since 1970.
+    """
+
+    path: str
+    kind: str
+    size: int
+    modified: float
+
+
+class Workspace:
+    """The folder that the studio was given.
+
+    Parameters
+    ----------
+    folder
+        The folder; it must be there.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.resolve(strict=True)
+
+    def path(self, name: str) -> Path:
+        """Return where a file is.
+
+        Parameters
+        ----------
+        name
+            From the folder on, with ``/`` between names.
+
+        Raises
+        ------
+        Refused
+            For a path that is absolute, climbs, is hidden, or leads through a symbolic link.
+        """
+        parts = PurePosixPath(name).parts
+        if not parts or name != "/".join(parts) or UNSAFE.search(name):
+            raise Refused(f"{name!r} is no path in the folder (give names with / between)")
+        if any(part.startswith(".") or part.endswith((".", " ")) for part in parts):
+            raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
+        if any(len(os.fsencode(part)) > LONGEST_NAME for part in parts):
+            raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
+        path = self.folder.joinpath(*parts)
+        if path.resolve() != path:
+            raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
+        return path
+
+    def existing(self, name: str) -> Path:
+        """Return where a file is that can be read.
+
+        Raises
+        ------
+        Refused
+            As `path`, or if there is no such file, or it is too large.
+        """
+        path = self.path(name)
+        if not path.is_file():
+            raise Refused(f"there is no file {name!r} in the folder (see the list)", 404)
+        size = path.stat().st_size
+        if size > MAX_FILE:
+            raise Refused(f"{name!r} has {size} bytes (at most {MAX_FILE} are opened)", 413)
+        return path
+
+    def read(self, name: str) -> bytes:
+        """Return the content of a file; refused as by `existing`."""
+        return self.existing(name).read_bytes()
+
+    def write(self, name: str, content: bytes, *, revision: str | None = None) -> str:
+        """Write a file whole, and return its revision.
+
+        Parameters
+        ----------
+        name
+            From the folder on; folders in it must be there.
+        content
+            All that is in it then.
+        revision
+            What the file must hold before; empty if there must be none; None for whatever it holds.
+
+        Raises
+        ------
+        Refused
+            As `path`; or if the file holds something else by now.
+        InputError
+            If it cannot be written.
+        """
+        path = self.path(name)
+        if revision is not None and revision != (self.revision(name) or ""):
+            was = "was changed by another program" if revision else "is there already"
+            raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
+        try:
+            write_whole(path, content)
+        except InputError as error:
+            raise InputError(error.faults, name) from None
+        return revision_of(content)
+
+    def revision(self, name: str) -> str | None:
+        """Return a text that changes with the content of a file; None where there is none."""
+        path = self.path(name)
+        return revision_of(path.read_bytes()) if path.is_file() else None
+
+    def files(self) -> list[Entry]:
+        """Return the files that may be opened, in the order of their paths."""
+        found = sorted(self._files(self.folder, MAX_DEPTH), key=lambda entry: entry.path)
+        return found[:MAX_FILES]
+
+    def _files(self, folder: Path, depth: int) -> Iterator[Entry]:
+        try:
+            inside = sorted(os.scandir(folder), key=lambda each: each.name)
+        except OSError:
+            return  # a folder that may not be read has nothing to open
+        for each in inside:
+            if each.name.startswith(".") or each.is_symlink():
+                continue
+            kind = KINDS.get(Path(each.name).suffix.lower())
+            if each.is_dir(follow_symlinks=False) and depth:
+                yield from self._files(Path(each.path), depth - 1)
+            elif kind and each.is_file(follow_symlinks=False):
+                stat = each.stat(follow_symlinks=False)
+                name = Path(each.path).relative_to(self.folder).as_posix()
+                yield Entry(name, kind, stat.st_size, stat.st_mtime)
+
+
+def revision_of(content: bytes) -> str:
+    """Return a text that changes with the content."""
+    return hashlib.sha256(content).hexdigest()[:16]

@@ -1,0 +1,29 @@
+/** Undo first differences: [3, 1, 2] is [3, 4, 6]. */
+export function fromDifferences(differences, Numbers) {
+  const numbers = new Numbers(differences.length);
+  let sum = 0;
+  for (let i = 0; i < numbers.length; i++) numbers[i] = sum += differences[i];
+  return numbers;
+}
+
+/** The index of the point nearest to (x, y) and within `reach`, or -1. */
+export function nearest(xs, ys, x, y, reach) {
+  let best = -1;
+  let least = reach * reach;
+  for (let i = 0; i < xs.length; i++) {
+    const distance = (xs[i] - x) ** 2 + (ys[i] - y) ** 2;
+    if (distance <= least) [best, least] = [i, distance];
+  }
+  return best;
+}
+
+/** The index of the last of these increasing numbers that is at most `limit`; 0 if none is. */
+export function lastAtMost(numbers, limit) {
+  let [low, high] = [0, numbers.length - 1];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (numbers[middle] <= limit) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}

@@ -1,0 +1,185 @@
+import { nearest } from "./arrays.js";
+import { element } from "./dom.js";
+import { connectFind, matches } from "./find.js";
+import { MapView } from "./map_view.js";
+import { counted } from "./quantities.js";
+import { Site } from "./site.js";
+import { Theme } from "./theme.js";
+import { VirtualList } from "./virtual_list.js";
+import { upperFirst } from "./words.js";
+
+/** The page of an inspection: a level of the site at a time, what will hurt on it as a list. */
+class InspectPage {
+  constructor(raw) {
+    this.raw = raw;
+    this.theme = new Theme();
+    this.chosen = null;
+    this.find = document.getElementById("find-finding");
+    this.list = new VirtualList(document.getElementById("finding-list"), {
+      rowHeight: 92,
+      className: "two long finding",
+      none: raw.levels.some(({ findings }) => findings.length) ? "No finding fits that." : "Nothing was found that will hurt.",
+      fill: (row, finding) => this.#fill(row, finding),
+      choose: (finding) => this.choose(finding),
+    });
+    connectFind(this.find, this.list, () => this.#select());
+    this.#showHead();
+    this.#listen();
+    this.showLevel(0);
+  }
+
+  /** Draw a level and list its findings. */
+  showLevel(index) {
+    this.level = this.raw.levels[index];
+    document.getElementById("level").value = String(index);
+    document.getElementById("size").textContent = this.level.sentences.join(" ");
+    const before = document.getElementById("map");
+    const canvas = before.cloneNode(); // without the listeners of another level's map
+    before.replaceWith(canvas);
+    this.site = new Site({ ...this.level, title: this.raw.title });
+    this.view = new MapView(canvas, this.site, this.theme);
+    this.view.viewport.on("view", () => this.#repaint());
+    this.view.viewport.on("hover", () => this.#ask());
+    this.view.viewport.on("click", () => this.#chooseAtPointer());
+    this.view.choice.on("choice", () => this.#repaint());
+    new ResizeObserver(() => this.#ask()).observe(canvas);
+    this.#showCounts();
+    this.#select();
+    this.choose(null);
+    this.view.viewport.fit();
+  }
+
+  /** Light a finding on the map and say all of it; null to light none. */
+  choose(finding) {
+    this.chosen = finding;
+    const { choice, viewport } = this.view;
+    const { x, y } = this.site.roadmap;
+    choice.light(finding?.vertices ?? []);
+    if (finding?.vertices.length) viewport.showAll(finding.vertices.map((vertex) => [x[vertex], y[vertex]]));
+    this.list.setChosen(finding);
+    this.#showCard(finding);
+  }
+
+  #showHead() {
+    const { title, what, notes, levels } = this.raw;
+    document.getElementById("headline").replaceChildren(element("b", { className: "name" }, title), element("span", {}, what));
+    document.getElementById("level-choice").hidden = levels.length < 2;
+    document.getElementById("level").replaceChildren(...levels.map(({ name }, index) => element("option", { value: String(index) }, name)));
+    const box = document.getElementById("notes");
+    box.hidden = !notes.length;
+    box.querySelector("summary").textContent = `${counted(notes.length, "note")} of the reader: what was mended or left out`;
+    box.querySelector("ul").replaceChildren(...notes.map((note) => element("li", {}, note)));
+  }
+
+  /** How many findings there are of each severity. */
+  #showCounts() {
+    const counts = Object.entries(this.raw.headings).map(([severity, heading]) =>
+      [severity, heading, this.level.findings.filter((finding) => finding.severity === severity).length]);
+    document.getElementById("figures").replaceChildren(...counts.map(([severity, heading, count]) =>
+      element("div", { title: heading }, severitySign(severity), element("dt", {}, heading.split(" (")[0]), element("dd", {}, String(count)))));
+  }
+
+  #fill(row, finding) {
+    if (row.filled === finding) return;
+    row.filled = finding;
+    row.title = `${finding.fact} (${finding.remedy})`;
+    row.replaceChildren(
+      severitySign(finding.severity), element("span", { className: "text name" }, finding.fact),
+      element("span", { className: "text name" }, finding.remedy));
+  }
+
+  #showCard(finding) {
+    const box = document.getElementById("card");
+    box.hidden = !finding;
+    if (!finding) return;
+    const close = element("button", { type: "button", className: "quiet", ariaLabel: "Choose nothing", title: "Choose nothing (Esc)" }, "✕");
+    close.addEventListener("click", () => this.choose(null));
+    const title = this.raw.headings[finding.severity].split(" (")[0].replace(/s$/, "");
+    box.replaceChildren(
+      element("header", {}, severitySign(finding.severity), element("h2", {}, `${title}: ${finding.kind}`), close),
+      element("p", { className: "name" }, `${finding.fact}.`),
+      element("p", { className: "name" }, `${upperFirst(finding.remedy)}.`));
+    box.scrollTop = 0;
+  }
+
+  /** The first finding about the place at the pointer, or the next one if that is chosen. */
+  #chooseAtPointer() {
+    const { viewport } = this.view;
+    const { roadmap } = this.site;
+    const vertex = nearest(roadmap.x, roadmap.y, viewport.pointer.x, viewport.pointer.y, Math.max(0.5, 12 / viewport.scale));
+    const about = this.level.findings.filter(({ vertices }) => vertices.includes(vertex));
+    this.choose(about[(about.indexOf(this.chosen) + 1) % about.length] ?? null);
+  }
+
+  #select() {
+    this.list.setItems(this.level.findings.filter(({ severity, kind, fact, remedy }) =>
+      matches(`${severity} ${kind} ${fact} ${remedy}`, this.find.value)));
+  }
+
+  #listen() {
+    const actions = {
+      "zoom-in": () => this.view.viewport.zoom(1.5),
+      "zoom-out": () => this.view.viewport.zoom(1 / 1.5),
+      fit: () => this.view.viewport.fit(),
+      print: () => window.print(),
+    };
+    for (const [id, action] of Object.entries(actions)) document.getElementById(id).addEventListener("click", action);
+    document.getElementById("level").addEventListener("change", ({ target }) => this.showLevel(Number(target.value)));
+    const keys = {
+      "+": actions["zoom-in"], "=": actions["zoom-in"], "-": actions["zoom-out"], 0: actions.fit,
+      "/": () => this.find.focus(), Escape: () => this.choose(null),
+    };
+    document.addEventListener("keydown", (event) => {
+      const isWriting = event.target.matches("input, select") && event.key !== "Escape";
+      if (!keys[event.key] || isWriting || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      keys[event.key]();
+    });
+    this.theme.on("theme", () => this.#repaint());
+    window.addEventListener("beforeprint", () => this.#lay(true));
+    window.addEventListener("afterprint", () => this.#lay(false));
+  }
+
+  /** Get ready for paper, with all findings as a list, or for the screen again. */
+  #lay(onPaper) {
+    document.documentElement.classList.toggle("on-paper", onPaper);
+    this.theme.refresh();
+    this.#paint();
+    const groups = Object.entries(this.raw.headings).map(([severity, heading]) =>
+      [heading, this.level.findings.filter((finding) => finding.severity === severity)]);
+    document.getElementById("paper-findings").replaceChildren(...groups.filter(([, found]) => found.length).flatMap(([heading, found]) => [
+      element("h2", {}, `${heading}: ${found.length}`),
+      element("ul", {}, ...found.map(({ fact, remedy }) => element("li", {}, `${fact} (${remedy})`))),
+    ]));
+  }
+
+  #repaint() {
+    this.view.base.stale = true;
+    this.#ask();
+  }
+
+  #isAsked = false;
+  frames = 0; // painted so far
+
+  #ask() {
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame(() => this.#paint());
+  }
+
+  #paint() {
+    this.#isAsked = false;
+    this.view.paint();
+    this.frames++;
+  }
+}
+
+/** A sign of how much a finding hurts: shape and colour. */
+function severitySign(severity) {
+  const sign = element("span", { className: `severity ${severity}`, title: severity }, { error: "✕", warning: "!", note: "i" }[severity]);
+  sign.setAttribute("role", "img");
+  sign.setAttribute("aria-label", severity);
+  return sign;
+}
+
+const inspectPage = new InspectPage(JSON.parse(document.getElementById("site").textContent));

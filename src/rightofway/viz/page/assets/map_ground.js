@@ -1,0 +1,165 @@
+import { chevron, disc, line } from "./shapes.js";
+import { inkOn } from "./theme.js";
+
+const RULED_CELL = 13; // cells have lines between them from this size on [pixels]
+const ARROW_GAP = 56; // pixels between two arrow heads of a lane
+const MOST_SIGNED = 3000; // lanes in sight; of more, none has arrow heads or a dashed middle
+
+/** What robots drive on: the picture below, floor and walls of a grid, lanes and vertices of a roadmap. */
+export class MapGround {
+  constructor(roadmap, viewport, sizes, theme) {
+    Object.assign(this, { roadmap, viewport, sizes, theme });
+  }
+
+  /** Paint in map units: one unit is a cell. */
+  paint(context) {
+    if (this.roadmap.rows) this.#grid(context);
+    else {
+      if (this.roadmap.sides) this.#squares(context);
+      this.#picture(context);
+      if (!this.roadmap.sides) this.#network(context);
+    }
+  }
+
+  /** A length in pixels, in map units. */
+  #pixels(length) {
+    return length / this.viewport.scale;
+  }
+
+  /** The picture under the map; the map is painted again once that is there. */
+  #picture(context) {
+    const { background } = this.roadmap;
+    if (!background) return;
+    const { x, y, width, height, turn, opacity } = background;
+    if (!this.image) {
+      this.image = new Image();
+      this.image.addEventListener("load", () => this.viewport.tell("view"));
+      this.image.src = background.href;
+    }
+    if (!this.image.complete) return;
+    const isDark = inkOn(this.theme.paper) === "#ffffff"; // a white floor plan would glare there
+    context.save();
+    context.globalAlpha = opacity * (isDark ? 0.4 : 1);
+    context.translate(x, y);
+    context.rotate(turn ?? 0);
+    context.drawImage(this.image, 0, 0, width, height);
+    context.restore();
+  }
+
+  #grid(context) {
+    const { width, height, rows } = this.roadmap;
+    context.fillStyle = this.theme.floor;
+    context.fillRect(-0.5, -0.5, width, height);
+    this.#picture(context);
+    if (this.viewport.scale >= RULED_CELL) this.#rules(context, width, height);
+    context.fillStyle = this.theme.wall;
+    context.globalAlpha = this.roadmap.background ? 0.6 : 1;
+    rows.forEach((row, y) => {
+      for (const run of row.matchAll(/[^.]+/g)) {
+        const more = y + 1 < height ? this.#pixels(0.6) : 0; // no hairline between two rows
+        context.fillRect(run.index - 0.5, y - 0.5, run[0].length, 1 + more * (rows[y + 1]?.[run.index] !== "."));
+      }
+    });
+    context.globalAlpha = 1;
+    context.strokeStyle = this.theme.wall;
+    context.lineWidth = this.#pixels(1);
+    context.strokeRect(-0.5, -0.5, width, height);
+  }
+
+  /** The cells of a quadtree; what is not free between them is wall. */
+  #squares(context) {
+    const { width, height, x, y, sides } = this.roadmap;
+    const gap = this.viewport.scale >= RULED_CELL / 4 ? this.#pixels(1) : 0;
+    context.fillStyle = this.theme.wall;
+    context.fillRect(-0.5, -0.5, width, height);
+    context.fillStyle = this.theme.line;
+    const fill = (less) => sides.forEach((side, vertex) => context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side - less, side - less));
+    fill(this.#pixels(-0.3)); // no hairline between two cells
+    context.fillStyle = this.theme.floor;
+    fill(gap);
+  }
+
+  #rules(context, width, height) {
+    context.strokeStyle = this.theme.line;
+    context.lineWidth = this.#pixels(1);
+    context.beginPath();
+    for (let x = 1; x < width; x++) line(context, x - 0.5, -0.5, x - 0.5, height - 0.5);
+    for (let y = 1; y < height; y++) line(context, -0.5, y - 0.5, width - 0.5, y - 0.5);
+    context.stroke();
+  }
+
+  /** Lanes: broad with a dashed middle where both ways are driven, narrower with arrow heads for one way. */
+  #network(context) {
+    const { x, y } = this.roadmap;
+    const [oneWay, bothWays] = [this.roadmap.lanes.oneWay, this.roadmap.lanes.bothWays].map((lanes) => this.#inSight(lanes));
+    const { lane } = this.sizes;
+    const draw = (lanes, width, colour) => {
+      context.strokeStyle = colour;
+      context.lineWidth = this.#pixels(width);
+      context.beginPath();
+      for (const [tail, head] of lanes) line(context, x[tail], y[tail], x[head], y[head]);
+      context.stroke();
+    };
+    context.lineCap = "round";
+    draw(bothWays, lane, this.theme.wall);
+    draw(oneWay, lane * 0.7, this.theme.wall);
+    context.lineCap = "butt";
+    if (lane < 3.5) return;
+    if (oneWay.length + bothWays.length <= MOST_SIGNED) {
+      context.setLineDash([this.#pixels(5), this.#pixels(5)]);
+      draw(bothWays, 1, this.theme.paper);
+      context.setLineDash([]);
+      this.#arrows(context, oneWay);
+    }
+    this.#vertices(context, [...oneWay, ...bothWays]);
+  }
+
+  /** The lanes of which something may be seen. */
+  #inSight(lanes) {
+    const { x, y } = this.roadmap;
+    const { viewport } = this;
+    const { clientWidth: width, clientHeight: height } = viewport.canvas;
+    const [left, top, right, bottom] = [viewport.toX(-20), viewport.toY(-20), viewport.toX(width + 20), viewport.toY(height + 20)];
+    return lanes.filter(([tail, head]) =>
+      Math.max(x[tail], x[head]) >= left && Math.min(x[tail], x[head]) <= right &&
+      Math.max(y[tail], y[head]) >= top && Math.min(y[tail], y[head]) <= bottom);
+  }
+
+  /** The ends of lanes, and vertices without any. */
+  #vertices(context, lanes) {
+    const { x, y, lonely } = this.roadmap;
+    const isMany = lanes.length > MOST_SIGNED; // then they are plain dots, which are drawn sooner
+    const side = this.#pixels(this.sizes.vertex);
+    context.fillStyle = isMany ? this.theme.muted : this.theme.paper;
+    context.strokeStyle = this.theme.muted;
+    context.lineWidth = this.#pixels(1.25);
+    for (const vertex of new Set([...lanes.flat(), ...lonely])) {
+      if (isMany) context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side, side);
+      else {
+        disc(context, x[vertex], y[vertex], side);
+        context.stroke();
+      }
+    }
+  }
+
+  #arrows(context, lanes) {
+    const { x, y } = this.roadmap;
+    const size = Math.min(Math.max(this.sizes.lane * 0.32, 3), 5);
+    context.strokeStyle = this.theme.muted;
+    context.lineWidth = this.#pixels(1.75);
+    context.lineCap = context.lineJoin = "round";
+    context.beginPath();
+    for (const [tail, head] of lanes) {
+      const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
+      const length = Math.hypot(right, down) * this.viewport.scale;
+      if (length < 2 * this.sizes.vertex + 3 * size) continue;
+      const count = Math.max(Math.floor(length / ARROW_GAP), 1);
+      for (let i = 0; i < count; i++) {
+        const share = (i + 0.5) / count;
+        chevron(context, x[tail] + right * share, y[tail] + down * share, Math.atan2(down, right), this.#pixels(size));
+      }
+    }
+    context.stroke();
+    context.lineCap = "butt";
+  }
+}

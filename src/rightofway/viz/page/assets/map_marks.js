@@ -1,0 +1,133 @@
+import { disc, dot, field, line, ring } from "./shapes.js";
+
+/** What is marked on a map: zones, closures, speed limits, stations, parking places, crossings. */
+export class MapMarks {
+  constructor(site, viewport, sizes, theme) {
+    Object.assign(this, { site, viewport, sizes, theme });
+    this.zones = site.roadmap.zones.map((zone) => tracedZone(zone, site.roadmap));
+  }
+
+  /** Paint in map units; with `withNear` also what is nearer than robots need. */
+  paint(context, withNear) {
+    this.#zones(context);
+    const { close } = this.site.roadmap;
+    if (close) {
+      if (withNear) this.#near(context, close);
+      this.#crossings(context, close.crossings);
+    }
+    this.#signs(context);
+  }
+
+  #pixels(length) {
+    return length / this.viewport.scale;
+  }
+
+  /** The members of each zone, as a band below the lanes' middles. */
+  #zones(context) {
+    context.lineCap = context.lineJoin = "round";
+    context.lineWidth = this.#pixels(this.sizes.zone);
+    context.strokeStyle = this.theme.zone;
+    context.globalAlpha = 0.3;
+    for (const path of this.zones) context.stroke(path);
+    context.globalAlpha = 1;
+    context.lineCap = "butt";
+  }
+
+  /** Where two lanes cross without a vertex: a small cross in a ring. */
+  #crossings(context, crossings) {
+    const radius = this.#pixels(Math.min(Math.max(this.sizes.lane * 0.5, 3), 7));
+    context.strokeStyle = this.theme.muted;
+    context.fillStyle = this.theme.paper;
+    context.lineWidth = this.#pixels(1.25);
+    for (const lanes of crossings) {
+      const [x, y] = crossingOf(this.site.roadmap, lanes);
+      disc(context, x, y, radius);
+      ring(context, x, y, radius);
+      context.beginPath();
+      const reach = radius * 0.5;
+      line(context, x - reach, y - reach, x + reach, y + reach);
+      line(context, x - reach, y + reach, x + reach, y - reach);
+      context.stroke();
+    }
+  }
+
+  /** A dashed line between what is nearer than the largest robots need. */
+  #near(context, { beside, vertices }) {
+    const { roadmap } = this.site;
+    const { x, y } = roadmap;
+    context.strokeStyle = this.theme.held;
+    context.lineWidth = this.#pixels(1.25);
+    context.setLineDash([this.#pixels(3), this.#pixels(3)]);
+    context.beginPath();
+    for (const [one, other] of vertices) line(context, x[one], y[one], x[other], y[other]);
+    for (const [vertex, tail, head] of beside) line(context, x[vertex], y[vertex], ...footOn(roadmap, vertex, tail, head));
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** A square sign: S for a station, P for parking, a bolt for charging. */
+  #signs(context) {
+    const { x, y, stations, parking, charging } = this.site.roadmap;
+    const half = this.sizes.sign;
+    for (const [vertex, kind] of [
+      ...Array.from(stations.keys(), (at) => [at, "S"]),
+      ...Array.from(parking, (at) => [at, "P"]),
+      ...Array.from(charging, (at) => [at, ""]),
+    ]) {
+      const side = this.#pixels(2 * half);
+      context.fillStyle = this.theme.muted;
+      field(context, x[vertex], y[vertex], side);
+      context.fill();
+      context.fillStyle = this.theme.paper;
+      if (kind) letter(context, kind, x[vertex], y[vertex], this.theme, side);
+      else bolt(context, x[vertex], y[vertex], side);
+    }
+  }
+}
+
+/** A zone's lanes and vertices as one path, in map units. */
+function tracedZone({ vertices, edges }, { x, y }) {
+  const path = new Path2D();
+  for (const [tail, head] of edges) line(path, x[tail], y[tail], x[head], y[head]);
+  for (const vertex of vertices) dot(path, x[vertex], y[vertex]);
+  return path;
+}
+
+/** Where the straight lines of two lanes cross. */
+function crossingOf({ x, y }, [a, b, c, d]) {
+  const [right, down] = [x[b] - x[a], y[b] - y[a]];
+  const [otherRight, otherDown] = [x[d] - x[c], y[d] - y[c]];
+  const cross = right * otherDown - down * otherRight;
+  const share = ((x[c] - x[a]) * otherDown - (y[c] - y[a]) * otherRight) / cross;
+  return [x[a] + right * share, y[a] + down * share];
+}
+
+/** The point of a lane that is nearest to a vertex. */
+export function footOn({ x, y }, vertex, tail, head) {
+  const [right, down] = [x[head] - x[tail], y[head] - y[tail]];
+  const square = right * right + down * down || 1;
+  const along = ((x[vertex] - x[tail]) * right + (y[vertex] - y[tail]) * down) / square;
+  const share = Math.min(Math.max(along, 0), 1);
+  return [x[tail] + right * share, y[tail] + down * share];
+}
+
+/** A letter in a square, drawn in pixels: fonts of less than a pixel are not drawn well. */
+function letter(context, text, x, y, theme, side) {
+  context.save();
+  context.translate(x, y);
+  context.scale(side / 20, side / 20);
+  context.font = theme.font(14, 700);
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText(text, 0, 1);
+  context.restore();
+}
+
+/** The sign for electricity, in a square. */
+function bolt(context, x, y, side) {
+  context.beginPath();
+  for (const [right, down] of [[0.1, -0.4], [-0.25, 0.08], [-0.02, 0.08], [-0.1, 0.4], [0.25, -0.08], [0.02, -0.08]]) {
+    context.lineTo(x + right * side, y + down * side);
+  }
+  context.fill();
+}

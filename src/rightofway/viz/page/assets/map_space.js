@@ -1,0 +1,178 @@
+import { footOn } from "./map_marks.js";
+import { dot, haloed, line, ring } from "./shapes.js";
+
+/**
+ * Space on request: what each robot books as a band as wide as the robot and its share of the
+ * clearance, so that bands of two robots that do not meet are safe; zones in the colour of their
+ * holder; and for the robot chosen what it excludes, and how near the next robot is.
+ */
+export class MapSpace {
+  constructor(plan, motion, clock, space, viewport, sizes, theme, choice, marks) {
+    Object.assign(this, { plan, motion, clock, space, viewport, sizes, theme, choice, marks });
+  }
+
+  /** Paint in map units, below the robots. */
+  paint(context, scale) {
+    this.#zones(context, scale);
+    for (const closure of this.plan.closures) this.#closure(context, closure, scale);
+    if (!this.choice.space) return;
+    const { robot } = this.choice;
+    if (robot) this.#excluded(context, robot, scale);
+    for (const each of this.plan.robots) this.#band(context, each, scale);
+  }
+
+  /** Paint in map units, over the robots: the room that each needs, and the line to the nearest. */
+  paintOver(context, scale) {
+    if (!this.choice.space) return;
+    const { x, y } = this.motion;
+    context.lineWidth = 1.25 / scale;
+    for (const robot of this.plan.robots) {
+      if (!robot.radius || !this.plan.clearance) continue;
+      context.strokeStyle = robot.colour;
+      context.setLineDash([4 / scale, 3 / scale]);
+      ring(context, x[robot.index], y[robot.index], this.#half(robot));
+    }
+    context.setLineDash([]);
+    this.#encounter = this.#findEncounter();
+    if (!this.#encounter) return;
+    const [one, other] = [this.choice.robotIndex, this.#encounter.other.index];
+    for (const [colour, width] of [[this.theme.paper, 5], [this.theme.ink, 2]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = width / scale;
+      context.beginPath();
+      line(context, x[one], y[one], x[other], y[other]);
+      context.stroke();
+    }
+  }
+
+  #encounter = null;
+
+  /** Write the distance beside the middle of that line, in pixels of the canvas. */
+  write(context, words) {
+    if (!this.choice.space || !this.#encounter) return;
+    const { left, top, scale } = this.viewport;
+    const { x, y } = this.motion;
+    const [one, other] = [this.choice.robotIndex, this.#encounter.other.index];
+    context.font = this.theme.font(13, 600);
+    context.textAlign = "center";
+    context.textBaseline = "bottom";
+    const [middleX, middleY] = [left + ((x[one] + x[other]) / 2) * scale, top + ((y[one] + y[other]) / 2) * scale];
+    haloed(context, words.apart(this.#encounter), middleX, middleY - 6, this.theme.ink, this.theme.paper, 4);
+  }
+
+  /** The robot that is looked at with the one chosen, or the nearest one. */
+  #findEncounter() {
+    const { robot, pair } = this.choice;
+    if (!robot) return null;
+    const nearest = this.space.nearestTo(robot);
+    if (pair < 0 || !nearest) return nearest;
+    const other = this.plan.robots[pair];
+    const { x, y } = this.motion;
+    const distance = Math.hypot(x[robot.index] - x[pair], y[robot.index] - y[pair]) * this.plan.roadmap.unit;
+    return { other, distance, room: this.plan.room(robot, other) };
+  }
+
+  /** Half the width of what a robot books, in map units. */
+  #half(robot) {
+    return robot.radius ? (robot.radius + this.plan.clearance / 2) / this.plan.roadmap.unit : this.sizes.of(robot) / this.viewport.scale;
+  }
+
+  #zones(context, scale) {
+    context.lineCap = context.lineJoin = "round";
+    context.lineWidth = this.sizes.zone / scale;
+    for (const [zone, robot] of this.space.zoneHolders) {
+      context.strokeStyle = robot.colour;
+      context.globalAlpha = 0.55;
+      context.stroke(this.marks.zones[zone]);
+    }
+    context.globalAlpha = 1;
+    context.lineCap = "butt";
+  }
+
+  /** A closed vertex or lane has a sign; while it is not closed, the sign is an outline. */
+  #closure(context, { vertices, from, until, radius }, scale) {
+    const { x, y, unit } = this.plan.roadmap;
+    const isNow = from <= this.clock.tick && this.clock.tick < until;
+    context.strokeStyle = context.fillStyle = this.theme.held;
+    context.lineCap = context.lineJoin = "round";
+    context.beginPath();
+    for (const vertex of vertices) context.lineTo(x[vertex], y[vertex]);
+    dot(context, x[vertices.at(-1)], y[vertices.at(-1)]);
+    if (isNow && radius) {
+      context.globalAlpha = 0.14;
+      context.lineWidth = (2 * radius) / unit;
+      context.stroke();
+    }
+    context.globalAlpha = isNow ? 1 : 0.35;
+    context.lineWidth = 2.5 / scale;
+    context.setLineDash([6 / scale, 5 / scale]);
+    context.stroke();
+    context.setLineDash([]);
+    context.lineCap = "butt";
+    const [one, other] = [vertices[(vertices.length - 1) >> 1], vertices[vertices.length >> 1]];
+    const [middleX, middleY] = [(x[one] + x[other]) / 2, (y[one] + y[other]) / 2];
+    const size = Math.max(this.sizes.sign, 7) / scale;
+    if (isNow) disc(context, middleX, middleY, size);
+    else ring(context, middleX, middleY, size);
+    context.fillStyle = isNow ? this.theme.paper : this.theme.held;
+    context.fillRect(middleX - 0.6 * size, middleY - 0.2 * size, 1.2 * size, 0.4 * size);
+    context.globalAlpha = 1;
+  }
+
+  #band(context, robot, scale) {
+    const { x, y } = this.plan.roadmap;
+    const { vertices, edges } = this.space.heldBy(robot);
+    context.beginPath();
+    for (const [tail, head] of edges) line(context, x[tail], y[tail], x[head], y[head]);
+    for (const vertex of vertices) dot(context, x[vertex], y[vertex]);
+    context.lineCap = context.lineJoin = "round";
+    context.lineWidth = Math.max(2 * this.#half(robot), 3 / scale);
+    context.strokeStyle = robot.colour;
+    context.globalAlpha = this.choice.standsOut(robot.index) ? 0.3 : 0.14;
+    context.stroke();
+    context.globalAlpha = 1;
+    context.lineCap = "butt";
+  }
+
+  /** Vertices and lanes that the smallest other robot may not book now because of this one. */
+  #excluded(context, robot, scale) {
+    const { roadmap } = this.plan;
+    const others = this.plan.robots.filter((other) => other !== robot);
+    if (!robot.radius || !others.length) return;
+    const least = others.reduce((smallest, other) => (other.radius < smallest.radius ? other : smallest));
+    const limit = this.plan.room(robot, least) / roadmap.unit - 1e-9;
+    const { vertices, edges } = this.space.heldBy(robot);
+    const shapes = [...vertices.map((vertex) => [vertex, vertex]), ...edges];
+    const isNear = (tail, head) => shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    context.strokeStyle = this.theme.held;
+    context.lineWidth = 2 / scale;
+    context.setLineDash([5 / scale, 4 / scale]);
+    context.beginPath();
+    for (const [tail, head] of roadmap.lanes ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay] : []) {
+      if (isNear(tail, head)) line(context, roadmap.x[tail], roadmap.y[tail], roadmap.x[head], roadmap.y[head]);
+    }
+    context.stroke();
+    context.setLineDash([]);
+    context.beginPath();
+    const reach = Math.max(4 / scale, Math.min(0.12, 7 / scale));
+    for (let vertex = 0; vertex < roadmap.size; vertex++) {
+      if (vertices.includes(vertex) || !isNear(vertex, vertex)) continue;
+      const [x, y] = [roadmap.x[vertex], roadmap.y[vertex]];
+      line(context, x - reach, y - reach, x + reach, y + reach);
+      line(context, x - reach, y + reach, x + reach, y - reach);
+    }
+    context.stroke();
+  }
+}
+
+/** How far apart two lanes or vertices are, each given by its ends, in map units. */
+function lanesApart(roadmap, [a, b], [c, d]) {
+  const { x, y } = roadmap;
+  const turn = (p, q, r) => (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p]);
+  if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) return 0;
+  const gap = (vertex, tail, head) => {
+    const [footX, footY] = footOn(roadmap, vertex, tail, head);
+    return Math.hypot(x[vertex] - footX, y[vertex] - footY);
+  };
+  return Math.min(gap(a, c, d), gap(b, c, d), gap(c, a, b), gap(d, a, b));
+}

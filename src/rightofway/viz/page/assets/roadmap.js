@@ -1,0 +1,161 @@
+import { fromDifferences, nearest } from "./arrays.js";
+
+/**
+ * The graph that robots drive on and what is marked on it, as map_data.py wrote it. It is laid out for
+ * drawing: x to the right, y down, one unit a cell.
+ */
+export class Roadmap {
+  constructor(raw) {
+    this.width = raw.width;
+    this.height = raw.height;
+    this.rows = raw.rows ?? null;
+    this.frame = raw.frame; // where (0, 0) of the drawing is on the site, and whether y grows upwards there
+    this.unit = raw.frame.unit; // length units in a unit of the drawing
+    this.background = raw.background ?? null;
+    this.obstacles = (raw.obstacles ?? []).map(([name, left, top, width, height]) => ({ name, left, top, width, height }));
+    this.stations = new Map(); // names of the stations at a vertex
+    for (const [name, at] of raw.stations ?? []) this.stations.set(at, [...(this.stations.get(at) ?? []), name]);
+    this.parking = new Set(raw.parking);
+    this.charging = new Set(raw.charging);
+    this.zones = (raw.zones ?? []).map(([name, vertices, edges]) => ({ name, vertices, edges }));
+    if (this.rows) this.#readGrid();
+    else this.#readNetwork(raw);
+    this.size = this.x.length;
+  }
+
+  /** Whether vertices are cells: those of a grid, or squares of a quadtree. */
+  get hasCells() {
+    return Boolean(this.rows ?? this.sides);
+  }
+
+  name(vertex) {
+    return this.names ? this.names[vertex] : `N${this.cells[vertex]}`;
+  }
+
+  /** What a vertex is called on the map: its name, and those of the stations there. */
+  label(vertex) {
+    const name = this.name(vertex);
+    return [name, ...(this.stations.get(vertex) ?? []).filter((station) => station !== name)].join(" · ");
+  }
+
+  /** What a vertex is for: "station Press, parking"; empty for a vertex to pass. */
+  uses(vertex) {
+    return [
+      ...(this.stations.get(vertex) ?? []).map((name) => (name === this.name(vertex) ? "station" : `station ${name}`)),
+      ...(this.parking.has(vertex) ? ["parking"] : []),
+      ...(this.charging.has(vertex) ? ["charging"] : []),
+    ].join(", ");
+  }
+
+  /** The vertex of a name, or -1. */
+  vertexNamed(name) {
+    if (this.names) return this.names.indexOf(name);
+    return /^N\d+$/.test(name) ? this.cells.indexOf(Number(name.slice(1))) : -1;
+  }
+
+  /** Where a point of the drawing is in the site's frame [length unit]. */
+  toSite(x, y) {
+    const { frame, unit } = this;
+    const [u, v, yaw] = [x * unit, (frame.yUp ? -y : y) * unit, frame.yaw ?? 0];
+    const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
+    return [frame.x + cos * u - sin * v, frame.y + sin * u + cos * v];
+  }
+
+  /** The named obstacle at a point of the drawing, or undefined. */
+  obstacleAt(x, y) {
+    return this.obstacles.find(({ left, top, width, height }) => x >= left && x <= left + width && y >= top && y <= top + height);
+  }
+
+  /** The vertex within half a unit of a point, or whose cell holds it, or -1. */
+  near(x, y) {
+    if (this.sides) return this.sides.findIndex((side, vertex) => 2 * Math.max(Math.abs(x - this.x[vertex]), Math.abs(y - this.y[vertex])) <= side);
+    if (!this.rows) return nearest(this.x, this.y, x, y, 0.5);
+    const [column, row] = [Math.round(x), Math.round(y)];
+    if (row < 0 || row >= this.height || column < 0 || column >= this.width) return -1;
+    return this.vertexAt[row * this.width + column];
+  }
+
+  /** The vertices that can be driven to from a vertex. */
+  next(vertex) {
+    this.#next ??= this.rows ? this.#besideEach() : this.#headsOfEach();
+    return this.#next[vertex];
+  }
+
+  /** How long the way between two neighbours is [length unit]. */
+  distance(tail, head) {
+    if (this.rows) return this.unit;
+    this.#lengths ??= new Map(Array.from(this.tails, (from, edge) => [from * this.size + this.heads[edge], this.lengths[edge]]));
+    return this.#lengths.get(tail * this.size + head) ?? this.#lengths.get(head * this.size + tail);
+  }
+
+  #next = null;
+  #lengths = null;
+
+  #besideEach() {
+    return Array.from({ length: this.size }, (_, vertex) => {
+      const [x, y] = [this.x[vertex], this.y[vertex]];
+      return [[x + 1, y], [x, y + 1], [x - 1, y], [x, y - 1]].map((cell) => this.near(...cell)).filter((it) => it >= 0);
+    });
+  }
+
+  #headsOfEach() {
+    const heads = Array.from({ length: this.size }, () => []);
+    this.tails.forEach((tail, edge) => heads[tail].push(this.heads[edge]));
+    return heads;
+  }
+
+  #readGrid() {
+    const text = this.rows.join("");
+    this.vertexAt = new Int32Array(text.length).fill(-1);
+    const cells = [];
+    for (let cell = 0; cell < text.length; cell++) {
+      if (text[cell] === ".") this.vertexAt[cell] = cells.push(cell) - 1;
+    }
+    this.cells = Int32Array.from(cells);
+    this.x = Float64Array.from(cells, (cell) => cell % this.width);
+    this.y = Float64Array.from(cells, (cell) => Math.floor(cell / this.width));
+  }
+
+  #readNetwork(raw) {
+    this.names = raw.names;
+    this.x = Float64Array.from(raw.names, (_, vertex) => raw.points[2 * vertex]);
+    this.y = Float64Array.from(raw.names, (_, vertex) => raw.points[2 * vertex + 1]);
+    this.tails = fromDifferences(raw.tails, Int32Array);
+    this.heads = fromDifferences(raw.heads, Int32Array);
+    this.lengths = raw.lengths;
+    this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
+    this.lanes = this.#sortLanes();
+    this.limits = this.#limitedLanes(raw.limits ?? []);
+    this.usualLimit = (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
+    this.close = { crossings: [], beside: [], vertices: [], ...raw.close }; // nearer than robots need
+    const joined = new Set([...this.tails, ...this.heads]);
+    this.lonely = Array.from(raw.names.keys()).filter((vertex) => !joined.has(vertex)); // vertices without a lane
+  }
+
+  /** Lanes with a speed limit, both directions as one where they have the same: { tail, head, limit }. */
+  #limitedLanes(groups) {
+    const lanes = new Map();
+    for (const [limit, edges] of groups) {
+      for (const edge of edges) {
+        const [tail, head] = [this.tails[edge], this.heads[edge]];
+        const key = `${Math.min(tail, head)} ${Math.max(tail, head)} ${limit}`;
+        if (!lanes.has(key)) lanes.set(key, { tail, head, limit });
+      }
+    }
+    return [...lanes.values()];
+  }
+
+  /** Pairs of vertices with a lane between them: for one way, and for both. */
+  #sortLanes() {
+    const { tails, heads, names } = this;
+    const size = names.length;
+    const edges = new Set(Array.from(tails, (tail, edge) => tail * size + heads[edge]));
+    const lanes = { oneWay: [], bothWays: [] };
+    tails.forEach((tail, edge) => {
+      const head = heads[edge];
+      if (!edges.has(head * size + tail)) lanes.oneWay.push([tail, head]);
+      else if (tail < head) lanes.bothWays.push([tail, head]);
+    });
+    return lanes;
+  }
+}

@@ -1,0 +1,71 @@
+import { fromDifferences } from "./arrays.js";
+import { DONE, WAIT, phasesOf } from "./phases.js";
+
+/** A robot and what the plan has it do. Times are ticks. */
+export class Robot {
+  constructor(raw, index) {
+    this.index = index;
+    this.name = raw.name;
+    this.colour = raw.colour;
+    this.speed = raw.speed;
+    this.radius = raw.radius ?? 0; // [length unit]; a point has none
+    this.vertices = fromDifferences(raw.vertices, Int32Array);
+    this.enter = fromDifferences(raw.enter, Float64Array);
+    this.drive = typeof raw.drive === "number"
+      ? new Float64Array(this.vertices.length).fill(raw.drive)
+      : Float64Array.from(raw.drive);
+    this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
+    this.turns = new Map(raw.turns); // on the spot between two edges, by visit [ticks]
+    this.completion = raw.completion;
+    this.alone = raw.alone;
+    this.lost = { detours: raw.lost[0], makingRoom: raw.lost[1], waiting: raw.lost[2] };
+    this.losses = []; // by tick
+    this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
+    this.ending = raw.ending ?? (raw.stands ? WAIT : DONE); // what it does for ever after its last visit
+    this.phases = phasesOf(this);
+  }
+
+  get home() {
+    return this.vertices[0];
+  }
+
+  /** When it broke down. */
+  get broken() {
+    return this.still.find(([, to]) => to === Infinity)?.[0] ?? Infinity;
+  }
+
+  /** Ticks it stands still before so many ticks have been of use, from a tick on. */
+  stillIn(begin, ticks) {
+    let lost = 0;
+    for (const [from, to] of this.still) {
+      if (to > begin && from < begin + ticks + lost) lost += to - Math.max(from, begin);
+    }
+    return lost;
+  }
+
+  /** Ticks lost to the others. */
+  get delay() {
+    return this.completion - this.alone;
+  }
+
+  /** When a visit ends; the last one never does. */
+  leave(visit) {
+    return visit + 1 < this.enter.length ? this.enter[visit + 1] : Infinity;
+  }
+}
+
+/** How a robot loses time: it waits once, or several times behind one robot, or leaves a place to others for a while. */
+const WAITS = 0;
+export const FOLLOWS = 1;
+export const MAKES_ROOM = 2;
+
+/** One cause of lost time, as `Loss` of the model: who loses, to which robot or null, where, when, and how much. */
+class Loss {
+  constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks]) {
+    Object.assign(this, { kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks });
+  }
+}
+
+export function giveLosses(robots, rows) {
+  for (const loss of rows.map((row) => new Loss(row))) robots[loss.robot].losses.push(loss);
+}

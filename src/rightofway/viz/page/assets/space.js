@@ -1,0 +1,134 @@
+import { FleetMemo } from "./fleet_memo.js";
+import { DRIVE } from "./phases.js";
+
+const MOST_ENCOUNTERS = 5; // of a robot, in its card
+
+/** What robots book at the moment shown, which zones they hold, and how near they come to each other. */
+export class Space {
+  #encounters;
+
+  constructor(plan, motion) {
+    Object.assign(this, { plan, motion });
+    this.#encounters = new FleetMemo(plan, () => new Map());
+    const { zones, size } = plan.roadmap;
+    this.zonesOf = new Map(); // numbers of the zones of a vertex, and of a lane by tail * size + head
+    zones.forEach(({ vertices, edges }, zone) => {
+      for (const key of [...vertices.map(String), ...edges.map(([tail, head]) => tail * size + head)]) {
+        this.zonesOf.set(key, [...(this.zonesOf.get(key) ?? []), zone]);
+      }
+    });
+  }
+
+  /** The vertices, lanes and zones that a robot books now. */
+  heldBy(robot) {
+    const { plan, motion } = this;
+    const tick = motion.ticks[robot.index];
+    let visit = robot.phases.visit[motion.phase[robot.index]];
+    const held = { vertices: [robot.vertices[visit]], edges: [], zones: new Set() };
+    const drive = (to) => held.edges.push([robot.vertices[to - 1], robot.vertices[to]]);
+    this.#passZones(robot, visit, held.zones);
+    if (tick >= robot.leave(visit) - (robot.drive[visit + 1] ?? 0)) {
+      drive(visit + 1);
+      if (plan.booksAhead) {
+        held.vertices.push(robot.vertices[visit + 1]);
+        this.#passZones(robot, visit + 1, held.zones);
+      }
+    }
+    for (; visit > 0 && tick < robot.enter[visit] + plan.headway; visit--) {
+      drive(visit);
+      held.vertices.push(robot.vertices[visit - 1]);
+      this.#passZones(robot, visit - 1, held.zones);
+    }
+    for (const [tail, head] of held.edges) this.#addZones(tail * plan.roadmap.size + head, held.zones);
+    return held;
+  }
+
+  /** A vertex is in its zones, and in those that the visit enters and leaves along lanes of. */
+  #passZones({ vertices }, visit, zones) {
+    this.#addZones(String(vertices[visit]), zones);
+    if (!this.zonesOf.size || visit === 0 || visit + 1 >= vertices.length) return;
+    const { size } = this.plan.roadmap;
+    const out = this.zonesOf.get(vertices[visit] * size + vertices[visit + 1]) ?? [];
+    for (const zone of this.zonesOf.get(vertices[visit - 1] * size + vertices[visit]) ?? []) if (out.includes(zone)) zones.add(zone);
+  }
+
+  #addZones(key, zones) {
+    for (const zone of this.zonesOf.get(key) ?? []) zones.add(zone);
+  }
+
+  /** The robot that holds each zone now, by its number. */
+  get zoneHolders() {
+    const holders = new Map();
+    if (!this.zonesOf.size) return holders;
+    for (const robot of this.plan.robots) for (const zone of this.heldBy(robot).zones) holders.set(zone, robot);
+    return holders;
+  }
+
+  /** The robot that is nearest to another now, as an encounter; null where none needs room. */
+  nearestTo(robot) {
+    let best = null;
+    for (const other of this.plan.robots) {
+      const room = this.plan.room(robot, other);
+      if (other === robot || !room) continue;
+      const encounter = { other, room, distance: this.#distance(robot.index, other.index) };
+      if (!best || encounter.distance - room < best.distance - best.room) best = encounter;
+    }
+    return best;
+  }
+
+  #distance(one, other) {
+    const { x, y } = this.motion;
+    return Math.hypot(x[one] - x[other], y[one] - y[other]) * this.plan.roadmap.unit;
+  }
+
+  /** The closest approaches of a robot in the whole plan, the one with least room to spare first. */
+  encounters(robot) {
+    const known = this.#encounters.value;
+    if (!known.has(robot.index)) known.set(robot.index, this.#findEncounters(robot));
+    return known.get(robot.index);
+  }
+
+  #findEncounters(robot) {
+    const { roadmap, robots } = this.plan;
+    return robots
+      .filter((other) => other !== robot && this.plan.room(robot, other))
+      .map((other) => ({ other, room: this.plan.room(robot, other), ...closestApproach(robot, other, roadmap) }))
+      .sort((one, other) => one.distance - one.room - (other.distance - other.room))
+      .slice(0, MOST_ENCOUNTERS);
+  }
+}
+
+/** The least distance of two robots [length unit], and the first tick at which they are that near. */
+function closestApproach(one, other, roadmap) {
+  const runs = [one, other].map(({ phases, vertices }) => ({ phases, vertices, at: 0 }));
+  let best = { distance: Infinity, tick: 0 };
+  for (let now = 0; now < Infinity; ) {
+    const end = Math.min(...runs.map(({ phases, at }) => phases.end(at)));
+    const [[ax, ay], [bx, by]] = runs.map((run) => whereAt(run, now, roadmap));
+    const [right, down] = [bx - ax, by - ay];
+    let share = 0;
+    if (end < Infinity) {
+      const [[cx, cy], [dx, dy]] = runs.map((run) => whereAt(run, end, roadmap));
+      const [u, v] = [dx - cx - right, dy - cy - down];
+      const square = u * u + v * v;
+      share = square ? Math.min(Math.max(-(right * u + down * v) / square, 0), 1) : 0;
+      best = nearer(best, Math.hypot(right + u * share, down + v * share), now + (end - now) * share);
+    } else best = nearer(best, Math.hypot(right, down), now);
+    for (const run of runs) if (run.phases.end(run.at) === end) run.at++;
+    now = end;
+  }
+  return { distance: best.distance * roadmap.unit, tick: best.tick };
+}
+
+function nearer(best, distance, tick) {
+  return distance < best.distance - 1e-9 ? { distance, tick } : best;
+}
+
+/** Where a robot is at a tick of one of its phases. */
+function whereAt({ phases, vertices, at }, tick, { x, y }) {
+  const here = vertices[phases.visit[at]];
+  if (phases.activity[at] !== DRIVE) return [x[here], y[here]];
+  const there = vertices[phases.visit[at] + 1];
+  const share = (tick - phases.begin[at]) / (phases.end(at) - phases.begin[at]);
+  return [x[here] + (x[there] - x[here]) * share, y[here] + (y[there] - y[here]) * share];
+}

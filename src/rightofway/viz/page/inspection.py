@@ -1,0 +1,150 @@
+"""The page of an inspection: a site drawn, what will hurt on it as a list. Nothing is planned."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from rightofway.files import write_whole
+from rightofway.metrics import HEADINGS, Inspection, Site, sentences
+from rightofway.viz.page.background import Background
+from rightofway.viz.page.document import document_of
+from rightofway.viz.page.map_data import map_data
+from rightofway.viz.palette import robot_colours
+
+Inspected = tuple[str, Site, Inspection]
+"""The name of a level, empty where there is only one, the site, and what was found."""
+
+
+def inspection_page(
+    levels: Sequence[Inspected],
+    *,
+    title: str,
+    what: str = "",
+    notes: Sequence[str] = (),
+    background: Background | None = None,
+) -> str:
+    """Return a page that shows an inspection, as one HTML document.
+
+    Parameters
+    ----------
+    levels
+        The inspected sites.
+    title
+        What the page is about, usually the name of the file.
+    what
+        What the file is and how large, in words.
+    notes
+        What its reader mended or left out, a sentence each.
+    background
+        A picture under the map; by default that of the layout.
+
+    Returns
+    -------
+    str
+        HTML. Its content security policy forbids any connection, and any script but our own.
+
+    Raises
+    ------
+    InputError
+        If a picture cannot be read.
+    """
+    payload = {
+        "title": title,
+        "what": what,
+        "notes": list(notes),
+        "headings": HEADINGS,
+        "levels": [_level(*level, background) for level in levels],
+    }
+    about = f"{title}: {what}" if what else title
+    return document_of("inspect.html", about, payload, "inspect_main")
+
+
+def write_inspection(
+    levels: Sequence[Inspected],
+    path: str | os.PathLike[str],
+    *,
+    title: str,
+    what: str = "",
+    notes: Sequence[str] = (),
+    background: Background | None = None,
+) -> None:
+    """Write the page of an inspection; the file is there whole or not at all.
+
+    Parameters
+    ----------
+    levels, title, what, notes, background
+        As for `inspection_page`.
+    path
+        Where, usually ``….html``.
+
+    Raises
+    ------
+    InputError
+        As for `inspection_page`, or if the file cannot be written.
+    """
+    page = inspection_page(levels, title=title, what=what, notes=notes, background=background)
+    write_whole(path, page)
+
+
+def site_data(site: Site, background: Background | None = None) -> dict[str, Any]:
+    """Return a site as plain data for JSON: the map, and robots at their homes.
+
+    Parameters
+    ----------
+    site
+        The roadmap, its places, and the fleet if there is one.
+    background
+        A picture under the map; by default that of the roadmap's drawing.
+
+    Raises
+    ------
+    InputError
+        If the picture cannot be read.
+    """
+    colours = robot_colours(len(site.robots))
+    return {
+        "units": {"length": site.units.length, "time": site.units.time},
+        "tick": [1, 1],
+        "clearance": float(site.rules.clearance),
+        "map": map_data(site.roadmap, room=site.room, background=background),
+        "robots": [
+            {
+                "name": robot.name,
+                "colour": colour,
+                "speed": str(robot.speed),
+                "radius": float(robot.radius),
+                "vertices": [int(robot.home)],
+                "enter": [0],
+                "drive": [0],
+                "stages": [[int(stop.at), 0, 0, -1] for stop in robot.stops],
+                "completion": 0,
+                "alone": 0,
+                "lost": [0, 0, 0],
+            }
+            for robot, colour in zip(site.robots, colours, strict=True)
+        ],
+    }
+
+
+def _level(
+    name: str, site: Site, inspection: Inspection, background: Background | None
+) -> dict[str, Any]:
+    robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
+    return {
+        "name": name,
+        "sentences": sentences(site, inspection),
+        **site_data(site, background),
+        "findings": [
+            {
+                "severity": each.severity,
+                "kind": each.kind,
+                "fact": each.fact,
+                "remedy": each.remedy,
+                "vertices": [int(site.roadmap.vertex(vertex)) for vertex in each.vertices],
+                "robots": [robot_of[robot] for robot in each.robots],
+            }
+            for each in inspection.findings
+        ],
+    }

@@ -1,0 +1,136 @@
+"""A map as the pages read it, with or without a plan; ``roadmap.js`` reads all this."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from rightofway.model import Grid, Roadmap
+from rightofway.model.resources import close_pairs
+from rightofway.viz.page.background import Background, background_data
+from rightofway.viz.placement import Plane, plane_of
+
+DECIMALS = {"grid": 3, "network": 6}
+"""Decimals of a position [units of the drawing]; vertices of a roadmap are right to a micrometre or
+so, because distances of robots with a size are read from them."""
+
+MOST_CLOSE = 5_000
+"""Crossings, and pairs that are too near, that the page marks."""
+
+
+def map_data(
+    roadmap: Roadmap,
+    *,
+    room: Fraction = Fraction(0),
+    background: Background | None = None,
+) -> dict[str, Any]:
+    """Return a map as plain data for JSON: graph, frame, places, zones, limits, picture.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+    room
+        The distance that the two largest robots need [length unit]; 0 for points.
+    background
+        A picture below the map; by default that of the roadmap's drawing.
+
+    Raises
+    ------
+    InputError
+        If the picture cannot be read.
+    """
+    plane, grid = plane_of(roadmap), roadmap.grid
+    decimals = DECIMALS["network" if grid is None else "grid"]
+    found: dict[str, Any] = {
+        "width": round(plane.width, decimals),
+        "height": round(plane.height, decimals),
+        "frame": _frame(plane, roadmap),
+    }
+    if grid is not None:
+        found |= {"rows": grid.lines(), **_obstacles(roadmap, grid)}
+    else:
+        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        found |= {
+            "names": [roadmap.name(vertex) for vertex in range(roadmap.n_vertices)],
+            "points": np.round(plane.points, decimals).ravel().tolist(),
+            "tails": differences(tails.tolist()),
+            "heads": differences(roadmap.heads.tolist()),
+            "lengths": [float(roadmap.lengths[index]) for index in roadmap.length_class],
+        }
+    drawing = roadmap.drawing
+    sides = () if roadmap.sides is None else roadmap.sides / plane.unit
+    marks = {
+        "sides": np.round(sides, decimals).tolist(),
+        "limits": _limits(roadmap),
+        "zones": [
+            [zone.name, [*zone.vertices], list(map(list, zone.edges))] for zone in roadmap.zones
+        ],
+        "stations": [list(station) for station in drawing.stations],
+        "parking": list(drawing.parking),
+        "charging": list(drawing.charging),
+        "close": _close(roadmap, room) if room and grid is None else {},
+    }
+    found |= {key: value for key, value in marks.items() if value}
+    if background is None and drawing.picture is not None:
+        background = Background.of(drawing.picture)
+    return found | ({"background": background_data(roadmap, background)} if background else {})
+
+
+def differences(numbers: Iterable[int]) -> list[int]:
+    """Return first differences: those of ``[3, 4, 6]`` are ``[3, 1, 2]``."""
+    found: list[int] = np.diff(np.fromiter(numbers, np.int64), prepend=0).tolist()
+    return found
+
+
+def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
+    """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
+    left, top = map(Fraction, plane.corner)
+    x, y = roadmap.frame.to_site((left, top))
+    found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
+    return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
+
+
+def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:
+    """Return the named obstacles: name, left, top, width and height in the drawing."""
+    size, found = grid.cell_size, []
+    low = grid.rows * size - size / 2
+    left, bottom = roadmap.frame.to_site((-size / 2, low))
+    for it in roadmap.obstacles:
+        down = bottom - it.y - it.height if roadmap.frame.y_up else it.y - bottom
+        sides = (it.x - left - size / 2, low + down, it.width, it.height)
+        found.append([it.name, *(round(float(side / size), DECIMALS["grid"]) for side in sides)])
+    return {"obstacles": found} if found else {}
+
+
+def _limits(roadmap: Roadmap) -> list[list[Any]]:
+    """Return the speed limits, each with its edges."""
+    edges = defaultdict[str, list[int]](list)
+    if roadmap.speed_limits:
+        for edge, of in enumerate(roadmap.length_class.tolist()):
+            limit = roadmap.speed_limits[of]
+            if limit is not None:
+                edges[str(limit)].append(edge)
+    return [[limit, of] for limit, of in edges.items()]
+
+
+def _close(roadmap: Roadmap, room: Fraction) -> dict[str, Any]:
+    """Return lanes that cross without a vertex, and vertices and lanes that are nearer than room.
+
+    Vertices that a lane joins are left out: no robot is surprised there.
+    """
+    pairs = close_pairs(roadmap, room)
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
+    joined = set(zip(tails, roadmap.heads.tolist(), strict=True))
+    found = {
+        "crossings": [[*one, *other] for one, other in pairs.crossings],
+        "beside": [[vertex, *lane] for vertex, lane in pairs.beside],
+        "vertices": [
+            list(pair) for pair in pairs.vertices if pair not in joined and pair[::-1] not in joined
+        ],
+    }
+    return {key: value[:MOST_CLOSE] for key, value in found.items() if value}

@@ -1,0 +1,59 @@
+"""The scripts of pages: modules as a browser imports them, and in one piece for a single file.
+
+The files under ``assets/`` are ECMAScript modules, one concept each; every import is a line of its
+own at the top. A page that needs no other file has them as classic scripts that share one scope, so
+names are unique among all modules.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib.resources import files
+
+IMPORT = re.compile(r'^import [^;]*? from "\./(\w+)\.js";\n', re.MULTILINE)
+EXPORT = re.compile(r"^export (?!default)", re.MULTILINE)
+NOTES = re.compile(r"(?ms)^\s*((/\*\*.*?\*/|//[^\n]*)\s*)*")
+"""Comments that fill lines, and indentation: a fifth of a script."""
+
+
+@cache
+def asset(name: str) -> str:
+    """Return the text of a file under ``assets/``."""
+    return files(__package__).joinpath("assets", name).read_text("utf-8")
+
+
+@cache
+def scripts_of(entry: str) -> tuple[str, ...]:
+    """Return a module and all that it imports, each after what it imports, as a browser runs them.
+
+    Parameters
+    ----------
+    entry
+        Name of the module, without ``.js``.
+    """
+    found: dict[str, None] = {}
+    entered = set[str]()
+
+    def enter(name: str) -> None:
+        if name not in entered:
+            entered.add(name)
+            for imported in IMPORT.findall(asset(f"{name}.js")):
+                enter(imported)
+            found[name] = None
+
+    enter(entry)
+    return tuple(found)
+
+
+@cache
+def classic_script(name: str) -> str:
+    """Return a module as a classic script, without notes.
+
+    Parameters
+    ----------
+    name
+        Name of the module, without ``.js``.
+    """
+    text = EXPORT.sub("", IMPORT.sub("", asset(f"{name}.js")))
+    return f'"use strict";\n{NOTES.sub("", text)}'

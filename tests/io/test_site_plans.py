@@ -1,0 +1,205 @@
+"""Plans for programs on the site: metres, seconds and radians in the site's frame."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from rightofway import check, solve
+from rightofway.io import SITE_PLAN_FORMATS, scenario_of, site_plan_text
+from rightofway.model import Plan, PlannerRun, Scenario, Track, stays_of
+
+
+def planned(**keys: Any) -> Plan:
+    return solve(scenario_of({"format": "rightofway-scenario/1", **keys}), planner="two-level")
+
+
+def written(plan: Plan, name: str) -> Any:
+    text, _ = site_plan_text(plan, name)
+    return list(csv.DictReader(io.StringIO(text))) if name == "events" else json.loads(text)
+
+
+def crossing() -> Plan:
+    """Return a plan of R1 from a over m to b, and R2 from c to d, on lanes of 4 m, at 2 m/s.
+
+    R2 waits until R1 has left m. A tick is 2 s, a thirtieth of a minute.
+    """
+    scenario = scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {
+                    "vertices": {"a": [-4000, 0], "m": [0, 0], "b": [4000, 0], "c": [0, -4000],
+                                 "d": [0, 4000]},
+                    "edges": [["a", "m"], ["m", "b"], ["c", "m"], ["m", "d"]],
+                },
+                "y": "up",
+            },
+            "units": {"length": "mm", "time": "min"},
+            "robots": [
+                {"name": "R1", "home": "a", "target": "b", "work": 1, "speed": 120000},
+                {"name": "R2", "home": "c", "target": "d", "speed": 120000},
+            ],
+            "rules": {"return": "none", "occupancy": "both"},
+        }
+    )  # fmt: skip
+    at = {name: vertex for vertex, name in enumerate("ambcd")}
+    first = Track.of([at["a"], at["m"], at["b"]], [0, 1, 2])
+    second = Track.of([at["c"], at["m"], at["d"]], [0, 3, 4])
+    plan = Plan(scenario=scenario, tracks=(first, second), run=PlannerRun())
+    assert scenario.problem.clock.tick == Fraction(1, 30)
+    assert not check(plan).faults
+    return plan
+
+
+def test_events_have_metres_seconds_and_reasons() -> None:
+    """Lanes of 4 m take 2 s. R2 may drive to m once R1 has left it, at 4 s."""
+    rows = written(crossing(), "events")
+    told = [(float(row["time"]), row["robot"], row["event"], row["place"]) for row in rows]
+    assert told == [
+        (0, "R1", "start", "a"),
+        (0, "R1", "depart", "a"),
+        (0, "R2", "start", "c"),
+        (0, "R2", "wait", "c"),
+        (2, "R1", "arrive", "m"),
+        (2, "R1", "depart", "m"),
+        (4, "R1", "arrive", "b"),
+        (4, "R1", "work", "b"),
+        (4, "R2", "depart", "c"),
+        (6, "R2", "arrive", "m"),
+        (6, "R2", "depart", "m"),
+        (8, "R2", "arrive", "d"),
+        (8, "R2", "done", "d"),
+        (64, "R1", "done", "b"),
+    ]
+    wait = rows[3]
+    assert wait["waits_for"] == "R1"
+    assert (float(wait["x"]), float(wait["y"])) == (0, -4)
+    assert float(wait["heading"]) == pytest.approx(math.pi / 2, abs=1e-6)
+
+
+def test_a_path_of_ros_has_a_pose_for_each_arrival_and_departure() -> None:
+    found = written(crossing(), "nav2")
+    assert found["frame_id"] == "map"
+    second = found["robots"]["R2"]
+    assert second["nodes"] == ["c", "c", "m", "d"]
+    poses = second["path"]["poses"]
+    assert {pose["header"]["frame_id"] for pose in poses} == {"map"}
+    assert [pose["header"]["stamp"]["sec"] for pose in poses] == [0, 4, 6, 8]
+    assert poses[2]["pose"]["position"] == {"x": 0.0, "y": 0.0, "z": 0.0}
+    north = poses[1]["pose"]["orientation"]
+    assert (north["z"], north["w"]) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
+
+
+def test_nodes_of_a_route_server_are_numbers() -> None:
+    plan = planned(
+        map={"roadmap": {"vertices": {"7": [0, 0], "8": [3, 4]}, "edges": [["7", "8"]]}},
+        robots=[{"name": "R1", "home": "7", "target": "8"}],
+    )
+    assert written(plan, "nav2")["robots"]["R1"]["nodes"] == [7, 8, 7]
+
+
+def test_a_trajectory_of_open_rmf_goes_on_where_the_robot_does() -> None:
+    """R1 drives through m at 2 m/s; after its work it is at b still."""
+    (route,) = written(crossing(), "open-rmf")["itineraries"]["R1"]
+    waypoints = route["trajectory"]["waypoints"]
+    assert [each["time"] for each in waypoints] == [0, 2 * 10**9, 4 * 10**9, 64 * 10**9]
+    assert [each["position"] for each in waypoints] == [[-4, 0, 0], [0, 0, 0], [4, 0, 0], [4, 0, 0]]
+    assert [each["velocity"] for each in waypoints] == [[0, 0, 0], [2, 0, 0], [0, 0, 0], [0, 0, 0]]
+
+
+def test_turned_maps_come_out_to_the_millimetre() -> None:
+    """A map of 0.5 m cells, its lower left corner at (10, -3), turned by 0.3 rad."""
+    plan = planned(
+        map={"grid": ["...", "..."], "cell_size": 0.5, "y": "up", "origin": [10, -3], "yaw": 0.3},
+        units={"length": "m", "time": "s"},
+        robots=[{"name": "R1", "home": [1, 0], "target": [0, 2]}],
+    )
+    cos, sin = math.cos(0.3), math.sin(0.3)
+    (route,) = written(plan, "open-rmf")["itineraries"]["R1"]
+    first, *_ = route["trajectory"]["waypoints"]
+    assert first["position"] == pytest.approx(
+        [10 + 0.25 * cos - 0.25 * sin, -3 + 0.25 * sin + 0.25 * cos, 0.3], abs=1e-6
+    )
+    stop = next(row for row in written(plan, "events") if row["event"] == "work")
+    assert [float(stop["x"]), float(stop["y"])] == pytest.approx(
+        [10 + 1.25 * cos - 0.75 * sin, -3 + 1.25 * sin + 0.75 * cos], abs=1e-6
+    )
+
+
+def test_y_that_grows_downwards_is_negated_for_ros_and_said() -> None:
+    plan = planned(
+        map={"grid": ["..", ".."]}, robots=[{"name": "R1", "home": "N0", "target": "N3"}]
+    )
+    _, notes = site_plan_text(plan, "nav2")
+    assert notes == (
+        "lengths count as metres and times count as seconds, because the scenario names no units",
+        "y is negated: it grows downwards in the scenario, and upwards in ROS",
+    )
+    first = written(plan, "nav2")["robots"]["R1"]["path"]["poses"][0]["pose"]["position"]
+    assert (first["x"], first["y"]) == (0.5, -0.5)
+    assert [float(written(plan, "events")[0][key]) for key in "xy"] == [0.5, 0.5]
+    assert len(site_plan_text(plan, "events")[1]) == 1
+
+
+@pytest.mark.parametrize("name", SITE_PLAN_FORMATS)
+def test_a_robot_that_stays_at_home_is_written(name: str) -> None:
+    plan = planned(map={"grid": [".."]}, robots=[{"name": "R1", "home": "N0", "target": "N0"}])
+    assert written(plan, name)
+
+
+def test_splines_between_waypoints_stay_on_the_lane_and_go_forward() -> None:
+    """Open-RMF draws a cubic spline through positions and velocities."""
+    scenario = grid_scenario()
+    plan = solve(scenario, planner="lacam", seed=1)
+    for robot, (track, stays) in enumerate(
+        zip(plan.tracks, stays_of(scenario, plan.tracks), strict=True)
+    ):
+        (route,) = written(plan, "open-rmf")["itineraries"][scenario.robots[robot].name]
+        waypoints = route["trajectory"]["waypoints"]
+        assert arrivals(track, scenario) <= {each["time"] for each in waypoints}
+        assert waypoints[-1]["time"] == int(stays.completion * scenario.problem.clock.tick * 10**9)
+        for one, two in pairwise(waypoints):
+            assert one["time"] < two["time"]
+            for axis in (0, 1):
+                points = list(spline(one, two, axis))
+                assert points == sorted(points) or points == sorted(points, reverse=True)
+
+
+def grid_scenario() -> Scenario:
+    return scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": [".....", ".@.@.", "....."], "y": "up"},
+            "robots": [
+                {"name": "A", "home": "N0", "target": "N14", "speed": 1},
+                {"name": "B", "home": "N14", "target": "N0", "speed": "1/2"},
+                {"name": "C", "home": "N4", "target": "N10", "work": 3},
+            ],
+        }
+    )
+
+
+def arrivals(track: Track, scenario: Scenario) -> set[int]:
+    tick = scenario.problem.clock.tick * 10**9
+    return {int(Fraction(enter) * tick) for enter in track.enter.tolist()}
+
+
+def spline(one: dict[str, Any], two: dict[str, Any], axis: int) -> Any:
+    """Yield the coordinates of a cubic Hermite spline."""
+    lasts = (two["time"] - one["time"]) / 10**9
+    p, q = one["position"][axis], two["position"][axis]
+    u, v = one["velocity"][axis] * lasts, two["velocity"][axis] * lasts
+    for k in range(21):
+        s = k / 20
+        yield round(
+            (2 * s**3 - 3 * s**2 + 1) * p + (s**3 - 2 * s**2 + s) * u
+            + (3 * s**2 - 2 * s**3) * q + (s**3 - s**2) * v, 9
+        )  # fmt: skip

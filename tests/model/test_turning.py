@@ -1,0 +1,167 @@
+"""Turning on the spot: angles, ticks, and what a fleet with turn rates is made of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from rightofway.errors import InputError
+from rightofway.fleet_builder import FleetBuilder
+from rightofway.model import (
+    Clock,
+    Edge,
+    Roadmap,
+    Rules,
+    Scenario,
+    roadmap_of_edges,
+    roadmap_of_grid,
+    route_through,
+)
+from rightofway.model.turning import angles_of, turnings_of
+from tests.builders.fleets import grid_fleet
+
+
+def lanes(positions: dict[str, tuple[float, float]], *pairs: str) -> Roadmap:
+    """Return lanes of length 1 between vertices of one letter: ``AB`` leads from A to B."""
+    edges = [Edge(tail=pair[0], head=pair[1], length=Fraction(1)) for pair in pairs]
+    return roadmap_of_edges(positions, edges)
+
+
+def angle(roadmap: Roadmap, before: int, after: int) -> int:
+    angles = angles_of(roadmap)
+    return angles.angles[int(angles.kind[angles.offset[before] + after])]
+
+
+def test_a_grid_has_three_kinds_of_angles() -> None:
+    assert angles_of(roadmap_of_grid(["...", "..."])).angles == (0, 90_000_000, 180_000_000)
+
+
+@pytest.mark.parametrize(
+    ("to", "micro"),
+    [
+        ((2.0, 0.0), 0),
+        ((2.0, 1.0), 45_000_000),
+        ((1.0, 1.0), 90_000_000),
+        ((0.5, -0.5), 135_000_000),
+        ((0.0, 0.0), 180_000_000),
+        ((3.0, 1.0), 26_565_051),  # atan(1/2) = 26.5650511...
+    ],
+)
+def test_an_angle_is_the_shorter_way_round_to_a_millionth_of_a_degree(
+    to: tuple[float, float], micro: int
+) -> None:
+    roadmap = lanes({"A": (0.0, 0.0), "B": (1.0, 0.0), "C": to}, "AB", "BC")
+    assert angle(roadmap, 0, 1) == micro
+
+
+def test_headings_on_both_sides_of_west_are_close_to_each_other() -> None:
+    """From 179.4 degrees to -179.4: 1.145842 degrees, twice atan(0.01)."""
+    roadmap = lanes({"A": (200.0, 0.0), "B": (100.0, 1.0), "C": (0.0, 0.0)}, "AB", "BC")
+    assert angle(roadmap, 0, 1) == 1_145_877
+
+
+def test_pieces_of_a_straight_lane_make_no_angle() -> None:
+    """Thirds have no exact coordinates: the angles between them are rounded away."""
+    third, twice = 1 / 3, 2 / 3
+    at = {"A": (0.0, 0.0), "B": (third, third / 7), "C": (twice, twice / 7), "D": (1.0, 1 / 7)}
+    roadmap = lanes(at, "AB", "BC", "CD")
+    assert angles_of(roadmap).angles == (0,)
+
+
+def test_an_edge_without_a_length_in_the_plane_has_no_heading() -> None:
+    """A lift from B to C: no turn into it, and none out of it."""
+    at = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (1.0, 0.0), "D": (1.0, 1.0)}
+    assert angles_of(lanes(at, "AB", "BC", "CD")).angles == (0,)
+
+
+def test_moving_a_roadmap_changes_no_angle() -> None:
+    at = {"A": (0.1, 0.2), "B": (1.3, 0.7), "C": (2.9, -0.4), "D": (0.6, 3.3)}
+    moved = {name: (x + 1234.5, y - 0.3) for name, (x, y) in at.items()}
+    pairs = ("AB", "BC", "CD", "DB", "BA")
+    rounded = {name: (round(x, 6), round(y, 6)) for name, (x, y) in moved.items()}
+    assert angles_of(lanes(at, *pairs)).angles == angles_of(lanes(rounded, *pairs)).angles
+
+
+def test_a_turn_is_rounded_up_to_ticks() -> None:
+    """At 40 degrees per time unit: 90 degrees take 2.25, 180 take 4.5; ticks last 1/2."""
+    roadmap = roadmap_of_grid(["...", "..."])
+    (turning,) = turnings_of(roadmap, [Fraction(40)], Clock(tick=Fraction(1, 2)))
+    assert turning is not None
+    assert turning.ticks.tolist() == [0, 5, 9]
+
+
+def test_robots_of_one_rate_share_their_turns() -> None:
+    one, none, other = turnings_of(
+        roadmap_of_grid(["...", "..."]), [Fraction(45), None, Fraction(45)], Clock(tick=Fraction(1))
+    )
+    assert one is other
+    assert none is None
+
+
+def corner(rules: Rules) -> Scenario:
+    return grid_fleet(["..", "@."], [("N0", "N3")], rules=rules)
+
+
+def test_a_route_turns_at_corners_and_stops_alike() -> None:
+    """East, south; back north, west: 90 degrees at the corner, twice, and 180 at the stop."""
+    scenario = corner(Rules(turn_rate=Fraction(90)))
+    roadmap, itinerary = scenario.roadmap, scenario.problem.itineraries[0]
+    vertices = [roadmap.vertex(name) for name in ("N0", "N1", "N3", "N1", "N0")]
+    assert route_through(roadmap, itinerary, vertices).dwell == (0, 1, 2, 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("rules", "turn"),
+    [
+        (Rules(), 1),
+        (Rules(turn_rate=Fraction(90)), 0),
+        (Rules(turn_rate=Fraction(90), turn=Fraction(3)), 3),
+        (Rules(turn_rate=Fraction(90), turn="cell"), 1),
+    ],
+)
+def test_a_stop_has_no_turn_beside_a_turn_rate_unless_one_is_given(rules: Rules, turn: int) -> None:
+    assert corner(rules).problem.itineraries[0].stages[0].turn == turn
+
+
+def test_a_rate_of_its_own_stands_above_that_of_the_rules() -> None:
+    scenario = corner(Rules(turn_rate=Fraction(90)))
+    robot = replace(scenario.robots[0], turn_rate=Fraction(45))
+    turning = replace(scenario, robots=(robot,)).problem.itineraries[0].turning
+    assert turning is not None
+    assert turning.ticks.tolist() == [2, 4]
+
+
+def test_the_tick_does_not_depend_on_the_rate() -> None:
+    """At 77 degrees per time unit a quarter turn takes 90/77, rounded up to 2 ticks of 1."""
+    scenario = corner(Rules(turn_rate=Fraction(77)))
+    assert scenario.problem.clock == Clock(tick=Fraction(1))
+    turning = scenario.problem.itineraries[0].turning
+    assert turning is not None
+    assert turning.ticks.tolist() == [2, 3]
+
+
+def test_rates_that_are_not_positive_are_refused_together() -> None:
+    scenario = corner(Rules())
+    robot = replace(scenario.robots[0], turn_rate=Fraction(-1))
+    with pytest.raises(InputError) as caught:
+        replace(scenario, robots=(robot,), rules=Rules(turn_rate=Fraction(0)))
+    remedy = "(give degrees per time unit, like 90; leave it out if turning takes no time)"
+    assert [str(fault) for fault in caught.value.faults] == [
+        f"rules.turn_rate: 0 is not positive {remedy}",
+        f"robots[0].turn_rate: -1 is not positive {remedy}",
+    ]
+
+
+def test_a_rate_that_takes_too_many_ticks_is_refused() -> None:
+    with pytest.raises(InputError, match=r"robots\[0\].turn_rate: .* is too slow"):
+        corner(Rules(turn_rate=Fraction(1, 10**12)))
+
+
+def test_a_builder_takes_rates_of_the_fleet_and_of_a_robot() -> None:
+    fleet = FleetBuilder(grid=["..", ".."], turn_rate=60)
+    fleet.add_robot("R1", home="N0", target="N3", turn_rate="45/2")
+    scenario = fleet.add_robot("R2", home="N1", target="N2").scenario()
+    assert scenario.rules.turn_rate == 60
+    assert [robot.turn_rate for robot in scenario.robots] == [Fraction(45, 2), None]
