@@ -24,7 +24,8 @@ from rightofway.model import Scenario, Stop, cost_of
 from rightofway.planners.impossible import blocking_set, refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.moves import plan_by_moves
-from rightofway.planners.task import Deadline, Draft, Task, planning_problem
+from rightofway.planners.task import Deadline, Draft, Task, planning_headway, planning_problem
+from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch, untimed_lacam
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
@@ -41,7 +42,7 @@ pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
 SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.7
-"""The same for robots with a size, and the part of the time left for that."""
+"""The same for robots with a size or among closures, and the part of the time left for that."""
 
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
@@ -77,6 +78,8 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """
     if task.scenario.problem.resources is not None:
         return _with_sizes(task, search, order)
+    if task.scenario.problem.closures is not None:
+        return _patiently(task, search, order)
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
@@ -88,7 +91,7 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
-    drafts = [_at_one_pace(task, turns)] if task.scenario.problem.closures is None else []
+    drafts = [_at_one_pace(task, turns)]
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
@@ -121,12 +124,17 @@ def refuse_or_give_up(task: Task) -> None:
 
 def _with_sizes(task: Task, search: FleetSearch, order: str) -> Draft:
     """Plan robots with a size one after another, or else by an order of moves."""
+    return _patiently(task, search, order) or plan_by_moves(task, search)
+
+
+def _patiently(task: Task, search: FleetSearch, order: str) -> Draft | None:
+    """Plan robots one after another at their own speeds only."""
     turns = _in_order(task.scenario, search, order, task.seed)
     searches = SEARCHES_WITH_SIZES * len(turns)
     limit = _part(task.deadline, SHARE_WITH_SIZES)
     if search.prioritize(turns, searches=searches, time_limit=limit):
         return _at_own_speeds(task, search)
-    return plan_by_moves(task, search)
+    return None
 
 
 def _part(deadline: Deadline, share: float) -> float | None:
@@ -134,8 +142,13 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
+    tracks = search.tracks()
+    if task.scenario.problem.closures is not None:  # a robot may have waited for a kept home
+        tracks = tuple(
+            graph_of(task.scenario, tracks, headway=planning_headway(task.scenario)).tracks()
+        )
     task.has_plan()
-    return Draft(tracks=search.tracks(), status="one after another")
+    return Draft(tracks=tracks, status="one after another")
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
