@@ -16,11 +16,12 @@ from rightofway.model import (
     Stop,
     VertexId,
     roadmap_of_edges,
+    roadmap_of_grid,
 )
 from rightofway.model.zones import Zone
-from tests.builders.fleets import random_fleet
+from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
 
-__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
+__all__ = ["crossing", "crowded_roadmap", "dense", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
 
 
 def with_radii(
@@ -55,6 +56,32 @@ def _sized(seed: int, robots: int, headway: int) -> Scenario:
         radii[-1:] = [Fraction(0), Fraction(1, 2)]
     rules = Rules(headway=Fraction(headway), ends=draw.choice(["home", "none"]))
     return with_radii(random_fleet(seed, robots=robots, walls=0.05, rules=rules), radii)
+
+
+def dense(seed: int, *, size: int, robots: int, radii: Sequence[str]) -> Scenario:
+    """Return a large fleet on an open grid with few walls; one way trips."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    grid = random_grid(draw, size=size, walls=0.05)
+    roadmap = roadmap_of_grid(grid)
+    exact = [Fraction(radius) for radius in radii]
+
+    def places() -> list[str]:
+        taken: list[tuple[tuple[int, int], Fraction]] = []
+        names = []
+        for vertex in draw.sample(largest_part(roadmap), len(largest_part(roadmap))):
+            row, column = divmod(int(roadmap.name(vertex)[1:]), size)
+            radius = exact[len(taken) % len(exact)]
+            if len(taken) < robots and all(
+                (row - there[0]) ** 2 + (column - there[1]) ** 2 >= (radius + other) ** 2
+                for there, other in taken
+            ):
+                taken.append(((row, column), radius))
+                names.append(roadmap.name(vertex))
+        assert len(names) == robots, "the grid is too small"
+        return names
+
+    trips = list(zip(places(), places(), strict=True))
+    return with_radii(grid_fleet(grid, trips, rules=Rules(ends="none")), exact)
 
 
 def crowded_roadmap(

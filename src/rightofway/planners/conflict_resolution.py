@@ -212,11 +212,11 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 def _plan_together(task: Task, because: str) -> Draft:
     robots = range(len(task.scenario.robots))
-    has_sizes = task.scenario.problem.resources is not None
-    found = plan_in_turn(task, fleet_search(task), "shortest") if has_sizes else plan_fleet(task)
-    assert found is not None, "robots with a size get a plan, or an error"
+    found = None
+    if task.scenario.problem.resources is not None:
+        found = plan_in_turn(task, fleet_search(task), "shortest")
     return replace(
-        found,
+        found or plan_fleet(task),
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )

@@ -57,9 +57,30 @@ def lacam(task: Task) -> Draft:
 
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
-    scenario = task.scenario
+    found = plan_by_instants(task, spreads=spreads)
+    if found is not None:
+        return found
+    scenario, robots = task.scenario, len(task.scenario.robots)
+    if scenario.problem.resources is not None:
+        task.report("no end by instants: planning the order of single moves")
+        return plan_by_moves(task, _search(task))
+    task.report("no end by instants: planning the order of moves without clocks")
+    refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
+    left = task.deadline.seconds_left()
+    try:
+        steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+    except NoPlanExists:
+        task.report("no plan exists: looking for the robots that block each other")
+        found_set = blocking_set(scenario, range(robots), seed=task.seed, deadline=task.deadline)
+        raise NoPlanExists([found_set]) from None
+    task.has_plan()
+    return Draft(tracks=tuple(timetable_of(scenario, steps)), status="order of moves first")
+
+
+def plan_by_instants(task: Task, *, spreads: bool = True) -> Draft | None:
+    """Plan the whole fleet by the timed search alone; None if it ends without a plan."""
+    scenario, robots, share = task.scenario, len(task.scenario.robots), SHARE_OF_TIME
     refuse_stranded(scenario, ())
-    robots, share = len(scenario.robots), SHARE_OF_TIME
     try:
         tracks = plan_by_lacam(
             planning_problem(scenario),
@@ -71,34 +92,22 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
-    status = "instant by instant"
-    if scenario.problem.turns and scenario.problem.resources is not None:
-        tracks = None  # instants have no turns in them, and orders at vertices know no sizes
-    elif tracks is not None and scenario.problem.turns:
+    if tracks is None:
+        return None
+    if scenario.problem.turns:
         visited = [track.vertices.tolist() for track in tracks]
         tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
-    if scenario.problem.resources is not None:
-        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
-        if tracks is None:
-            task.report("no end by instants: planning the order of single moves")
-            return plan_by_moves(task, search)
+    elif scenario.problem.resources is not None:
+        search = _search(task)
         search.start(tracks)
         search.retime()
         tracks = list(search.tracks())
-    elif tracks is None:
-        task.report("no end by instants: planning the order of moves without clocks")
-        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
-        left = task.deadline.seconds_left()
-        try:
-            steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
-        except NoPlanExists:
-            task.report("no plan exists: looking for the robots that block each other")
-            everybody = range(robots)
-            found = blocking_set(scenario, everybody, seed=task.seed, deadline=task.deadline)
-            raise NoPlanExists([found]) from None
-        tracks, status = timetable_of(scenario, steps), "order of moves first"
     task.has_plan()
-    return Draft(tracks=tuple(tracks), status=status)
+    return Draft(tracks=tuple(tracks), status="instant by instant")
+
+
+def _search(task: Task) -> FleetSearch:
+    return FleetSearch(planning_problem(task.scenario), seed=task.seed, alone=task.alone)
 
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:

@@ -22,8 +22,8 @@ from functools import partial
 
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, flowtime_of
-from rightofway.planners.lacam import plan_fleet
-from rightofway.planners.moves import plan_few
+from rightofway.planners.lacam import plan_by_instants, plan_fleet
+from rightofway.planners.moves import plan_by_moves, plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
 from rightofway.precedence import graph_of
@@ -57,12 +57,14 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 
     For a few robots with a size it begins with their best order of moves instead.
     """
-    found: tuple[Draft | None, ...]
-    if task.scenario.problem.resources is None:
+    has_sizes = task.scenario.problem.resources is not None
+    few = plan_few(task, search) if has_sizes else None
+    found: tuple[Draft | None, ...] = (first, few)
+    if few is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
-    else:
-        found = (first, plan_few(task, search) or plan_in_turn(task, search, "shortest"))
     plans = [plan for plan in found if plan is not None]
+    if not plans and has_sizes:
+        plans = [plan_by_moves(task, search)]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: flowtime_of(task.scenario, plan.tracks))
@@ -72,11 +74,13 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 def _together(task: Task) -> Draft | None:
     """Plan by LaCAM; fleets too large for prioritized planning may take all the time."""
     share = SHARE if len(task.scenario.robots) <= MOST_ROBOTS else 1
+    hurried = replace(task, deadline=task.deadline.sooner(share))
+    has_sizes = task.scenario.problem.resources is not None
     try:
-        draft = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
+        draft = plan_by_instants(hurried) if has_sizes else plan_fleet(hurried)
     except GaveUp:
         return None
-    return replace(draft, status="all together")
+    return replace(draft, status="all together") if draft is not None else None
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:

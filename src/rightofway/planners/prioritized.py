@@ -22,7 +22,6 @@ import numpy as np
 from rightofway.model import Scenario, Stop, flowtime_of
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
-from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
 from rightofway.search import FleetSearch
 
@@ -39,7 +38,7 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
-SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.7
+SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.3
 """The same for robots with a size, and the part of the time left for that."""
 
 MOST_ROBOTS = 8000
@@ -70,14 +69,13 @@ def fleet_search(task: Task) -> FleetSearch:
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
-    None if no plan was found, or no time is left; that proves nothing. Robots with a size get a
-    plan, or an error.
+    None if no plan was found, or no time is left; that proves nothing.
     """
-    if task.scenario.problem.resources is not None:
-        return _with_sizes(task, search, order)
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
+    if task.scenario.problem.resources is not None:
+        return _with_sizes(task, search, turns)
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
@@ -93,14 +91,12 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     return min(there, key=lambda draft: flowtime_of(task.scenario, draft.tracks), default=None)
 
 
-def _with_sizes(task: Task, search: FleetSearch, order: str) -> Draft:
-    """Plan robots with a size one after another, or else by an order of moves."""
-    turns = _in_order(task.scenario, search, order, task.seed)
+def _with_sizes(task: Task, search: FleetSearch, turns: Sequence[int]) -> Draft | None:
+    """Plan robots with a size one after another; one pace gains nothing where they book ahead."""
     searches = SEARCHES_WITH_SIZES * len(turns)
     limit = _part(task.deadline, SHARE_WITH_SIZES)
-    if search.prioritize(turns, searches=searches, time_limit=limit):
-        return _at_own_speeds(task, search)
-    return plan_by_moves(task, search)
+    found = search.prioritize(turns, searches=searches, time_limit=limit)
+    return _at_own_speeds(task, search) if found else None
 
 
 def _part(deadline: Deadline, share: float) -> float | None:
