@@ -14,11 +14,11 @@ export class MapSpace {
   /** Paint in map units, below the robots. */
   paint(context, scale) {
     this.#zones(context, scale);
+    if (this.choice.space) {
+      for (const each of this.plan.robots) this.#band(context, each, scale);
+      if (this.choice.robot) this.#excluded(context, this.choice.robot, scale);
+    }
     for (const closure of this.plan.closures) this.#closure(context, closure, scale);
-    if (!this.choice.space) return;
-    const { robot } = this.choice;
-    if (robot) this.#excluded(context, robot, scale);
-    for (const each of this.plan.robots) this.#band(context, each, scale);
   }
 
   /** Paint in map units, over the robots: the room that each needs, and the line to the nearest. */
@@ -144,12 +144,13 @@ export class MapSpace {
     const { vertices, edges } = this.space.heldBy(robot);
     const shapes = [...vertices.map((vertex) => [vertex, vertex]), ...edges];
     const isNear = (tail, head) => shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    const isOwn = (tail, head) => edges.some(([from, to]) => (from === tail && to === head) || (from === head && to === tail));
     context.strokeStyle = this.theme.held;
     context.lineWidth = 2 / scale;
     context.setLineDash([5 / scale, 4 / scale]);
     context.beginPath();
     for (const [tail, head] of roadmap.lanes ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay] : []) {
-      if (isNear(tail, head)) line(context, roadmap.x[tail], roadmap.y[tail], roadmap.x[head], roadmap.y[head]);
+      if (!isOwn(tail, head) && isNear(tail, head)) line(context, roadmap.x[tail], roadmap.y[tail], roadmap.x[head], roadmap.y[head]);
     }
     context.stroke();
     context.setLineDash([]);
