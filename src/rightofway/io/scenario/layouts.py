@@ -53,14 +53,11 @@ def laid_out(
             spacing=document.spacing,
         )
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
-        known = set(roadmap.labels or ())
-        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
         notes = (*found.notes, *lacks)
         return LoadedMap(
             roadmap=roadmap,
             units=units,
             stations=stations,
-            parking=tuple(roadmap.vertex(name) for name in parking if name in known),
             notes=notes,
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")

@@ -282,7 +282,9 @@ def _housed(
         stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
         clearance=rules.clearance,
     )
-    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, on.parking, fixed)
+    drawing = on.roadmap.drawing
+    parking = [VertexId(at) for at in sorted({*drawing.parking, *drawing.charging})]
+    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, parking, fixed)
     if homes is None:
         return [], []
     names = [on.roadmap.name(home) for home in homes]
@@ -291,7 +293,7 @@ def _housed(
         replace(it, robot=replace(it.robot, home=next(left))) if it.robot.home == HOMELESS else it
         for it in placed
     ]
-    return housed, list(note_of_homes(wanted, names, len(on.parking)))
+    return housed, list(note_of_homes(wanted, names, len(parking)))
 
 
 def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
