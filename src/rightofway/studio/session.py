@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
+from rightofway.io.text import check_depth
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.runs import Runs
 from rightofway.studio.store import Store
@@ -93,12 +94,12 @@ def checked_json(data: Any) -> bytes:
     data
         As it came from JSON, whose readers take more than the norm has.
     """
+    check_depth(data)
     try:
         text = json.dumps(data, allow_nan=False)
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
         raise InputError.at("", "a text has half of a character (write it in UTF-8)") from None
-    except (ValueError, RecursionError):
-        message = "a number is not finite, or lists are too deep (give plain data)"
-        raise InputError.at("", message) from None
+    except ValueError:
+        raise InputError.at("", "a number is not finite (give a plain one)") from None
     return text.encode()

@@ -86,8 +86,10 @@ class Workspace:
         Refused
             For a path that is absolute, climbs, is hidden, or leads through a symbolic link.
         """
-        parts = PurePosixPath(name).parts
-        if not parts or name != "/".join(parts) or UNSAFE.search(name):
+        given = PurePosixPath(name)
+        parts = given.parts
+        is_plain = bool(parts) and name == "/".join(parts) and not given.is_absolute()
+        if not is_plain or UNSAFE.search(name):
             raise Refused(f"{name!r} is no path in the folder (give names with / between)")
         if any(part.startswith(".") or part.endswith((".", " ")) for part in parts):
             raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
