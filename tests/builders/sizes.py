@@ -21,7 +21,16 @@ from rightofway.model import (
 from rightofway.model.zones import Zone
 from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
 
-__all__ = ["crossing", "crowded_roadmap", "dense", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
+__all__ = [
+    "crossing",
+    "crowded_roadmap",
+    "dense",
+    "sized",
+    "sized_on_lanes",
+    "tiny",
+    "with_radii",
+    "zoned",
+]
 
 
 def with_radii(
