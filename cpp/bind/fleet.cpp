@@ -117,9 +117,10 @@ class FleetSearch {
                                         turns.between(before, edge)});
                 before = edge;
             }
-            track.completion =
+            const Tick done =
                 track.visits.empty() ? -1 : completion(problem_.itinerary(robot), track.visits);
-            if (track.completion < 0 || !plan_.fits(robot, track)) {
+            track.cost = done + plan_.surcharges(track.visits);
+            if (done < 0 || !plan_.fits(robot, track)) {
                 clear();
                 reject("robot", robot, "has a track that breaks the rules");
             }
@@ -137,7 +138,7 @@ class FleetSearch {
         }
         const std::int64_t before = improvement_->n_tasks();
         improvement_->run(n_tasks, patience, deadline,
-                          [&] { return plan_.flowtime() == bound_ || pause(); });
+                          [&] { return plan_.cost() == bound_ || pause(); });
         return improvement_->n_tasks() - before;
     }
 
@@ -152,7 +153,7 @@ class FleetSearch {
                 to_numpy(std::move(all.enter))};
     }
 
-    Tick flowtime() const { return plan_.flowtime(); }
+    Tick cost() const { return plan_.cost(); }
     std::int64_t n_idle() const { return improvement_ ? improvement_->n_idle() : 0; }
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 
@@ -245,7 +246,7 @@ void bind_fleet(nb::module_& module) {
         .def("retime", &FleetSearch::retime, nb::call_guard<nb::gil_scoped_release>(), retime_doc)
         .def("tracks", &FleetSearch::tracks,
              "Return where each robot's visits begin, int32[R + 1], their vertices and enters.")
-        .def_prop_ro("flowtime", &FleetSearch::flowtime, "The sum of completions. [ticks]")
+        .def_prop_ro("cost", &FleetSearch::cost, "The sum of completions and surcharges. [ticks]")
         .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
         .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");
 }

@@ -40,7 +40,13 @@ vertex_row, edge_row : int32[N] or None
 first, excluded : int32[S + 1], int32[M] or None
     A booking of row ``r`` excludes others from the rows ``excluded[first[r]] ..``. Conflicts and
     rights of way are then between incompatible visits: ``precede(a, b)`` lets the drive into ``b``
-    start after ``a`` has ended, wherever both are.)";
+    start after ``a`` has ended, wherever both are.
+first_closed, closed_from, closed_until : int32[2 N + 1], int64[K], int64[K] or None
+    When the vertex of visit ``x`` is closed: entries ``first_closed[2 x] ..``; and the edge driven
+    into it: ``first_closed[2 x + 1] ..``. Times are the earliest that keep clear of closures.
+    [ticks]
+drive : int64[N] or None
+    Ticks of the drive into each visit, with closures. [ticks])";
 
 constexpr auto keep_order_doc =
     R"(Give the rights of way of all visits to a vertex in an order, all at once.
@@ -89,7 +95,11 @@ void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
           const std::optional<ArrayIn<std::int32_t>>& vertex_row,
           const std::optional<ArrayIn<std::int32_t>>& edge_row,
           const std::optional<ArrayIn<std::int32_t>>& first,
-          const std::optional<ArrayIn<std::int32_t>>& excluded) {
+          const std::optional<ArrayIn<std::int32_t>>& excluded,
+          const std::optional<ArrayIn<std::int32_t>>& first_closed,
+          const std::optional<ArrayIn<Tick>>& closed_from,
+          const std::optional<ArrayIn<Tick>>& closed_until,
+          const std::optional<ArrayIn<Tick>>& drive) {
     const RouteArrays arrays{view(first_visit),
                              view(vertex),
                              view(least),
@@ -98,7 +108,9 @@ void init(PrecedenceGraph* self, const ArrayIn<VisitId>& first_visit,
                              swaps_conflict,
                              view(active),
                              {view_or_empty(vertex_row), view_or_empty(edge_row),
-                              view_or_empty(first), view_or_empty(excluded)}};
+                              view_or_empty(first), view_or_empty(excluded)},
+                             {view_or_empty(first_closed), view_or_empty(closed_from),
+                              view_or_empty(closed_until), view_or_empty(drive)}};
     const nb::gil_scoped_release released;
     new (self) PrecedenceGraph(arrays);
 }
@@ -194,7 +206,9 @@ void bind_graph(nb::module_& module) {
     graph.def("__init__", &init, array("first_visit"), array("vertex"), array("least"),
               array("approach"), nb::arg("headway"), nb::arg("swaps_conflict"), array("active"),
               array("vertex_row").none() = nb::none(), array("edge_row").none() = nb::none(),
-              array("first").none() = nb::none(), array("excluded").none() = nb::none());
+              array("first").none() = nb::none(), array("excluded").none() = nb::none(),
+              array("first_closed").none() = nb::none(), array("closed_from").none() = nb::none(),
+              array("closed_until").none() = nb::none(), array("drive").none() = nb::none());
     bind_queries(graph);
     bind_changes(graph);
 }

@@ -21,7 +21,7 @@ indptr, heads : int32[V + 1], int32[E]
 length_class : int32[E]
     The length class of each edge.
 paces : int32[P * C]
-    Ticks for an edge of each of the C length classes, one row for each pace.
+    Ticks for an edge of each of the C length classes, one row for each pace; -1 where it is barred.
 pace_of : int32[R]
     The pace of each robot.
 home : int32[R]
@@ -43,6 +43,11 @@ size_of, first, excluded : int32[R], int32[rows + 1], int32[n]
     Size class of each robot, and for each row the rows from which a booking of it excludes other
     robots; None where no robot has a size. Row ``size * (V + E) + resource`` is a vertex or an
     edge as robots of one size class book it; the vertices come first.
+surcharges : int64[C]
+    What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
+closed_row, closed_from, closed_until : int32[K], int64[K], int64[K]
+    Rows of the booking table that are closed, and when; None without closures. Where no robot has
+    a size, row ``V + e`` is edge ``e``. [ticks]
 turn_offset, turn_kind, turn_class, turn_ticks : int64[E], int32[n], int32[R], int32[T * K]
     How long robots turn on the spot; None where turning takes no time. The angle from edge ``e`` to
     edge ``f`` is of kind ``turn_kind[turn_offset[e] + f]``; a robot of turning class t turns it in
@@ -65,21 +70,25 @@ void init(Problem* self, const Ints& indptr, const Ints& heads, const Ints& leng
           const std::optional<Ints>& size_of, const std::optional<Ints>& first,
           const std::optional<Ints>& excluded, const std::optional<Ticks>& turn_offset,
           const std::optional<Ints>& turn_kind, const std::optional<Ints>& turn_class,
-          const std::optional<Ints>& turn_ticks, std::int32_t n_turn_kinds) {
+          const std::optional<Ints>& turn_ticks, std::int32_t n_turn_kinds,
+          const std::optional<Ticks>& surcharges, const std::optional<Ints>& closed_row,
+          const std::optional<Ticks>& closed_from, const std::optional<Ticks>& closed_until) {
     const ProblemArrays arrays{view(indptr),      view(heads),        view(length_class),
                                view(paces),       view(pace_of),      view(home),
                                view(first_stage), view(stage_vertex), view(stage_work),
-                               view(stage_turn),  n_classes};
+                               view(stage_turn),  n_classes,          view_or_empty(surcharges)};
     Resources resources;
     if (size_of && first && excluded) {
         resources = {view(*size_of), view(*first), view(*excluded)};
     }
+    const Closures closures{view_or_empty(closed_row), view_or_empty(closed_from),
+                            view_or_empty(closed_until)};
     TurnArrays turns;
     if (turn_offset && turn_kind && turn_class && turn_ticks) {
         turns = {view(*turn_offset), view(*turn_kind), view(*turn_class), view(*turn_ticks),
                  n_turn_kinds};
     }
-    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources, turns);
+    new (self) Problem(arrays, {headway, books_ahead, rotations}, resources, turns, closures);
 }
 
 }  // namespace
@@ -94,12 +103,15 @@ void bind_problem(nb::module_& module) {
              array("excluded").none() = nb::none(), array("turn_offset").none() = nb::none(),
              array("turn_kind").none() = nb::none(), array("turn_class").none() = nb::none(),
              array("turn_ticks").none() = nb::none(), nb::arg("n_turn_kinds") = 0,
-             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-             nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
-             nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
-             nb::keep_alive<1, 10>(), nb::keep_alive<1, 11>(), nb::keep_alive<1, 16>(),
-             nb::keep_alive<1, 17>(), nb::keep_alive<1, 18>(), nb::keep_alive<1, 19>(),
-             nb::keep_alive<1, 20>(), nb::keep_alive<1, 21>(), nb::keep_alive<1, 22>())
+             array("surcharges").none() = nb::none(), array("closed_row").none() = nb::none(),
+             array("closed_from").none() = nb::none(), array("closed_until").none() = nb::none(),
+             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
+             nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(), nb::keep_alive<1, 10>(),
+             nb::keep_alive<1, 11>(), nb::keep_alive<1, 16>(), nb::keep_alive<1, 17>(),
+             nb::keep_alive<1, 18>(), nb::keep_alive<1, 19>(), nb::keep_alive<1, 20>(),
+             nb::keep_alive<1, 21>(), nb::keep_alive<1, 22>(), nb::keep_alive<1, 24>(),
+             nb::keep_alive<1, 25>(), nb::keep_alive<1, 26>(), nb::keep_alive<1, 27>())
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.");
 }

@@ -17,6 +17,8 @@ using Tick = std::int64_t;     // integer unit of time
 inline constexpr std::int32_t none = -1;  // no index, in any numbering
 inline constexpr RobotId nobody = -1;
 
+inline constexpr std::int32_t barred = -1;  // the pace of a robot that may not drive an edge
+
 // The tick of an event that never happens; example: the leave of a last visit. Far above every tick
 // of a plan (routes.hpp checks this), and small enough to add ticks without overflow.
 inline constexpr Tick never = Tick{1} << 62;

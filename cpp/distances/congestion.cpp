@@ -76,9 +76,10 @@ void Congestion::search(RobotId robot, VertexId start, VertexId target,
         }
         for (EdgeId e = graph.indptr[top.vertex]; e < graph.indptr[top.vertex + 1]; ++e) {
             const VertexId head = graph.indices[e];
-            if (to_go[head] >= 0) {
+            const Tick drive = problem_.drive(robot, e);
+            if (to_go[head] >= 0 && drive != barred) {
                 const std::int64_t cost =
-                    cost_[top.vertex] + cost_of(e, target, problem_.drive(robot, e));
+                    cost_[top.vertex] + cost_of(e, target, drive + problem_.surcharge(e));
                 reach(head, top.vertex, cost, shares_ * to_go[head]);
             }
         }

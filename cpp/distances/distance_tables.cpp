@@ -60,8 +60,8 @@ void DistanceTables::check_request(VertexId target,
     require_id("target", target, n_vertices());
     require_length("edge_ticks", edge_ticks.size(), edge_.size());
     for (std::size_t e = 0; e < edge_ticks.size(); ++e) {
-        if (edge_ticks[e] <= 0) {
-            reject_entry("edge_ticks", e, edge_ticks[e], "is not positive");
+        if (edge_ticks[e] <= 0 && edge_ticks[e] != barred) {
+            reject_entry("edge_ticks", e, edge_ticks[e], "is neither positive nor -1");
         }
     }
 }
@@ -70,7 +70,8 @@ std::vector<std::int32_t> DistanceTables::to(VertexId target,
                                              std::span<const std::int32_t> edge_ticks) const {
     check_request(target, edge_ticks);
     const bool uniform = std::adjacent_find(edge_ticks.begin(), edge_ticks.end(),
-                                            std::not_equal_to<>{}) == edge_ticks.end();
+                                            std::not_equal_to<>{}) == edge_ticks.end() &&
+                         (edge_ticks.empty() || edge_ticks.front() != barred);
     std::vector<std::uint16_t> counts;
     if (!uniform || !steps_to(target, counts)) {
         return dijkstra(target, edge_ticks);
@@ -126,6 +127,9 @@ std::vector<std::int32_t> DistanceTables::dijkstra(VertexId target,
         // Overflow is checked for least distances only; longer paths may exceed int32.
         distance[v] = narrow(ticks, v, target);
         for (EdgeId k = arriving_[v]; k < arriving_[v + 1]; ++k) {
+            if (edge_ticks[edge_[k]] == barred) {
+                continue;
+            }
             const Tick through = ticks + edge_ticks[edge_[k]];
             if (through < best[source_[k]]) {
                 best[source_[k]] = through;

@@ -14,9 +14,9 @@ constexpr Tick alone_offset = 2;  // see `alone_`
 SharedDistances::SharedDistances(const Problem& problem, std::size_t budget)
     : problem_(problem),
       tables_(problem.graph().indptr, problem.graph().indices),
-      is_uniform_(std::all_of(problem.roads().length_class.begin(),
-                              problem.roads().length_class.end(),
-                              [](std::int32_t one) { return one == 0; })),
+      is_uniform_(!problem.is_barred() && std::all_of(problem.roads().length_class.begin(),
+                                                      problem.roads().length_class.end(),
+                                                      [](std::int32_t one) { return one == 0; })),
       budget_(budget),
       alone_(static_cast<std::size_t>(problem.n_robots())) {}
 

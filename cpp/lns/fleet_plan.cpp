@@ -12,7 +12,20 @@ FleetPlan::FleetPlan(const Problem& problem)
     : problem_(&problem),
       bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
-      held_(tracks_.size(), 0) {}
+      held_(tracks_.size(), 0) {
+    const Closures& closed = problem.closures();
+    for (std::size_t k = 0; k < closed.row.size(); ++k) {
+        bookings_.insert(closed.row[k], {closed.start[k], closed.end[k]}, nobody);
+    }
+}
+
+Tick FleetPlan::surcharges(std::span<const Visit> visits) const {
+    Tick sum = 0;
+    for (std::size_t k = 1; k < visits.size() && problem_->has_surcharges(); ++k) {
+        sum += problem_->surcharge(problem_->graph().edge(visits[k - 1].vertex, visits[k].vertex));
+    }
+    return sum;
+}
 
 Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
     const auto& visits = track.visits;
@@ -23,24 +36,27 @@ Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
 }
 
 // Calls `use` with each row that visit k books, and when: its vertex, and the edge driven in where
-// robots have sizes.
+// drives book edges.
 template <class Use>
 void FleetPlan::for_each_row(RobotId robot, const TimedTrack& track, std::size_t k,
                              const Use& use) const {
     const Visit& visit = track.visits[k];
     use(problem_->vertex_row(robot, visit.vertex), booking(track, k));
-    if (problem_->has_sizes() && k > 0) {
+    if (problem_->books_edges() && k > 0) {
         const EdgeId edge = problem_->graph().edge(track.visits[k - 1].vertex, visit.vertex);
         use(problem_->edge_row(robot, edge),
             Booking{visit.enter - visit.drive, visit.enter + problem_->rules().headway});
     }
 }
 
-// Calls `use` with each row from which a booking of a row excludes other robots.
+// Calls `use` with each row from which a booking of a row excludes other robots. Points exclude
+// each other from vertices only.
 template <class Use>
 void FleetPlan::for_each_mark(std::int32_t row, const Use& use) const {
     if (!problem_->has_sizes()) {
-        use(row);
+        if (row < problem_->n_vertices()) {
+            use(row);
+        }
         return;
     }
     for (const std::int32_t other : problem_->excluded(row)) {
@@ -68,7 +84,7 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
                           [&](std::int32_t mark) { bookings_.erase(mark, time.start, robot); });
         });
     }
-    flowtime_ += track.completion - own.completion;
+    cost_ += track.cost - own.cost;
     std::swap(own, track);
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
         for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
@@ -88,7 +104,7 @@ void FleetPlan::retime() {
         for (std::size_t k = 0; k < one.visits.size(); ++k) {
             one.visits[k].enter = all.enter[static_cast<std::size_t>(all.first_visit[robot]) + k];
         }
-        one.completion = completion(problem_->itinerary(robot), one.visits);
+        one.cost = completion(problem_->itinerary(robot), one.visits) + surcharges(one.visits);
         retimed.exchange(robot, one);
     }
     *this = std::move(retimed);
@@ -194,7 +210,8 @@ void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found)
             for (std::int32_t j = BookingTable::started(here, own.start);
                  j > 0 && here[j - 1].reach >= own.start; --j) {
                 if (here[j - 1].time.end == own.start && here[j - 1].robot != robot &&
-                    here[j - 1].robot == before[i - 1].robot && found(here[j - 1].robot)) {
+                    here[j - 1].robot != nobody && here[j - 1].robot == before[i - 1].robot &&
+                    found(here[j - 1].robot)) {
                     return;
                 }
             }

@@ -1,4 +1,5 @@
-// The tracks of a fleet with their bookings and flowtime. A robot may have no track.
+// The tracks of a fleet with their bookings and costs. A robot may have no track. The bookings
+// begin with the closures of the problem.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@ namespace rightofway {
 
 struct TimedTrack {
     std::vector<Visit> visits;  // empty: the robot has no track
-    Tick completion = 0;
+    Tick cost = 0;              // completion time and surcharges of the edges
 };
 
 class FleetPlan {
@@ -25,7 +26,7 @@ class FleetPlan {
         return tracks_[static_cast<std::size_t>(robot)];
     }
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
-    Tick flowtime() const { return flowtime_; }
+    Tick cost() const { return cost_; }  // of all tracks: flowtime and surcharges
     Tracks tracks() const;
 
     const Problem& problem() const { return *problem_; }
@@ -33,7 +34,10 @@ class FleetPlan {
     // Swaps a robot's track with `track` and updates the bookings; either track may be empty.
     void exchange(RobotId robot, TimedTrack& track);
 
-    // Whether a track has no vertex conflict and no swap conflict with another robot.
+    // The surcharges of the edges of a track.
+    Tick surcharges(std::span<const Visit> visits) const;
+
+    // Whether a track overlaps no booking and has no swap conflict with another robot.
     bool fits(RobotId robot, const TimedTrack& track) const;
 
     // The robots in conflict with a track (vertex or swap), each once, in order of id.
@@ -43,7 +47,7 @@ class FleetPlan {
     void hold_home(RobotId robot, Tick until);
 
     // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
-    // other. Needs all tracks.
+    // other. Needs all tracks, and a problem without closures.
     void retime();
 
     // The booking of visit k of a track.
@@ -62,7 +66,7 @@ class FleetPlan {
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;
-    Tick flowtime_ = 0;
+    Tick cost_ = 0;
 };
 
 }  // namespace rightofway

@@ -105,9 +105,9 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     Tick slack = 0;  // allowed sum of completion times above `alone`
     for (std::size_t k = 0; k < n; ++k) {
         task.tracks[k].visits.clear();
-        task.tracks[k].completion = 0;
+        task.tracks[k].cost = 0;
         worker.plan.exchange(task.robots[k], task.tracks[k]);
-        slack += task.tracks[k].completion - alone_[static_cast<std::size_t>(task.robots[k])];
+        slack += task.tracks[k].cost - alone_[static_cast<std::size_t>(task.robots[k])];
     }
     bool is_found = slack > 0;
     for (std::size_t k = 0; k < n && is_found; ++k) {
@@ -118,10 +118,10 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
         is_found = worker.search.run(errand, is_over) == SearchEnd::found;
         if (is_found) {
             worker.search.track(worker.found.visits);
-            worker.found.completion = worker.search.completion();
-            slack -= worker.found.completion - alone;
+            worker.found.cost = worker.search.cost();
+            slack -= worker.found.cost - alone;
             worker.plan.exchange(robot, worker.found);
-            worker.found.completion = 0;
+            worker.found.cost = 0;
         }
     }
     for (std::size_t k = 0; k < n; ++k) {

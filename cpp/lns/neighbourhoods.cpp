@@ -65,7 +65,7 @@ void Neighbourhoods::add_all(VertexId vertex, Tick start, Tick end, std::size_t 
     const auto here = plan_.bookings().at(problem_.vertex_row(chosen_.front(), vertex));
     for (std::int32_t k = BookingTable::started(here, end - 1);
          k > 0 && here[k - 1].reach > start && chosen_.size() < size; --k) {
-        if (here[k - 1].time.end > start) {
+        if (here[k - 1].time.end > start && here[k - 1].robot != nobody) {
             add(here[k - 1].robot);
         }
     }
@@ -79,7 +79,7 @@ void Neighbourhoods::fill_up(std::size_t size, Random& random) {
 
 // A robot drawn with probability proportional to its delay; any robot if none is late.
 RobotId Neighbourhoods::late_robot(Random& random) {
-    const Tick all = plan_.flowtime();
+    const Tick all = plan_.cost();
     Tick bound = 0;
     for (const Tick one : alone_) {
         bound += one;
@@ -89,7 +89,7 @@ RobotId Neighbourhoods::late_robot(Random& random) {
     }
     Tick left = static_cast<Tick>(random.below(static_cast<std::size_t>(all - bound)));
     RobotId robot = 0;
-    while ((left -= plan_.track(robot).completion - alone_[static_cast<std::size_t>(robot)]) >= 0) {
+    while ((left -= plan_.track(robot).cost - alone_[static_cast<std::size_t>(robot)]) >= 0) {
         ++robot;
     }
     return robot;
@@ -131,7 +131,8 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
                 const std::int32_t ticks = trip.pace[roads.length_class[e]];
                 const VertexId head = roads.graph.indices[e];
                 const Tick rest = trip.to_stage[stage].from(head);
-                if (rest >= 0 && rest + ticks == way && random.below(++n_ways) == 0) {
+                if (ticks != barred && rest >= 0 && rest + ticks == way &&
+                    random.below(++n_ways) == 0) {
                     next = head;
                     drive = ticks;
                 }
@@ -172,7 +173,8 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
                 const std::int32_t ticks = trip.pace[roads.length_class[e]];
                 const VertexId head = roads.graph.indices[e];
                 const Tick rest = trip.to_stage[stage].from(head);
-                if (rest >= 0 && now + ticks + rest < until && random.below(++n_ways) == 0) {
+                if (ticks != barred && rest >= 0 && now + ticks + rest < until &&
+                    random.below(++n_ways) == 0) {
                     next = head;
                     drive = ticks;
                 }
@@ -193,8 +195,7 @@ void Neighbourhoods::congestion(std::size_t size, Random& random) {
     add(robot);
     const auto& visits = plan_.track(robot).visits;
     const Visit& middle = visits[random.below(visits.size())];
-    const auto pace = problem_.pace(robot);
-    const Tick around = pace.empty() ? 1 : 3 * *std::max_element(pace.begin(), pace.end());
+    const Tick around = 3 * problem_.slowest_edge(robot);
     const Graph& graph = problem_.graph();
     ring_.assign(1, middle.vertex);
     for (std::size_t k = 0; k < ring_.size() && k < places_around && chosen_.size() < size; ++k) {
@@ -225,7 +226,7 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
         const std::int32_t to = std::min(now + 8, static_cast<std::int32_t>(here.size()));
         for (std::int32_t j = from; j < to; ++j) {
             const BookedBy& one = here[j];
-            if (one.robot == robot) {
+            if (one.robot == robot || one.robot == nobody) {
                 continue;
             }
             // The robot that was at the next vertex just before.

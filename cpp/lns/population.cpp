@@ -199,7 +199,7 @@ std::vector<RobotId> Population::take_over(FleetPlan& plan, const FleetPlan& mat
 void Population::take_up(std::size_t n_children) {
     const bool are_parents = has_all_members();
     const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {
-        return left.flowtime() < right.flowtime();
+        return left.cost() < right.cost();
     };
     for (std::size_t k = 0; k < n_children; ++k) {
         Child& child = children_[k];
@@ -209,7 +209,7 @@ void Population::take_up(std::size_t n_children) {
         if (!child.is_whole) {
             continue;
         }
-        if (child.plan.flowtime() < plan_.flowtime()) {
+        if (child.plan.cost() < plan_.cost()) {
             plan_ = child.plan;
             n_idle_ = 0;
         }

@@ -38,8 +38,7 @@ Prioritized::Prioritized(SharedDistances& distances, FleetPlan& plan, const Trac
 }
 
 Tick Prioritized::first_hold(RobotId robot) const {
-    const auto pace = problem_.pace(robot);
-    return pace.empty() ? 1 : hold_edges * *std::max_element(pace.begin(), pace.end());
+    return problem_.pace(robot).empty() ? 1 : hold_edges * problem_.slowest_edge(robot);
 }
 
 void Prioritized::keep_home(RobotId robot) {
@@ -83,8 +82,8 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
         evict_those_met();
     }
     Tick& expected = expected_[static_cast<std::size_t>(robot)];
-    outlook_ += track_.completion - expected;
-    expected = track_.completion;
+    outlook_ += track_.cost - expected;
+    expected = track_.cost;
     plan_.exchange(robot, track_);
     return true;
 }
@@ -95,7 +94,7 @@ bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
         return false;
     }
     search_.track(track_.visits);
-    track_.completion = search_.completion();
+    track_.cost = search_.completion() + plan_.surcharges(track_.visits);
     plan_.in_the_way(robot, track_, met_);
     return true;
 }
@@ -146,7 +145,7 @@ void PrioritizedPortfolio::Side::run(std::int64_t n_searches, const StopConditio
 // Whether the other run finished in no more states with a flowtime no greater than projected here.
 bool PrioritizedPortfolio::Side::is_beaten_by(const Side& other) const {
     return other.is_there && other.planner.n_expanded() <= planner.n_expanded() &&
-           other.plan.flowtime() <= planner.highest_outlook();
+           other.plan.cost() <= planner.highest_outlook();
 }
 
 // Runs a side in another thread until destruction or until the rival has beaten it.
@@ -211,7 +210,7 @@ bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
 // Compares projections before flowtimes, because a run may have been stopped for its projection.
 bool PrioritizedPortfolio::is_hasty_better() const {
     return patient_.is_beaten_by(hasty_) ||
-           (!hasty_.is_beaten_by(patient_) && plan_in_haste_.flowtime() < plan_.flowtime());
+           (!hasty_.is_beaten_by(patient_) && plan_in_haste_.cost() < plan_.cost());
 }
 
 }  // namespace rightofway

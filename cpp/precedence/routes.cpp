@@ -64,6 +64,7 @@ Routes::Routes(const RouteArrays& arrays)
     }
     check_horizon();
     incompatible_ = IncompatibleVisits(robot_, arrays.rows);
+    closures_ = VisitClosures(arrays.closures, vertex_.size());
 }
 
 void Routes::number_robots() {

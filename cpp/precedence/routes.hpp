@@ -10,6 +10,7 @@
 
 #include "core/types.hpp"
 #include "precedence/incompatible_visits.hpp"
+#include "precedence/visit_closures.hpp"
 
 namespace rightofway {
 
@@ -23,6 +24,7 @@ struct RouteArrays {
     bool swaps_conflict = true;
     std::span<const std::uint8_t> active;  // r: an inactive robot (0) has no conflicts
     BookedRows rows = {};                  // where robots have sizes; approaches are then above 0
+    VisitClosureArrays closures = {};
 };
 
 class Routes {
@@ -52,6 +54,8 @@ class Routes {
         return incompatible_.of(visit);
     }
 
+    const VisitClosures& closures() const { return closures_; }
+
     bool is_first(VisitId visit) const { return visit == first_of(robot(visit)); }
     bool is_last(VisitId visit) const { return visit == last_of(robot(visit)); }
 
@@ -79,6 +83,7 @@ class Routes {
     std::vector<RobotId> robot_;          // of each visit
     std::vector<Tick> longest_approach_;  // of each robot
     IncompatibleVisits incompatible_;
+    VisitClosures closures_;
 };
 
 }  // namespace rightofway

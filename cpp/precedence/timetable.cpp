@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +20,9 @@ Timetable::Timetable(const Routes& routes)
       is_in_instant_(routes.n_visits(), 0) {
     for (VisitId x = 0; x < routes_.n_visits(); ++x) {
         enter_[x] = routes_.is_first(x) ? 0 : enter_[x - 1] + routes_.least(x - 1);
+    }
+    if (!recompute()) {
+        throw std::invalid_argument("closed_from: a route is closed at all times");
     }
 }
 
@@ -47,7 +51,105 @@ bool Timetable::precede(VisitId a, VisitId b) {
     }
     journal_.push_back({rights_.give(a, b), true, trail_.size()});
     accept();
+    if (routes_.closures().is_known()) {
+        std::vector<VisitId> open = raised_;
+        const bool is_possible = rise_above_closures(open);
+        trail_.insert(trail_.end(), risen_.begin(), risen_.end());
+        for (const VisitId x : raised_) {
+            is_in_instant_[x] = 1;
+        }
+        const auto known = static_cast<std::ptrdiff_t>(raised_.size());
+        for (const OldEnter& one : risen_) {
+            if (is_in_instant_[one.visit] == 0) {
+                raised_.push_back(one.visit);
+            }
+        }
+        std::for_each(raised_.begin(), raised_.begin() + known,
+                      [this](VisitId x) { is_in_instant_[x] = 0; });
+        if (!is_possible) {
+            rollback(journal_.size() - 1);
+            raised_.clear();
+            cycle_.clear();
+            return false;
+        }
+    }
     return true;
+}
+
+// Raises visits until no booking overlaps a closure: an overlapping booking can only start after
+// the closure, because times only grow. `open`: the visits to begin with. False if some booking
+// cannot start later. Notes the raised visits, each once, in `risen_`.
+bool Timetable::rise_above_closures(std::vector<VisitId>& open) {
+    risen_.clear();
+    bool is_possible = true;
+    while (!open.empty() && is_possible) {
+        const VisitId x = open.back();
+        open.pop_back();
+        for_each_arc(x, [&](VisitId to, Tick length) { rise(to, enter_[x] + length, open); });
+        for (VisitId y = routes_.is_first(x) ? x : x - 1; y <= x && is_possible; ++y) {
+            const Tick clear = routes_.is_active(routes_.robot(y)) ? clear_of_closures(y) : 0;
+            is_possible = clear <= enter_[y] || (clear < never && !routes_.is_first(y));
+            if (is_possible) {
+                rise(y, clear, open);
+            }
+        }
+    }
+    for (const OldEnter& one : risen_) {
+        raise_[one.visit] = 0;
+    }
+    return is_possible;
+}
+
+void Timetable::rise(VisitId visit, Tick tick, std::vector<VisitId>& open) {
+    if (tick <= enter_[visit]) {
+        return;
+    }
+    if (raise_[visit] == 0) {
+        raise_[visit] = 1;
+        risen_.push_back({visit, enter_[visit]});
+    }
+    enter_[visit] = tick;
+    open.push_back(visit);
+}
+
+// The least enter, from the present one on, with which a visit's bookings overlap no closure.
+Tick Timetable::clear_of_closures(VisitId visit) const {
+    const VisitClosures& closed = routes_.closures();
+    const Tick approach = routes_.approach(visit);
+    const Tick drive = closed.drive(visit);
+    const Tick end = routes_.is_last(visit) ? never : enter_[visit + 1] + routes_.headway();
+    Tick enter = closed.free_at(visit, enter_[visit] - approach, end);
+    enter = enter >= never ? never : enter + approach;
+    if (!routes_.is_first(visit) && enter < never) {
+        const Tick start = closed.free_along(visit, enter - drive, drive + routes_.headway());
+        enter = start >= never ? never : start + drive;
+    }
+    return enter;
+}
+
+// Computes the earliest times from the rights of way alone where there are closures, with which
+// times that fall cannot be followed from visit to visit.
+bool Timetable::recompute() {
+    if (!routes_.closures().is_known()) {
+        return true;
+    }
+    std::vector<VisitId> all;
+    for (VisitId x = routes_.n_visits() - 1; x >= 0; --x) {
+        enter_[x] = 0;
+        all.push_back(x);
+    }
+    const bool is_possible = rise_above_closures(all);
+    risen_.clear();
+    return is_possible;
+}
+
+void Timetable::find_changes(const std::vector<Tick>& before) {
+    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
+        if (enter_[x] != before[x]) {
+            trail_.push_back({x, before[x]});
+            raised_.push_back(x);
+        }
+    }
 }
 
 bool Timetable::keep_order(std::span<const Tick> when) {
@@ -56,18 +158,13 @@ bool Timetable::keep_order(std::span<const Tick> when) {
     const std::vector<Tick> before = enter_;
     const bool is_possible =
         (routes_.has_sizes() ? give_incompatible_in_order(when) : give_in_order(when)) &&
-        sweep(when);
+        sweep(when) && recompute();
     if (!is_possible) {
         enter_ = before;
         rollback(0);
         return false;
     }
-    for (VisitId x = 0; x < routes_.n_visits(); ++x) {
-        if (enter_[x] != before[x]) {
-            trail_.push_back({x, before[x]});
-            raised_.push_back(x);
-        }
-    }
+    find_changes(before);
     return true;
 }
 
@@ -179,6 +276,14 @@ bool Timetable::take_back(VisitId a, VisitId b) {
     }
     const bool was_tight = enter_[b] == enter_[a + 1] + routes_.gap_before(b);
     rights_.take_back(right);
+    if (routes_.closures().is_known()) {
+        const std::vector<Tick> before = enter_;
+        const std::size_t mark = trail_.size();
+        recompute();
+        find_changes(before);
+        journal_.push_back({right, false, mark});
+        return true;
+    }
     if (was_tight) {
         lower(b);
     }
@@ -308,6 +413,9 @@ std::vector<RightOfWay> Timetable::critical_rights(VisitId visit) const {
     for (VisitId x = visit; !routes_.is_first(x);) {
         const VisitId first = held_by(x, passed);
         const VisitId cause = first == none ? x - 1 : first + 1;
+        if (first == none && enter_[x] > enter_[x - 1] + routes_.least(x - 1)) {
+            break;  // a closure holds it
+        }
         if (first != none) {
             rights.push_back({first, x});
         }

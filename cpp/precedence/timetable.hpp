@@ -27,6 +27,7 @@ namespace rightofway {
 class Timetable : private RaiseSearch<Timetable, VisitId> {
   public:
     // The routes are borrowed and must outlive this object. Initially no robot waits.
+    // Throws std::invalid_argument if closures leave the route of a robot no times.
     explicit Timetable(const Routes& routes);
 
     Tick enter(VisitId visit) const { return enter_[visit]; }
@@ -36,7 +37,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
 
     // Gives visit a the right of way over visit b of another robot at the same vertex (unchecked).
     // Returns false and changes nothing if a is a last visit, b is a first visit, or the right of
-    // way would cause a deadlock or a swap (see cycle()). A repeated right of way changes nothing.
+    // way would cause a deadlock or a swap (see cycle()), or leave visits in closures. A repeated
+    // right of way changes nothing.
     bool precede(VisitId a, VisitId b);
 
     // Orders the visits of every vertex by `when` (one number per visit; ties by visit), in one
@@ -105,6 +107,11 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
         }
     }
     VisitId held_by(VisitId visit, std::span<const VisitId> passed) const;
+    bool rise_above_closures(std::vector<VisitId>& open);
+    void rise(VisitId visit, Tick tick, std::vector<VisitId>& open);
+    Tick clear_of_closures(VisitId visit) const;
+    bool recompute();
+    void find_changes(const std::vector<Tick>& before);
     void lower(VisitId b);
     void gather_instant();
     void lower_instant();
@@ -125,6 +132,7 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
     std::vector<VisitId> falling_;  // a heap
     std::vector<VisitId> instant_;  // visits that fall from one instant
     std::vector<std::uint8_t> is_in_instant_;
+    std::vector<OldEnter> risen_;  // visits that closures raised, with their enters before
 };
 
 // Shifts each visit of the tracks to the earliest time that keeps the order of visits at every

@@ -31,12 +31,13 @@ void require_durations(const char* name, std::span<const Tick> ticks) {
 }  // namespace
 
 Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources,
-                 const TurnArrays& turns)
+                 const TurnArrays& turns, const Closures& closures)
     : arrays_(arrays),
       roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
       rules_(rules),
       resources_(resources),
-      turns_(turns) {
+      turns_(turns),
+      closures_(closures) {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
     }
@@ -47,9 +48,15 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     require_length("length_class", arrays_.length_class.size(), arrays_.heads.size());
     require_ids("length_class", arrays_.length_class, arrays_.n_classes);
     for (std::size_t k = 0; k < arrays_.paces.size(); ++k) {
-        if (arrays_.paces[k] <= 0) {
-            reject_entry("paces", k, arrays_.paces[k], "is not positive");
+        if (arrays_.paces[k] <= 0 && arrays_.paces[k] != barred) {
+            reject_entry("paces", k, arrays_.paces[k], "is neither positive nor -1");
         }
+        is_barred_ |= arrays_.paces[k] == barred;
+    }
+    if (!arrays_.surcharges.empty()) {
+        require_length("surcharges", arrays_.surcharges.size(),
+                       static_cast<std::size_t>(arrays_.n_classes));
+        require_durations("surcharges", arrays_.surcharges);
     }
     check_robots();
     if (has_sizes()) {
@@ -57,6 +64,23 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
     }
     if (!turns_.class_of.empty()) {
         check_turns();
+    }
+    check_closures();
+}
+
+void Problem::check_closures() {
+    require_length("closed_from", closures_.start.size(), closures_.row.size());
+    require_length("closed_until", closures_.end.size(), closures_.row.size());
+    require_ids("closed_row", closures_.row, has_sizes() ? n_rows() : n_resources());
+    closes_edges_ =
+        !has_sizes() && std::any_of(closures_.row.begin(), closures_.row.end(),
+                                    [this](std::int32_t row) { return row >= n_vertices(); });
+    for (std::size_t k = 0; k < closures_.row.size(); ++k) {
+        if (closures_.start[k] < 0 || closures_.end[k] <= closures_.start[k] ||
+            closures_.end[k] > never) {
+            reject_entry("closed_until", k, closures_.end[k],
+                         "is not after closed_from, or later than never");
+        }
     }
 }
 
@@ -147,9 +171,13 @@ void Problem::check_robots() const {
 Itinerary Problem::itinerary(RobotId robot) const {
     const auto first = static_cast<std::size_t>(first_stage(robot));
     const std::size_t n = static_cast<std::size_t>(first_stage(robot + 1)) - first;
-    return {home(robot), arrays_.stage_vertex.subspan(first, n),
-            arrays_.stage_work.subspan(first, n), arrays_.stage_turn.subspan(first, n),
-            pace(robot), turns(robot)};
+    return {home(robot),
+            arrays_.stage_vertex.subspan(first, n),
+            arrays_.stage_work.subspan(first, n),
+            arrays_.stage_turn.subspan(first, n),
+            pace(robot),
+            turns(robot),
+            arrays_.surcharges};
 }
 
 Turns Problem::turns(RobotId robot) const {
@@ -162,8 +190,16 @@ Turns Problem::turns(RobotId robot) const {
 }
 
 Tick Problem::quickest_edge(RobotId robot) const {
+    Tick least = never;
+    for (const std::int32_t ticks : pace(robot)) {
+        least = ticks == barred ? least : std::min<Tick>(least, ticks);
+    }
+    return least == never ? 1 : least;
+}
+
+Tick Problem::slowest_edge(RobotId robot) const {
     const auto ticks = pace(robot);
-    return ticks.empty() ? 1 : *std::min_element(ticks.begin(), ticks.end());
+    return ticks.empty() ? 1 : std::max(1, *std::max_element(ticks.begin(), ticks.end()));
 }
 
 }  // namespace rightofway

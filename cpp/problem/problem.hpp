@@ -21,7 +21,7 @@ struct BookingRules {
 };
 
 // Robot r has stages first_stage[r] .. first_stage[r + 1] - 1 and drives an edge of length class c
-// in paces[pace_of[r] * n_classes + c] ticks.
+// in paces[pace_of[r] * n_classes + c] ticks; -1: the robot is barred from edges of this class.
 struct ProblemArrays {
     std::span<const EdgeId> indptr;
     std::span<const VertexId> heads;
@@ -34,6 +34,7 @@ struct ProblemArrays {
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
     std::int32_t n_classes;
+    std::span<const Tick> surcharges = {};  // per length class: added to costs; empty: all 0
 };
 
 // Which bookings exclude each other where robots have sizes; empty where none has. A *row* is a
@@ -45,6 +46,14 @@ struct Resources {
     std::span<const std::int32_t> size_of;  // size class of each robot
     std::span<const std::int32_t> first;
     std::span<const std::int32_t> excluded;
+};
+
+// Bookings of nobody: row k of the booking table is closed from start[k] to end[k]. Where robots
+// have no sizes, row V + e is edge e.
+struct Closures {
+    std::span<const std::int32_t> row;
+    std::span<const Tick> start;
+    std::span<const Tick> end;
 };
 
 // How long robots turn on the spot between two edges that follow each other; empty where turning
@@ -79,8 +88,9 @@ struct Itinerary {
     std::span<const VertexId> stage_vertex;
     std::span<const Tick> stage_work;
     std::span<const Tick> stage_turn;
-    std::span<const std::int32_t> pace;  // ticks per edge of each length class
+    std::span<const std::int32_t> pace;  // ticks per edge of each length class; -1: barred
     Turns turns = {};
+    std::span<const Tick> surcharges = {};  // of each length class; empty: all 0
 
     std::size_t n_stages() const { return stage_vertex.size(); }
 
@@ -109,8 +119,8 @@ struct Itinerary {
 class Problem {
   public:
     // Borrows the arrays. Throws std::invalid_argument if the arrays do not fit together.
-    Problem(const ProblemArrays& arrays, const BookingRules& rules,
-            const Resources& resources = {}, const TurnArrays& turns = {});
+    Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources = {},
+            const TurnArrays& turns = {}, const Closures& closures = {});
 
     const Graph& graph() const { return roads_.graph; }
     const Roads& roads() const { return roads_; }
@@ -139,13 +149,28 @@ class Problem {
         return arrays_.paces.subspan(static_cast<std::size_t>(pace_of(robot)) * n, n);
     }
     Turns turns(RobotId robot) const;
-    // The ticks of a robot's quickest edge; 1 if the graph has no length class.
+    // The ticks of a robot's quickest edge, and of its slowest edge; 1 without an edge.
     Tick quickest_edge(RobotId robot) const;
+    Tick slowest_edge(RobotId robot) const;
+    // Whether some robot is barred from edges of some class.
+    bool is_barred() const { return is_barred_; }
+
+    // What an edge adds to costs.
+    Tick surcharge(EdgeId edge) const {
+        return arrays_.surcharges.empty() ? 0 : arrays_.surcharges[roads_.length_class[edge]];
+    }
+    bool has_surcharges() const { return !arrays_.surcharges.empty(); }
 
     bool has_sizes() const { return !resources_.first.empty(); }
-    // Without sizes, the rows are the vertices.
+    // Whether drives book edges: where robots have sizes, or an edge is closed.
+    bool books_edges() const { return has_sizes() || closes_edges_; }
+    const Closures& closures() const { return closures_; }
+    // Without sizes, the rows are the vertices, and the edges if drives book edges.
     std::int32_t n_rows() const {
-        return has_sizes() ? static_cast<std::int32_t>(resources_.first.size()) - 1 : n_vertices();
+        if (has_sizes()) {
+            return static_cast<std::int32_t>(resources_.first.size()) - 1;
+        }
+        return closes_edges_ ? n_resources() : n_vertices();
     }
     std::int32_t first_row(RobotId robot) const {
         return has_sizes() ? resources_.size_of[robot] * n_resources() : 0;
@@ -153,7 +178,7 @@ class Problem {
     std::int32_t vertex_row(RobotId robot, VertexId vertex) const {
         return first_row(robot) + vertex;
     }
-    // Only where robots have sizes.
+    // Only where drives book edges.
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
@@ -168,11 +193,11 @@ class Problem {
         return resources_.excluded.subspan(begin, end - begin);
     }
 
-    // The ticks of a robot's drive along an edge.
+    // The ticks of a robot's drive along an edge, -1 if it is barred.
     std::int32_t drive(RobotId robot, EdgeId edge) const {
         return arrays_.paces[pace_of(robot) * arrays_.n_classes + roads_.length_class[edge]];
     }
-    // The ticks of the drive from tail to head, -1 if the graph has no edge between them.
+    // The ticks of the drive from tail to head, -1 if no edge between them is open to the robot.
     std::int32_t drive(RobotId robot, VertexId tail, VertexId head) const {
         const EdgeId edge = graph().edge(tail, head);
         return edge < 0 ? -1 : drive(robot, edge);
@@ -190,12 +215,16 @@ class Problem {
     void check_robots() const;
     void check_resources() const;
     void check_turns() const;
+    void check_closures();
 
     ProblemArrays arrays_;
     Roads roads_;
     BookingRules rules_;
     Resources resources_;
     TurnArrays turns_;
+    Closures closures_;
+    bool closes_edges_ = false;
+    bool is_barred_ = false;
 };
 
 // One visit of a track. The visit ends at the `enter` of the next visit.

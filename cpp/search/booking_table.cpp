@@ -51,6 +51,7 @@ void BookingTable::book(std::int32_t row, const Booking& time, RobotId robot) {
 }
 
 void BookingTable::insert(std::int32_t row, const Booking& time, RobotId robot) {
+    has_closures_ |= robot == nobody;
     Row& one = rows_[static_cast<std::size_t>(row)];
     if (one.size_class < 0 || one.size == (std::int32_t{1} << one.size_class)) {
         grow(one);

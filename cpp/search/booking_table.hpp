@@ -39,11 +39,14 @@ class BookingTable {
     // overlap with a booking of another robot.
     void book(std::int32_t row, const Booking& time, RobotId robot);
 
-    // Adds a booking without checks; bookings may overlap.
+    // Adds a booking without checks; bookings may overlap. A booking of nobody is a closure.
     void insert(std::int32_t row, const Booking& time, RobotId robot);
 
     // Removes the robot's booking with this start, if the row has one.
     void erase(std::int32_t row, Tick start, RobotId robot);
+
+    // Whether there are bookings of nobody, which no robot can be moved from.
+    bool has_closures() const { return has_closures_; }
 
     // The number of bookings with start <= time.
     static std::int32_t started(std::span<const BookedBy> bookings, Tick time) {
@@ -69,6 +72,7 @@ class BookingTable {
 
     std::vector<Row> rows_;
     std::vector<BookedBy> pool_;
+    bool has_closures_ = false;
     std::array<std::vector<std::uint32_t>, 32> unused_;  // freed places by size class
 };
 

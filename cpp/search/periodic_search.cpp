@@ -144,6 +144,9 @@ void PeriodicSearch::drive(std::int32_t from, EdgeId edge, std::int32_t stage, T
         return;
     }
     const std::int32_t ticks = trip_->pace[static_cast<std::size_t>(roads_.length_class[e])];
+    if (ticks == barred) {
+        return;
+    }
     const Tick soonest = here.enter + dwell + ticks;
     const Tick last =
         std::min(here.gap.end == never ? never : here.gap.end - circle_.headway(), latest - left);

@@ -31,11 +31,16 @@ void SafeIntervalSearch::begin(const SearchRequest& errand) {
     goal_ = none;
     mask_ = first_slots - 1;
     greed_ = errand.greed;
-    has_one_label_ = prices_.empty() || greed_ > 0;
+    // Overlaps that no price buys make an earlier, dearer node worth keeping.
+    has_one_label_ = (prices_.empty() && trip_->surcharges.empty()) ||
+                     (greed_ > 0 && !bookings_->has_closures());
     next_generation();
     measure_stages(errand.trip);
-    const auto& pace = trip_->pace;
-    least_drive_ = pace.empty() ? 1 : *std::min_element(pace.begin(), pace.end());
+    least_drive_ = never;
+    for (const std::int32_t ticks : trip_->pace) {
+        least_drive_ = ticks == barred ? least_drive_ : std::min<Tick>(least_drive_, ticks);
+    }
+    least_drive_ = least_drive_ == never ? 1 : least_drive_;
     least_f_ = least_end();
     is_aiming_ = false;
 }
@@ -233,8 +238,13 @@ void SafeIntervalSearch::stay_on(std::int32_t node) {
 void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     const Node& here = nodes_[static_cast<std::size_t>(node)];
     const auto from = at(here.vertex);
-    const std::int32_t ticks = trip_->pace[roads_.length_class[edge]];
+    const std::int32_t length_class = roads_.length_class[edge];
+    const std::int32_t ticks = trip_->pace[length_class];
+    if (ticks == barred) {
+        return;
+    }
     Node candidate = here;
+    candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[length_class];
     candidate.vertex = roads_.graph.indices[edge];
     candidate.ready += trip_->turns.between(here.edge, edge) + ticks;
     candidate.parent = node;
@@ -246,7 +256,7 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_) {
         return;
     }
-    const Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - here.cost);
+    const Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - candidate.cost);
     const Tick approach = rules_.books_ahead ? ticks : 0;
     const auto along = books_edges_ ? at(roads_.graph.n_vertices() + edge) : no_bookings;
     if (prices_.empty()) {
@@ -369,7 +379,8 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
     for (auto j = static_cast<std::size_t>(before.gap);
          j < from.size() && from[j].time.start == candidate.ready; ++j) {
         for (std::int32_t k = candidate.gap; k > 0 && to[k - 1].reach >= candidate.ready; --k) {
-            if (to[k - 1].time.end == candidate.ready && to[k - 1].robot == from[j].robot) {
+            if (to[k - 1].time.end == candidate.ready && to[k - 1].robot == from[j].robot &&
+                from[j].robot != nobody) {
                 sum += price(from[j].robot);
             }
         }
@@ -378,7 +389,7 @@ Tick SafeIntervalSearch::price_of_swaps(const Node& candidate) const {
 }
 
 Tick SafeIntervalSearch::price(RobotId robot) const {
-    return prices_.empty() ? never : prices_[static_cast<std::size_t>(robot)];
+    return prices_.empty() || robot == nobody ? never : prices_[static_cast<std::size_t>(robot)];
 }
 
 // Adds a node unless a node of its state is as early and as cheap.

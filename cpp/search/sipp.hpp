@@ -17,6 +17,9 @@
 // Where robots have sizes, a drive also needs its edge to be free of bookings: within one gap of
 // the head, the earliest drive that does is the best.
 //
+// Closures are bookings of nobody: they have no price and swap with no robot. Surcharges of edges
+// count as costs, as prices do.
+//
 // One object serves many searches: nodes, heap and state table keep their memory; a generation
 // stamp replaces clearing.
 //
@@ -69,7 +72,7 @@ class SafeIntervalSearch {
   private:
     struct Node {
         Tick ready;  // earliest start of the next drive
-        Tick cost;   // prices paid
+        Tick cost;   // prices paid, and surcharges of edges
         VertexId vertex;
         std::int32_t gap;  // number of bookings of the vertex that are over or paid for
         std::int32_t stage;
@@ -126,7 +129,7 @@ class SafeIntervalSearch {
     BookingRules rules_;
     const Trip* trip_ = nullptr;
     const BookingTable* bookings_ = nullptr;
-    bool books_edges_ = false;  // robots have sizes
+    bool books_edges_ = false;  // drives book edges
     std::span<const Tick> prices_;
     Tick limit_ = never;
     std::vector<Tick> to_go_;      // least ticks from each stage's vertex to completion

@@ -13,8 +13,8 @@ import numpy as np
 
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits, shown
-from rightofway.model import Plan, PlannerRun, Scenario, Track, checked_time_limit
-from rightofway.model.problem import refuse_turn_rates
+from rightofway.model import Plan, PlannerRun, Problem, Scenario, Track, checked_time_limit
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.model.zones import listed_only
 from rightofway.planners import (
@@ -180,7 +180,7 @@ def _run(
     on_plan: Callable[[Plan], None] | None,
 ) -> Plan:
     # These load the native core: not for help.
-    from rightofway.planners.impossible import refuse_stranded
+    from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
     from rightofway.search import alone_completions
 
     if task.scenario.problem.resources is not None and not spec.knows_sizes:
@@ -189,9 +189,7 @@ def _run(
             why = "it leaves swaps, and robots with a size collide in them"
             raise InputError.at("", f"planner {spec.name} is for points: {why} (choose {able})")
         refuse_sizes(task.scenario.problem.resources, f"planner {spec.name}", f"choose {able}")
-    if not spec.knows_turns:
-        able = " or ".join(one.name for one in registered().values() if one.knows_turns)
-        refuse_turn_rates(task.scenario.problem, f"planner {spec.name}", f"choose {able}")
+    _refuse_unknown(spec, task.scenario.problem)
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -203,6 +201,7 @@ def _run(
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
+        refuse_closed_ways(task.scenario, deadline)
         least_visits = _least_visits(task.scenario, alone.tolist())
         task = replace(
             task,
@@ -233,6 +232,20 @@ def _run(
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     return plan
+
+
+def _refuse_unknown(spec: PlannerSpec, problem: Problem) -> None:
+    """Refuse turn rates, closures and barred edges to planners that do not know them."""
+    if not spec.knows_turns:
+        able = " or ".join(one.name for one in registered().values() if one.knows_turns)
+        refuse_turn_rates(problem, f"planner {spec.name}", f"choose {able}")
+    if not spec.knows_closures:
+        able = " or ".join(one.name for one in registered().values() if one.knows_closures)
+        refuse_closures(problem, f"planner {spec.name}", f"choose {able}")
+    if problem.is_barred and not spec.knows_types:
+        able = " or ".join(one.name for one in registered().values() if one.knows_types)
+        message = f"planner {spec.name} does not know edges that are barred for types of robots"
+        raise InputError.at("", f"{message} (choose {able})")
 
 
 def _drafted(spec: PlannerSpec, task: Task) -> Draft:
@@ -286,5 +299,5 @@ def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:
     visits = 0
     for itinerary, ticks in zip(scenario.problem.itineraries, alone, strict=True):
         dwell = sum(stage.work + stage.turn for stage in itinerary.stages)
-        visits += max(ticks - dwell, 0) // min(itinerary.edge_ticks, default=1)
+        visits += max(ticks - dwell, 0) // itinerary.quickest_edge
     return visits

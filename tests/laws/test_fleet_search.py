@@ -62,14 +62,14 @@ def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
             return
     first = searches[0].tracks()
     assert judged(scenario, first)
-    assert searches[0].flowtime == sum(completions_of(scenario, first))
+    assert searches[0].cost == sum(completions_of(scenario, first))
     for search in searches:
-        before = search.flowtime
+        before = search.cost
         search.improve(3000, patience=10**9)
-        assert search.flowtime <= before
+        assert search.cost <= before
     better = searches[0].tracks()
     assert judged(scenario, better)
-    assert searches[0].flowtime == sum(completions_of(scenario, better))
+    assert searches[0].cost == sum(completions_of(scenario, better))
     assert all(search.tracks() == better for search in searches)
 
 
@@ -86,7 +86,7 @@ def test_tracks_that_are_taken_over_come_back_as_they_are(scenario: Scenario) ->
     if one.prioritize(range(len(scenario.robots)), searches=500, time_limit=None):
         other.start(one.tracks())
         assert other.tracks() == one.tracks()
-        assert other.flowtime == one.flowtime
+        assert other.cost == one.cost
 
 
 @law
@@ -100,7 +100,7 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
         before = search.tracks()
         search.retime()
         assert search.tracks() == tuple(graph_of(scenario, before).tracks())
-        assert search.flowtime == sum(completions_of(scenario, search.tracks()))
+        assert search.cost == sum(completions_of(scenario, search.tracks()))
 
 
 def test_tracks_that_break_the_rules_are_not_taken_over() -> None:
@@ -115,7 +115,7 @@ def test_a_fleet_that_cannot_do_better_ends_at_once() -> None:
     scenario = random_fleet(3, robots=1)
     search = search_of(scenario)
     search.prioritize([0], searches=1, time_limit=None)
-    assert search.flowtime == search.alone().sum()
+    assert search.cost == search.alone().sum()
     assert search.improve(10**9, patience=10**9) <= 32
 
 

@@ -1,17 +1,21 @@
-"""The least flowtime of a few robots with sizes: a search over where all of them are.
+"""The least flowtime of a few robots: a search over where all of them are.
 
 One way trips without work and headway. In each tick a robot stands, drives or is done for ever;
-what it books in that tick must not exclude what any other robot books.
+what it books in that tick must not exclude what any other robot books, and must not be closed.
+Points may book one vertex only; two points do not exchange vertices, and fleets of three points
+that book one vertex are not searched: they could rotate.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import combinations, product
 from typing import NamedTuple
 
 from rightofway.model import Scenario
+from tests.oracles.closures import begins, ends, is_shut
 from tests.oracles.space import Shape, drive, incompatible, zones_around, zones_with
 
 
@@ -31,10 +35,26 @@ class _Fleet:
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
+        self.books_ahead = scenario.rules.occupancy == "both"
+        assert self.books_ahead or len(scenario.robots) < 3, "three points may rotate"
+        self.closed: dict[tuple[int, Shape, int], bool] = {}
         self.excludes: dict[tuple[int, Shape, int, Shape], bool] = {}
+
+    def is_closed(self, robot: int, booked: list[Shape], tick: int) -> bool:
+        """Return whether something that a robot books in a tick is closed."""
+        places = [shape for shape in booked if shape[0] >= 0]  # the others are zones
+        for shape in places:
+            key = (robot, shape, tick)
+            if key not in self.closed:
+                now = Fraction(tick)
+                self.closed[key] = is_shut(self.scenario, robot, shape, now, now + 1)
+        return any(self.closed[robot, shape, tick] for shape in places)
 
     def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:
         """Return whether robots i and j book shapes that exclude each other."""
+        if not self.books_ahead:  # points: only vertices exclude each other
+            one = [shape for shape in one if len(shape) == 1]
+            other = [shape for shape in other if len(shape) == 1]
         for x, y in product(one, other):
             if (i, x, j, y) not in self.excludes:
                 self.excludes[i, x, j, y] = incompatible(self.scenario, i, x, j, y)
@@ -50,7 +70,8 @@ class _Fleet:
         elif state.left:
             left, edge = state.left - 1, (state.vertex, state.head)
             along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
-            booked = [*here, (state.head,), edge, *((-1 - zone,) for zone in along | ahead)]
+            booked = [*here, edge, *((-1 - zone,) for zone in along | ahead)]
+            booked += [(state.head,)] if self.books_ahead else []
             if left:
                 yield state._replace(left=left), booked, 1
                 return
@@ -74,23 +95,41 @@ class _Fleet:
 def least_flowtime(scenario: Scenario) -> int | None:
     """Return the least sum of completions [ticks], None where there is no plan."""
     fleet, robots = _Fleet(scenario), range(len(scenario.robots))
-    start = tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries)
+    moments = [begins(scenario, closure) for closure in scenario.closures]
+    moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
+    horizon = max(moments, default=0)  # nothing is opened or closed later
+    start = (0, tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries))
     best = {start: 0}
-    heap = [(0, start)]
+    heap = [(0, *start)]
     while heap:
-        cost, states = heappop(heap)
-        if all(state.is_done for state in states):
+        cost, tick, states = heappop(heap)
+        if tick == horizon and all(
+            state.is_done and not fleet.is_closed(robot, [(state.vertex,)], tick)
+            for robot, state in enumerate(states)
+        ):
             return cost
-        if best[states] < cost:
+        if best[tick, states] < cost:
             continue
-        for chosen in product(*(list(fleet.actions(robot, states[robot])) for robot in robots)):
+        open_now = [
+            [each for each in fleet.actions(k, states[k]) if not fleet.is_closed(k, each[1], tick)]
+            for k in robots
+        ]
+        for chosen in product(*open_now):
+            after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
             if any(
-                fleet.clash(i, chosen[i][1], j, chosen[j][1]) for i, j in combinations(robots, 2)
+                fleet.clash(i, chosen[i][1], j, chosen[j][1])
+                or _exchanges(states[i], after[1][i], states[j], after[1][j])
+                for i, j in combinations(robots, 2)
             ):
                 continue
-            after = tuple(each[0] for each in chosen)
             total = cost + sum(each[2] for each in chosen)
             if total < best.get(after, total + 1):
                 best[after] = total
-                heappush(heap, (total, after))
+                heappush(heap, (total, *after))
     return None
+
+
+def _exchanges(one: State, one_after: State, other: State, other_after: State) -> bool:
+    """Tell whether two robots exchange their vertices at the end of a tick."""
+    moves = one.vertex != one_after.vertex
+    return moves and one_after.vertex == other.vertex and other_after.vertex == one.vertex

@@ -164,7 +164,7 @@ def test_bad_questions_are_value_errors_with_the_value() -> None:
 def test_bad_tables_are_value_errors_and_too_long_ways_overflow_errors() -> None:
     with pytest.raises(ValueError, match=r"indices\[1\]: 3 is not in 0\.\.2"):
         DistanceTables(int32(0, 1, 2, 2), int32(1, 3))
-    with pytest.raises(ValueError, match=r"edge_ticks\[0\]: 0 is not positive"):
+    with pytest.raises(ValueError, match=r"edge_ticks\[0\]: 0 is neither positive nor -1"):
         line().to(2, int32(0, 4))
     with pytest.raises(OverflowError, match="4294967294 ticks do not fit int32"):
         line().to(2, int32(2**31 - 1, 2**31 - 1))

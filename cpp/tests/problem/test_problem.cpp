@@ -147,7 +147,7 @@ TEST_CASE("a plan knows who is in the way of a track, by booking or by swap") {
     FleetPlan plan(distances.problem());
     TimedTrack there{{{0, 5, 0}, {1, 6, 1}, {2, 7, 1}}, 2};
     plan.exchange(0, there);
-    CHECK(plan.flowtime() == 2);
+    CHECK(plan.cost() == 2);
     std::vector<RobotId> met;
     const TimedTrack into{{{0, 12, 0}, {3, 7, 3}}, 3};
     CHECK_FALSE(plan.fits(1, into));
@@ -197,7 +197,7 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
         CHECK(second.run(n_searches, true, test::no_deadline, test::no_deadline) == is_found);
         if (is_found) {
             CHECK(is_sound(distances, two));
-            CHECK(one.flowtime() == two.flowtime());
+            CHECK(one.cost() == two.cost());
         }
     }
 }
@@ -214,12 +214,12 @@ TEST_CASE("planning in turn takes the better one of the patient plan and the one
             Prioritized planner(distances, alone, is_hasty ? hasty : patient);
             planner.start(in_turn(distances));
             REQUIRE(planner.run(1000, test::no_deadline) == SearchEnd::found);
-            flowtime[is_hasty ? 1 : 0] = alone.flowtime();
+            flowtime[is_hasty ? 1 : 0] = alone.cost();
         }
         FleetPlan plan(distances.problem());
         REQUIRE(PrioritizedPortfolio(distances, plan, in_turn(distances))
                     .run(1000, true, test::no_deadline, test::no_deadline));
-        CHECK(plan.flowtime() == std::min(flowtime[0], flowtime[1]));
+        CHECK(plan.cost() == std::min(flowtime[0], flowtime[1]));
         has_either_won[0] |= flowtime[0] < flowtime[1];
         has_either_won[1] |= flowtime[1] < flowtime[0];
     }
@@ -267,15 +267,15 @@ TEST_CASE("a plan in which all leave home late is retimed to what it would be wi
             for (std::size_t k = 1; k < track.visits.size(); ++k) {
                 track.visits[k].enter += 7;
             }
-            track.completion += 7;
+            track.cost += 7;
             late.exchange(robot, track);
         }
-        const Tick before = prompt.flowtime();
+        const Tick before = prompt.cost();
         prompt.retime();
         late.retime();
-        CHECK(prompt.flowtime() <= before);
+        CHECK(prompt.cost() <= before);
         CHECK(late.tracks().enter == prompt.tracks().enter);
-        CHECK(late.flowtime() == prompt.flowtime());
+        CHECK(late.cost() == prompt.cost());
         CHECK(is_sound(distances, late));
     }
 }
@@ -292,11 +292,11 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
         improver.run(300, 1000, test::no_deadline, test::no_deadline);
         CHECK(improver.n_tasks() == 300);
         CHECK(is_sound(distances, plans[k]));
-        CHECK(plans[k].flowtime() < first.flowtime());
-        CHECK(plans[k].flowtime() == plans[0].flowtime());
+        CHECK(plans[k].cost() < first.cost());
+        CHECK(plans[k].cost() == plans[0].cost());
     }
     for (RobotId robot = 0; robot < distances.problem().n_robots(); ++robot) {
-        CHECK(plans[0].track(robot).completion == plans[2].track(robot).completion);
+        CHECK(plans[0].track(robot).cost == plans[2].track(robot).completion);
     }
 }
 
@@ -332,9 +332,9 @@ TEST_CASE("a plan that is stuck gets better among others, whatever the number of
         population.run(6'000, 1 << 30, test::no_deadline, test::no_deadline);
         CHECK(population.n_tasks() == 6'000);
         CHECK(is_sound(distances, plans[k]));
-        CHECK(plans[k].flowtime() < stuck.flowtime());
+        CHECK(plans[k].cost() < stuck.cost());
         for (RobotId robot = 0; robot < distances.problem().n_robots(); ++robot) {
-            CHECK(plans[k].track(robot).completion == plans[0].track(robot).completion);
+            CHECK(plans[k].track(robot).cost == plans[0].track(robot).completion);
         }
     }
 }
@@ -358,7 +358,7 @@ TEST_CASE("one plan comes before a population, and both end when patience does")
         parts.run(1 << 30, 3000, test::no_deadline, [] { return true; });
     }
     CHECK(parts.n_tasks() == whole.n_tasks());
-    CHECK(with_pauses.flowtime() == in_one_go.flowtime());
+    CHECK(with_pauses.cost() == in_one_go.cost());
 }
 
 TEST_CASE("an interrupted population leaves the best plan, and says who interrupted") {
@@ -367,7 +367,7 @@ TEST_CASE("an interrupted population leaves the best plan, and says who interrup
     SharedDistances distances(problem);
     const auto bounds = alone(distances);
     FleetPlan plan = planned(distances);
-    const Tick before = plan.flowtime();
+    const Tick before = plan.cost();
     Population population(distances, plan, bounds, 5, 2, 0);
     int n_questions = 0;
     const auto interrupt = [&n_questions]() -> bool {
@@ -376,7 +376,7 @@ TEST_CASE("an interrupted population leaves the best plan, and says who interrup
     CHECK_THROWS_AS(population.run(1 << 30, 1 << 30, interrupt, test::no_deadline),
                     std::runtime_error);
     CHECK(is_sound(distances, plan));
-    CHECK(plan.flowtime() <= before);
+    CHECK(plan.cost() <= before);
     CHECK(population.n_tasks() < 1 << 30);
 }
 

@@ -5,6 +5,7 @@ It reads the scenario in ticks and the tracks, nothing else: no planner, no sear
 
 from __future__ import annotations
 
+from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
 from rightofway.check.space import judge_space
@@ -48,6 +49,8 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     Robots with a size book the edges that they drive along, too. Bookings of places that are nearer
     than the radii and the clearance allow must not overlap either, and no two robots may ever be
     nearer than that, at any instant of stays and straight, uniform drives; both are judged exactly.
+
+    A closure is a booking of nobody without headway; a robot's booking has its own.
     """
     visits = visits_of(plan)
     names = Names(plan.scenario, quantities or plan.scenario.quantities)
@@ -61,4 +64,6 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
         judge_rotations(visits, names, collector)
     judge_space(plan, visits, names, collector)
     judge_zones(plan, visits, names, collector)
+    judge_barred(visits, names, collector)
+    judge_closures(plan, visits, names, collector)
     return collector.report()

@@ -29,6 +29,8 @@ FaultKind = Literal[
     "space conflict",
     "too close",
     "zone conflict",
+    "closed",
+    "barred",
 ]
 """The ways a plan can be wrong.
 
@@ -49,6 +51,8 @@ FaultKind = Literal[
 ``space conflict``   two robots book places at one time that are too near for their sizes
 ``too close``        two robots come nearer to each other than their sizes and the clearance allow
 ``zone conflict``    two robots book one zone at the same time
+``closed``           a robot books a vertex or an edge while that is closed
+``barred``           a robot drives along an edge that is barred for its type
 ===================  ===============================================================================
 """
 

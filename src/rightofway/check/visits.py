@@ -33,7 +33,8 @@ class Visits:
     last: NDArray[np.bool_]  # whether it is its robot's last visit
     known: NDArray[np.bool_]  # whether the roadmap has the vertex
     edge: NDArray[np.int64]  # to the robot's next visit, -1 without one
-    drive: NDArray[Any]  # of that edge for that robot, 0 without one [ticks]
+    drive: NDArray[Any]  # of that edge for that robot, 0 without one or if barred [ticks]
+    barred: NDArray[np.bool_]  # whether that edge is barred for that robot
     angle: NDArray[np.int64]  # that the robot turns before that drive [1e-6 degrees]
     turn: NDArray[Any]  # how long that turn takes [ticks]
 
@@ -49,6 +50,7 @@ def visits_of(plan: Plan) -> Visits:
     robot = np.repeat(np.arange(len(lengths)), lengths)
     roadmap = plan.scenario.roadmap
     edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
+    drive = _drives(plan, robot, edge, enter.dtype)
     angle, turn = turns_of(plan, robot, vertex, edge)
     return Visits(
         robot=robot,
@@ -58,7 +60,8 @@ def visits_of(plan: Plan) -> Visits:
         last=last,
         known=(vertex >= 0) & (vertex < roadmap.n_vertices),
         edge=edge,
-        drive=_drives(plan, robot, edge, enter.dtype),
+        drive=np.maximum(drive, 0),
+        barred=np.array(drive < 0, bool),
         angle=angle,
         turn=turn.astype(enter.dtype),
     )
@@ -92,7 +95,7 @@ def _edges(
 def _drives(
     plan: Plan, robot: NDArray[np.int64], edge: NDArray[np.int64], integers: np.dtype[Any]
 ) -> NDArray[Any]:
-    """Return the ticks of each edge for its robot, 0 where there is none."""
+    """Return the ticks of each edge for its robot, 0 where there is none, -1 where it is barred."""
     paces: dict[tuple[int, ...], int] = {}
     pace_of = [
         paces.setdefault(itinerary.edge_ticks, len(paces))

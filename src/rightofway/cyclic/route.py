@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, InputFault
 from rightofway.model import Lap, Resources, Roadmap, Robot, Route, Scenario, Tick, VertexId, lap_of
-from rightofway.model.problem import refuse_turn_rates
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.planners import planning_headway
 from rightofway.planners.impossible import reaches_its_places
 from rightofway.planners.routing import (
@@ -224,6 +224,8 @@ def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[Cyclic
 
 def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
+    remedy = "take them out: what is closed once would be closed in every lap"
+    refuse_closures(scenario.problem, "repeated work", remedy)
     refuse_turn_rates(scenario.problem, "repeated work", "give turn, the time to turn at each stop")
     if scenario.rules.ends == "none" and all(one.ends != "home" for one in scenario.robots):
         raise InputError.at("rules.return", NOTHING_REPEATS)

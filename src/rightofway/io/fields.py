@@ -157,7 +157,9 @@ def _list_of(count: int, what: str, number: Callable[[object], Fraction]) -> Kin
 _Pair = tuple[Fraction, Fraction]
 _Four = tuple[Fraction, Fraction, Fraction, Fraction]
 
-Position = Annotated[_Pair, _list_of(2, "[x, y]", coordinate)]
+POSITION = _list_of(2, "[x, y]", coordinate)
+
+Position = Annotated[_Pair, POSITION]
 Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
 Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 

@@ -74,7 +74,9 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
         wanted[itinerary.edge_ticks].update(_legs(itinerary))
     roadmap = scenario.roadmap
     is_lattice = (
-        len(roadmap.lengths) <= 1 and np.bincount(roadmap.heads).max(initial=0) <= MOST_EDGES_IN
+        len(roadmap.lengths) <= 1
+        and np.bincount(roadmap.heads).max(initial=0) <= MOST_EDGES_IN
+        and not scenario.problem.is_barred
     )
     ways = (_by_edges if is_lattice else _by_ticks)(roadmap, wanted)
     blockages = [
@@ -155,7 +157,7 @@ def _dijkstra(
         for head, length in zip(
             roadmap.heads[edges].tolist(), roadmap.length_class[edges].tolist(), strict=True
         ):
-            if head not in settled:
+            if head not in settled and pace[length] > 0:
                 heappush(heap, (Tick(ticks + pace[length]), head))
     return {target: settled[target] for target in targets if target in settled}
 

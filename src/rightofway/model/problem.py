@@ -120,6 +120,11 @@ class Problem:
         return any(min(one.edge_ticks, default=1) < 0 for one in self.itineraries)
 
     @property
+    def is_open(self) -> bool:
+        """Whether nothing is closed, and every robot may drive along every edge."""
+        return self.closures is None and not self.is_barred
+
+    @property
     def turns(self) -> bool:
         """Whether a change of heading takes time for some robot."""
         return any(itinerary.turning is not None for itinerary in self.itineraries)
@@ -127,6 +132,27 @@ class Problem:
     def with_headway(self, headway: Tick) -> Problem:
         """Return the same problem with another headway [ticks]."""
         return self if headway == self.headway else replace(self, headway=headway)
+
+
+def refuse_closures(problem: Problem, what: str, remedy: str) -> None:
+    """Refuse a fleet for which something is closed for a while.
+
+    Parameters
+    ----------
+    problem
+        The fleet in ticks.
+    what
+        What does not know closures.
+    remedy
+        What to do instead.
+
+    Raises
+    ------
+    InputError
+        If there is a closure.
+    """
+    if problem.closures is not None:
+        raise InputError.at("", f"{what} does not know closures ({remedy})")
 
 
 def refuse_turn_rates(problem: Problem, what: str, remedy: str) -> None:

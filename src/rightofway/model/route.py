@@ -444,6 +444,25 @@ def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     return Tick(sum(completions_of(scenario, tracks)))
 
 
+def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return what planners minimize: the flowtime and the surcharges of all edges driven [ticks].
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    cost, roadmap = flowtime_of(scenario, tracks), scenario.roadmap
+    if roadmap.surcharges:
+        for itinerary, track in zip(scenario.problem.itineraries, tracks, strict=True):
+            edges = roadmap.edges(track.vertices[:-1], track.vertices[1:])
+            by_class = np.array(itinerary.surcharges, np.int64)
+            cost = Tick(cost + int(by_class[roadmap.length_class[edges]].sum()))
+    return cost
+
+
 def _edges_of_fleet(
     roadmap: Roadmap, tracks: Sequence[Track], ends: NDArray[np.int64]
 ) -> NDArray[np.int32]:
@@ -468,4 +487,4 @@ def _drives_of_fleet(
         [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
     )
     drives: NDArray[np.int64] = by_class[rows, length_class[edges]]
-    return drives
+    return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred

@@ -12,8 +12,8 @@ from contextlib import suppress
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
-from rightofway.model import flowtime_of
-from rightofway.model.problem import refuse_turn_rates
+from rightofway.model import cost_of
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.lns import improved, lns
 from rightofway.planners.prioritized import fleet_search
@@ -34,6 +34,7 @@ def auto(task: Task) -> Draft:
     """
     if task.options["swaps"] == "leave":
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
+        refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     explained = None
@@ -53,7 +54,7 @@ def auto(task: Task) -> Draft:
         better = improved(task, fleet_search(task), first=first)
     except GaveUp:
         return explained
-    before, after = (flowtime_of(task.scenario, one.tracks) for one in (explained, better))
+    before, after = (cost_of(task.scenario, one.tracks) for one in (explained, better))
     if after < before:
         return better
     return replace(explained, status=better.status, improvement=better.improvement)

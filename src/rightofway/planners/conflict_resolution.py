@@ -211,9 +211,9 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 
 
 def _plan_together(task: Task, because: str) -> Draft:
-    robots = range(len(task.scenario.robots))
+    robots, problem = range(len(task.scenario.robots)), task.scenario.problem
     found = None
-    if task.scenario.problem.resources is not None:
+    if problem.resources is not None or not problem.is_open:
         found = plan_in_turn(task, fleet_search(task), "shortest")
     return replace(
         found or plan_fleet(task),
@@ -266,11 +266,19 @@ class _Reservations:
         return evicted
 
     def blockers(self, robot: int) -> set[int]:
-        """Return the robots in the way of this one on its shortest route without waits."""
+        """Return the robots in the way of this one on its shortest route without waits.
+
+        With closures: on its best track among them.
+        """
         itinerary = self.itineraries[robot]
-        route = shortest_route(itinerary, self.distances)
-        enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
-        track = Track.of(route.vertices, list(enter))
+        track = None
+        if self.bookings.problem.closures is not None:
+            alone = Bookings(self.bookings.problem)
+            track = earliest_track(robot, alone, self.distances)
+        if track is None:
+            route = shortest_route(itinerary, self.distances)
+            enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
+            track = Track.of(route.vertices, list(enter))
         return self.bookings.in_the_way(robot, track)
 
 

@@ -31,9 +31,16 @@ from rightofway.model import (
     Track,
     VertexId,
 )
+from rightofway.model.closures import Closure
 from rightofway.model.resources import are_nearer, distance
 from rightofway.planners.task import Deadline
-from rightofway.search import Distances, alone_completions, untimed_lacam
+from rightofway.search import (
+    Bookings,
+    Distances,
+    alone_completions,
+    earliest_track,
+    untimed_lacam,
+)
 
 EFFORT = 4_000_000
 """Steps of robots in all trials of the deletion filter."""
@@ -233,6 +240,12 @@ def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Block
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
+            if distances.to(head, _unbarred(itinerary))[tail] >= 0:
+                kind = scenario.robots[robot].type
+                reason = f"{name} has no way from {place(tail)} to {place(head)}: edges are barred"
+                reason += f" for robots of type {kind} (open one, or give the robot other places)"
+                yield Blockage(reason, (name,), (place(tail), place(head)))
+                continue
             opening = parts.opening(tail, head)
             if opening:
                 first, last = map(place, opening)
@@ -242,6 +255,79 @@ def _missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Block
             reason = f"{name} has no way from {place(tail)} to {place(head)}: {why},"
             reason += " or give the robot other places)"
             yield Blockage(reason, (name,), (place(tail), place(head)))
+
+
+def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
+    """Return ticks of edges, each at least 1 also where the robot is barred."""
+    return tuple(max(ticks, Tick(1)) for ticks in itinerary.edge_ticks)
+
+
+def refuse_closed_ways(scenario: Scenario, deadline: Deadline) -> None:
+    """Raise if closures leave a robot no track, even if it is alone; distances are known.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    deadline
+        When to stop looking for the closures that block a robot.
+
+    Raises
+    ------
+    NoPlanExists
+        With each such robot, and closures that block it.
+    GaveUp
+        When time ran out before a robot was found to be free.
+    """
+    if scenario.problem.closures is None:
+        return
+    distances, found = Distances(scenario.roadmap), []
+    for robot in range(len(scenario.robots)):
+        deadline.check("looking for ways around closures")
+        if not _has_track_alone(scenario, robot, distances):
+            found.append(_closed_in(scenario, robot, distances, deadline))
+            if len(found) == MAX_REASONS:
+                break
+    if found:
+        raise NoPlanExists(found)
+
+
+def _has_track_alone(scenario: Scenario, robot: int, distances: Distances) -> bool:
+    return earliest_track(robot, Bookings(scenario.problem), distances) is not None
+
+
+def _closed_in(
+    scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
+) -> Blockage:
+    """Return why a robot has no track alone: a small set of closures that block it."""
+    left, name = list(scenario.closures), scenario.robots[robot].name
+    clock = scenario.problem.clock
+    for closure in scenario.closures if len(left) <= MOST_TRIALS else ():
+        fewer = [one for one in left if one is not closure]
+        trial = replace(scenario, closures=tuple(fewer), clock=clock)
+        if deadline.seconds_left() != 0 and not _has_track_alone(trial, robot, distances):
+            left = fewer
+    closed = [_closed_text(scenario, closure) for closure in left[:MAX_REASONS]]
+    itinerary = scenario.problem.itineraries[robot]
+    places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
+    return Blockage(
+        f"{name} cannot make its trip, even alone: {listed(closed)}"
+        " (open one of them earlier, or give the robot other places)",
+        (name,),
+        tuple(map(scenario.roadmap.name, places)),
+    )
+
+
+def _closed_text(scenario: Scenario, closure: Closure) -> str:
+    """Return what is closed, and when."""
+    name, quantities = scenario.roadmap.name, scenario.quantities
+    ticks, tick = scenario.problem.clock.ticks, scenario.problem.clock.tick
+    ends = closure.edge or ((closure.at,) if closure.at is not None else ())
+    what = " to ".join(map(name, ends))
+    begin = quantities.moment(int(closure.from_ // tick))
+    if closure.until is None:
+        return f"{what} is closed from {begin} on"
+    return f"{what} is closed from {begin} to {quantities.moment(ticks(closure.until))}"
 
 
 def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:

@@ -23,11 +23,12 @@ long as nine tenths of the time limit are enough for the timed search. Not optim
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import NoPlanExists
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Track, VertexId, route_through
 from rightofway.planners.impossible import (
     blocking_set,
@@ -57,13 +58,16 @@ def lacam(task: Task) -> Draft:
 
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
-    found = plan_by_instants(task, spreads=spreads)
-    if found is not None:
-        return found
     scenario, robots = task.scenario, len(task.scenario.robots)
+    if scenario.problem.is_open:
+        found = plan_by_instants(task, spreads=spreads)
+        if found is not None:
+            return found
     if scenario.problem.resources is not None:
         task.report("no end by instants: planning the order of single moves")
         return plan_by_moves(task, _search(task))
+    if not scenario.problem.is_open:
+        _refuse_or_give_up(task)
     task.report("no end by instants: planning the order of moves without clocks")
     refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
     left = task.deadline.seconds_left()
@@ -75,6 +79,27 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         raise NoPlanExists([found_set]) from None
     task.has_plan()
     return Draft(tracks=tuple(timetable_of(scenario, steps)), status="order of moves first")
+
+
+def _refuse_or_give_up(task: Task) -> NoReturn:
+    """Raise for points among closures and barred edges that find no plan one after another.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists: closures and barred edges leave no more moves.
+    GaveUp
+        Otherwise.
+    """
+    left = task.deadline.seconds_left()
+    try:
+        untimed_lacam(task.scenario.problem, seed=task.seed, time_limit=left)
+    except NoPlanExists:
+        everybody = range(len(task.scenario.robots))
+        found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+        raise NoPlanExists([found]) from None
+    message = "robots one after another find no plan that keeps clear of closures and barred edges"
+    raise GaveUp(f"{message} (give a longer time limit, or other places)")
 
 
 def plan_by_instants(task: Task, *, spreads: bool = True) -> Draft | None:

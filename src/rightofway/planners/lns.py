@@ -21,7 +21,7 @@ from dataclasses import replace
 from functools import partial
 
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Tick, Track, flowtime_of
+from rightofway.model import Improvement, Tick, Track, cost_of
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.moves import plan_by_moves, plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
@@ -57,18 +57,31 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 
     For a few robots with a size it begins with their best order of moves instead.
     """
-    has_sizes = task.scenario.problem.resources is not None
-    few = plan_few(task, search) if has_sizes else None
+    problem = task.scenario.problem
+    has_sizes = problem.resources is not None
+    few = plan_few(task, search) if has_sizes or problem.closures is not None else None
     found: tuple[Draft | None, ...] = (first, few)
-    if few is None:
+    if few is None and not problem.is_open:
+        found = (first, _if_found(task, search, needed=first is None))
+    elif few is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     plans = [plan for plan in found if plan is not None]
     if not plans and has_sizes:
         plans = [plan_by_moves(task, search)]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
-    best = min(plans, key=lambda plan: flowtime_of(task.scenario, plan.tracks))
+    best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
     return _improve(task, search, best)
+
+
+def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
+    """Plan robots one after another; where a plan is there already, finding none is no error."""
+    try:
+        return plan_in_turn(task, search, "shortest")
+    except GaveUp:
+        if needed:
+            raise
+        return None
 
 
 def _together(task: Task) -> Draft | None:
@@ -92,13 +105,13 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
     deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
-    bound, before = int(search.alone().sum()), search.flowtime
+    bound, before = int(search.alone().sum()), search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     done, ended = 0, ""
     try:
-        while search.flowtime != bound and done < iterations:
-            began, done_before, flowtime = time.perf_counter(), done, search.flowtime
+        while search.cost != bound and done < iterations:
+            began, done_before, cost = time.perf_counter(), done, search.cost
             done += search.improve(
                 iterations - done,
                 patience=patience,
@@ -106,33 +119,44 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            if search.flowtime < flowtime:
+            if search.cost < cost:
                 task.better(search.tracks)
-            reached = task.scenario.quantities.duration(search.flowtime)
-            gap = f", {search.flowtime / bound - 1:.1%} above the bound" if bound else ""
-            task.report(f"flowtime {reached}{gap}, {rate:.0f} attempts per s")
+            reached = task.scenario.quantities.duration(search.cost)
+            gap = f", {search.cost / bound - 1:.1%} above the bound" if bound else ""
+            what = "flowtime and surcharges" if task.scenario.roadmap.surcharges else "flowtime"
+            task.report(f"{what} {reached}{gap}, {rate:.0f} attempts per s")
             if search.idle >= patience or deadline.seconds_left() == 0:
                 break
     except KeyboardInterrupt:
         if not task.keep_best:
             raise
         ended = "interrupted: "
-    if search.flowtime < before:
-        # LNS replaces tracks, not waits: shift every visit to the earliest time that keeps the
-        # order at each vertex.
-        search.retime()
-    if search.flowtime == bound:
+    if search.cost < before:
+        _retime(task, search)
+    if search.cost == bound:
         status = f"optimal: every robot as fast as alone (first plan: {first.status})"
-    elif search.flowtime == before:
+    elif search.cost == before:
         status = f"{ended}{first.status}; {done} neighbourhoods found nothing better"
     else:
         status = f"{ended}improved by {done} neighbourhoods (first plan: {first.status})"
-    found, measured = search.tracks(), partial(flowtime_of, task.scenario)
+    found, measured = search.tracks(), partial(cost_of, task.scenario)
     if spaced is not first.tracks and measured(found) > measured(first.tracks):
         found = first.tracks  # the headway of planning costs more than the search gained
     saved = measured(first.tracks) - measured(found)
     made = Improvement(saved=Tick(saved), tries=done, interrupted=bool(ended))
     return Draft(tracks=found, status=status, improvement=made)
+
+
+def _retime(task: Task, search: FleetSearch) -> None:
+    """Shift every visit to the earliest time that keeps the order at each vertex.
+
+    LNS replaces tracks, not waits.
+    """
+    if task.scenario.problem.closures is None:
+        search.retime()
+    else:
+        graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
+        search.start(graph.tracks())
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:

@@ -1,4 +1,6 @@
-"""An order of single moves for robots with a size: where planning one after another finds no way.
+"""An order of single moves: where planning one after another finds no way.
+
+For robots with a size, and for a few robots among closures.
 
 A state is where all robots stand, and which stage each of them has to serve next. In a move, one
 robot drives along one edge while all others stand. A greedy search, nearest to the end first, looks
@@ -16,19 +18,20 @@ Notes
 Complete: the drives of any plan, in the order of their starts, are such moves, because a robot that
 drives has booked the vertex that it drives to. So if no order of moves exists, no plan does. The
 number of states grows with the power of the number of robots; the search ends undecided after
-`MOST_STATES`.
+`MOST_STATES`. Where points book one vertex only, moves are in the order of their ends, and three or
+more robots might rotate instead: then nothing is proven.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from heapq import heappop, heappush
-from itertools import count
+from heapq import heapify, heappop, heappush
+from itertools import count, product
 from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
-from rightofway.model import Resources, Tick, Track, VertexId, least_dwell
-from rightofway.planners.task import Draft, Task
+from rightofway.model import NEVER, Tick, Track, VertexId, least_dwell
+from rightofway.planners.task import Draft, Task, planning_problem
 from rightofway.search import Distances, FleetSearch
 
 MOST_STATES = 100_000
@@ -75,11 +78,16 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     NoPlanExists
         If no order of moves exists.
     GaveUp
-        After too many states, or when time ran out.
+        After too many states, or when time ran out. With closures the moves are a proof only,
+        because they have no times.
     """
     resources = task.scenario.problem.resources
     assert resources is not None, "this is for robots with a size"
-    search.start(_in_sequence(task, _moves(task, _Floor(task, resources), MOST_STATES)))
+    moves = _moves(task, _Floor(task), MOST_STATES)
+    if task.scenario.problem.closures is not None:
+        message = "robots one after another find no plan that keeps clear of closures"
+        raise GaveUp(f"{message} (give a longer time limit, or fewer closures)")
+    search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
     return Draft(tracks=search.tracks(), status="order of moves first")
@@ -106,8 +114,7 @@ def tracks_by_moves(task: Task, *, ends_anywhere: Collection[int], most_states: 
     """
     resources = task.scenario.problem.resources
     assert resources is not None, "this is for robots with a size"
-    floor = _Floor(task, resources, ends_anywhere)
-    return _in_sequence(task, _moves(task, floor, most_states))
+    return _in_sequence(task, _moves(task, _Floor(task, ends_anywhere), most_states))
 
 
 class _Timed(NamedTuple):
@@ -115,13 +122,16 @@ class _Timed(NamedTuple):
 
     `ready` is when each robot has worked and turned where it is, but for the turn to the next edge;
     `ends` when each robot's latest booking that excludes others from a row has ended, by row and
-    robot [ticks]; `edges` the edge along which each robot has come, -1 if it turns in no time.
+    robot; `leave_by` when the place of each robot is closed next; `enters` when each move has ended
+    [ticks]; `edges` the edge along which each robot has come, -1 if it turns in no time.
     """
 
     state: _State
     ready: tuple[int, ...]
     ends: dict[tuple[int, int], int]
+    leave_by: tuple[int, ...]
     moves: tuple[_Move, ...]
+    enters: tuple[int, ...]
     edges: tuple[int, ...]
 
     def is_as_early_as(self, other: _Timed) -> bool:
@@ -129,10 +139,10 @@ class _Timed(NamedTuple):
 
         Headings differ where robots that turn in some time have come along different edges.
         """
-        return (
-            self.edges == other.edges
-            and all(a <= b for a, b in zip(self.ready, other.ready, strict=True))
-            and all(end <= other.ends.get(key, 0) for key, end in self.ends.items())
+        if self.leave_by != other.leave_by or self.edges != other.edges:
+            return False
+        return all(a <= b for a, b in zip(self.ready, other.ready, strict=True)) and all(
+            end <= other.ends.get(key, 0) for key, end in self.ends.items()
         )
 
 
@@ -141,48 +151,46 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
 
     None for more than `FEW_ROBOTS`, after too many states, or when much of the time is over.
 
-    A* over orders of moves: each move takes place as early as all moves before it allow. A robot
-    works at a stop as soon as it is there.
+    A* over orders of moves: each move takes place as early as all moves before it allow, and each
+    time between two closures of a vertex is a place of its own. A robot works at a stop as soon as
+    it is there, or passes it because it is closed too soon.
 
     Parameters
     ----------
     task
-        The problem; its robots have sizes.
+        The problem; its robots have sizes, or something is closed.
     search
         The search for its fleet.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists.
     """
-    resources, deadline = task.scenario.problem.resources, task.deadline.sooner(SHARE)
-    assert resources is not None, "this is for robots with a size"
+    deadline = task.deadline.sooner(SHARE)
     if len(task.scenario.robots) > FEW_ROBOTS:
         return None
-    floor = _Floor(task, resources)
-    home = _State(tuple(one.home for one in floor.itineraries), floor.no_stage)
-    first = floor.served(home)
-    ready = tuple(
-        least_dwell(one.stages[:served], leaves=True)
-        for one, served in zip(floor.itineraries, first.stages, strict=True)
-    )
-    start = _Timed(first, ready, {}, (), (-1,) * len(ready))
+    floor = _Floor(task)
     order = count()
-    waiting = [(floor.least_flowtime(start), 0, start)]
-    known: dict[_State, list[_Timed]] = {start.state: [start]}
+    begins = floor.starts()
+    waiting = [(floor.least_flowtime(start), -next(order), start) for start in begins]
+    heapify(waiting)
+    known: dict[_State, list[_Timed]] = {}
+    for start in begins:
+        known.setdefault(start.state, []).append(start)
     for expanded in count():
-        if not waiting or expanded == MOST_STATES_IN_TIME:
-            return None
-        if expanded % BETWEEN_CHECKS == 0 and deadline.seconds_left() == 0:
+        if not waiting and floor.is_proof:
+            raise NoPlanExists([_blockage(task)])
+        is_over = expanded % BETWEEN_CHECKS == 0 and deadline.seconds_left() == 0
+        if not waiting or expanded == MOST_STATES_IN_TIME or is_over:
             return None
         _, _, here = heappop(waiting)
         if not any(here is one for one in known[here.state]):
             continue  # another one is as early
-        if floor.to_go(here.state) == 0:
-            search.start(_in_sequence(task, list(here.moves)))
-            search.retime()
-            task.has_plan()
-            best = "best order of moves" if resources.is_exact else "an order of moves"
-            return Draft(tracks=search.tracks(), status=best)
-        for move, state in floor.successors(here.state):
-            after = floor.moved(here, move, state)
-            others = known.setdefault(state, [])
+        if floor.to_go(here.state) == 0 and min(here.leave_by) == NEVER:
+            return _draft_of(task, search, floor, here)
+        for after in floor.timed_successors(here):
+            others = known.setdefault(after.state, [])
             if any(other.is_as_early_as(after) for other in others):
                 continue
             others[:] = [other for other in others if not after.is_as_early_as(other)]
@@ -191,14 +199,26 @@ def plan_few(task: Task, search: FleetSearch) -> Draft | None:
     raise AssertionError("the loop ends by itself")
 
 
+def _draft_of(task: Task, search: FleetSearch, floor: _Floor, timed: _Timed) -> Draft:
+    """Return the plan of timed moves."""
+    if task.scenario.problem.closures is None:
+        search.start(_in_sequence(task, list(timed.moves)))
+        search.retime()
+    else:
+        search.start(_at_times(floor, timed))
+    task.has_plan()
+    best = "best order of moves" if floor.is_exact else "an order of moves"
+    return Draft(tracks=search.tracks(), status=best)
+
+
 def _moves(task: Task, floor: _Floor, most_states: int) -> list[_Move]:
-    """Return moves that bring all robots through their trips."""
+    """Return moves that bring all robots through their trips, at no times."""
     start = floor.served(_State(tuple(one.home for one in floor.itineraries), floor.no_stage))
     came_from: dict[_State, tuple[_State, _Move] | None] = {start: None}
     order = count()  # of equally near states, the latest first
     waiting = [(floor.to_go(start), 0, start)]
     for expanded in count():
-        if not waiting and floor.resources.is_exact:
+        if not waiting and floor.is_exact:
             raise NoPlanExists([_blockage(task)])
         if not waiting:
             raise GaveUp("no order of moves keeps robots clear of the zones (give more room)")
@@ -227,21 +247,30 @@ def _path(came_from: dict[_State, tuple[_State, _Move] | None], state: _State) -
 def _blockage(task: Task) -> Blockage:
     names = tuple(robot.name for robot in task.scenario.robots)
     who = listed(names) if len(names) <= MOST_NAMED else f"all {len(names)} robots"
-    message = f"{who} have no room to pass each other (give more room, or other places)"
+    what = "have no room to pass each other"
+    if task.scenario.problem.closures is not None:
+        what += " at the times that closures leave them"
+    message = f"{who} {what} (give more room, or other places)"
     return Blockage(message, names, ())
 
 
 class _Floor:
     """The moves of a fleet, and how far a state is from the end."""
 
-    def __init__(
-        self, task: Task, resources: Resources, ends_anywhere: Collection[int] = ()
-    ) -> None:
-        self.itineraries = task.scenario.problem.itineraries
+    def __init__(self, task: Task, ends_anywhere: Collection[int] = ()) -> None:
+        problem = task.scenario.problem
+        if problem.closures is not None:
+            problem = planning_problem(task.scenario)
+        may_rotate = not problem.books_ahead and len(problem.itineraries) > 2  # noqa: PLR2004
+        self.is_exact = problem.resources is None or problem.resources.is_exact
+        is_headway = problem.headway == task.scenario.problem.headway
+        self.is_proof = self.is_exact and is_headway and not may_rotate
+        self.itineraries = problem.itineraries
         self.no_stage = (0,) * len(self.itineraries)
-        self._roadmap, self.resources = task.scenario.roadmap, resources
+        self._roadmap, self._resources = task.scenario.roadmap, problem.resources
         self._excluded: dict[int, int] = {}
-        self._headway = task.scenario.problem.headway
+        self._headway, self._ahead = problem.headway, problem.books_ahead
+        self._closures = problem.closures
         self._dwells = [
             [
                 sum(stage.work + stage.turn for stage in one.stages[k:-1]) + one.stages[-1].work
@@ -263,6 +292,50 @@ class _Floor:
             ]
             for one, ways in zip(self.itineraries, self._ways, strict=True)
         ]
+
+    def _vertex_row(self, robot: int, vertex: int) -> int:
+        """Return the row that a robot books at a vertex; points book the vertex itself."""
+        return vertex if self._resources is None else self._resources.vertex_row(robot, vertex)
+
+    def _edge_row(self, robot: int, edge: int) -> int:
+        return self._vertex_row(robot, self._roadmap.n_vertices + edge)
+
+    def _excluded_rows(self, row: int) -> list[int]:
+        """Return the rows that a booking excludes; points exclude each other from vertices."""
+        if self._resources is not None:
+            rows: list[int] = self._resources.excluded_by(row).tolist()
+            return rows
+        return [row] if row < self._roadmap.n_vertices else []
+
+    def _closed_at(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
+        return [] if self._closures is None else self._closures.at_vertex(robot, vertex)
+
+    def _closed_along(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
+        return [] if self._closures is None else self._closures.along_edge(robot, edge)
+
+    def starts(self) -> list[_Timed]:
+        """Return the fleet at home; a robot may work there at once, or later."""
+        home = _State(tuple(one.home for one in self.itineraries), self.no_stage)
+        all_served = self.served(home)
+        leave_by = tuple(
+            min((start for start, _ in self._closed_at(robot, place)), default=NEVER)
+            for robot, place in enumerate(home.places)
+        )
+        choices = product(
+            *(
+                range(served + 1) if soon < NEVER else [served]
+                for served, soon in zip(all_served.stages, leave_by, strict=True)
+            )
+        )
+        found = []
+        for stages in choices:
+            ready = tuple(
+                least_dwell(one.stages[:served], leaves=True)
+                for one, served in zip(self.itineraries, stages, strict=True)
+            )
+            state = _State(home.places, stages)
+            found.append(_Timed(state, ready, {}, leave_by, (), (), (-1,) * len(ready)))
+        return found
 
     def served(self, state: _State) -> _State:
         """Return the state after each robot has served its stages where it stands."""
@@ -287,33 +360,77 @@ class _Floor:
         dwells = sum(dwells[stage] for dwells, stage in to_come)
         return sum(timed.ready) + dwells + self.to_go(timed.state)
 
-    def moved(self, timed: _Timed, move: _Move, state: _State) -> _Timed:
-        """Return what comes of a move that takes place as early as it can."""
-        robot, resources = move.robot, self.resources
-        along = resources.edge_row(robot, move.edge)
-        needed = {along, resources.vertex_row(robot, move.vertex)}
-        begin = timed.ready[robot]
+    def timed_successors(self, timed: _Timed) -> Iterator[_Timed]:
+        """Yield what comes of every move that takes place as early as it can.
+
+        Between any two closures of the vertex that it leads to, and with any number of stages
+        served there that closures may leave time for.
+        """
+        for move, state in self.successors(timed.state):
+            for enter, leave_by in self._enters(timed, move):
+                robot, all_served = move.robot, state.stages[move.robot]
+                before = timed.state.stages[robot]
+                least = before if leave_by < NEVER else all_served
+                for served in range(least, all_served + 1):
+                    stages = (*state.stages[:robot], served, *state.stages[robot + 1 :])
+                    after = _State(state.places, stages)
+                    yield self._moved(timed, move, after, enter, leave_by)
+
+    def _enters(self, timed: _Timed, move: _Move) -> Iterator[tuple[int, int]]:
+        """Yield when a move can end at the earliest, and when its vertex is closed next."""
+        robot = move.robot
+        drive = self.itineraries[robot].edge_ticks[self._roadmap.length_class[move.edge]]
+        approach = drive if self._ahead else 0
+        needed = {self._edge_row(robot, move.edge), self._vertex_row(robot, move.vertex)}
+        enter = timed.ready[robot] + drive
+        turning = self.itineraries[robot].turning
+        if turning is not None:
+            enter += turning.of(timed.edges[robot], move.edge)
         for (row, other), end in timed.ends.items():
             if other != robot and row in needed:
-                begin = max(begin, end)
-        itinerary, edges = self.itineraries[robot], timed.edges
-        if itinerary.turning is not None:
-            turned = timed.ready[robot] + itinerary.turning.of(edges[robot], move.edge)
-            begin = max(begin, turned)
-            edges = (*edges[:robot], move.edge, *edges[robot + 1 :])
-        enter = begin + itinerary.edge_ticks[self._roadmap.length_class[move.edge]]
+                enter = max(enter, end + approach)
+        closed = self._closed_at(robot, move.vertex)
+        opens = [0, *(end for _, end in closed)]
+        closes = [*(start for start, _ in closed), NEVER]
+        along = self._closed_along(robot, move.edge)
+        for begin, end in zip(opens, closes, strict=True):
+            enter = max(enter, begin + approach)
+            for start, until in along:
+                if start < enter + self._headway and enter - drive < until:
+                    enter = until + drive
+            if begin == NEVER or enter + self._headway > timed.leave_by[robot]:
+                return
+            if enter - approach < end:
+                yield enter, end
+
+    def _moved(
+        self, timed: _Timed, move: _Move, state: _State, enter: int, leave_by: int
+    ) -> _Timed:
+        """Return what comes of a move that ends at a tick."""
+        robot, itinerary = move.robot, self.itineraries[move.robot]
         served = itinerary.stages[timed.state.stages[robot] : state.stages[robot]]
         ready = enter + least_dwell(served, leaves=True)
         ends = dict(timed.ends)
-        for left in (along, resources.vertex_row(robot, timed.state.places[robot])):
-            for row in resources.excluded_by(left).tolist():
+        along = self._edge_row(robot, move.edge)
+        for left in (along, self._vertex_row(robot, timed.state.places[robot])):
+            for row in self._excluded_rows(left):
                 ends[row, robot] = enter + self._headway
-        by_robot = (*timed.ready[:robot], ready, *timed.ready[robot + 1 :])
-        return _Timed(state, by_robot, ends, (*timed.moves, move), edges)
+        edges = timed.edges
+        if itinerary.turning is not None:
+            edges = (*edges[:robot], move.edge, *edges[robot + 1 :])
+        return _Timed(
+            state,
+            (*timed.ready[:robot], ready, *timed.ready[robot + 1 :]),
+            ends,
+            (*timed.leave_by[:robot], leave_by, *timed.leave_by[robot + 1 :]),
+            (*timed.moves, move),
+            (*timed.enters, enter),
+            edges,
+        )
 
     def successors(self, state: _State) -> Iterator[tuple[_Move, _State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
-        rows = map(self.resources.vertex_row, range(len(state.places)), state.places)
+        rows = map(self._vertex_row, range(len(state.places)), state.places)
         excluded = [self._excluded_by(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
@@ -325,9 +442,10 @@ class _Floor:
             first, end = int(self._roadmap.indptr[place]), int(self._roadmap.indptr[place + 1])
             for edge in range(first, end):
                 head = int(self._roadmap.heads[edge])
-                needed = 1 << self.resources.vertex_row(robot, head)
-                needed |= 1 << self.resources.edge_row(robot, edge)
-                if needed & by_others or self._ways[robot][state.stages[robot]][head] < 0:
+                needed = 1 << self._vertex_row(robot, head) | 1 << self._edge_row(robot, edge)
+                ticks = self.itineraries[robot].edge_ticks[self._roadmap.length_class[edge]]
+                is_useless = ticks < 0 or self._ways[robot][state.stages[robot]][head] < 0
+                if needed & by_others or is_useless:
                     continue
                 places = (*state.places[:robot], head, *state.places[robot + 1 :])
                 after_move = self.served(_State(places, state.stages))
@@ -336,9 +454,18 @@ class _Floor:
     def _excluded_by(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            bits = (1 << other for other in self.resources.excluded_by(row).tolist())
-            self._excluded[row] = sum(bits)
+            self._excluded[row] = sum(1 << other for other in self._excluded_rows(row))
         return self._excluded[row]
+
+
+def _at_times(floor: _Floor, timed: _Timed) -> list[Track]:
+    """Return the tracks of moves at the times that they have."""
+    vertices = [[one.home] for one in floor.itineraries]
+    enter = [[Tick(0)] for _ in floor.itineraries]
+    for move, tick in zip(timed.moves, timed.enters, strict=True):
+        vertices[move.robot].append(VertexId(move.vertex))
+        enter[move.robot].append(Tick(tick))
+    return [Track.of(*track) for track in zip(vertices, enter, strict=True)]
 
 
 def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:

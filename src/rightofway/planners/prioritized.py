@@ -19,7 +19,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.model import Scenario, Stop, flowtime_of
+from rightofway.model import Scenario, Stop, cost_of
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
 from rightofway.planners.task import Deadline, Draft, Task, planning_problem
@@ -84,11 +84,11 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
-    drafts = [_at_one_pace(task, turns)]
+    drafts = [_at_one_pace(task, turns)] if task.scenario.problem.closures is None else []
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
-    return min(there, key=lambda draft: flowtime_of(task.scenario, draft.tracks), default=None)
+    return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
 
 
 def _with_sizes(task: Task, search: FleetSearch, turns: Sequence[int]) -> Draft | None:

@@ -33,6 +33,10 @@ class PlannerSpec:
         Whether its plans may hold swaps; all other plans keep all rules.
     knows_sizes
         Whether it plans robots that have a size.
+    knows_closures
+        Whether it keeps clear of closures.
+    knows_types
+        Whether it keeps robots off edges that are barred for their type.
     knows_turns
         Whether it plans robots that need time to turn on the spot.
     """
@@ -44,6 +48,8 @@ class PlannerSpec:
     improves: bool = False
     leaves_swaps: bool = False
     knows_sizes: bool = False
+    knows_closures: bool = False
+    knows_types: bool = False
     knows_turns: bool = False
 
     @property
@@ -85,6 +91,8 @@ PLANNERS = (
         "The default: a plan at once, then better plans until time is up.",
         options.AutoOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -93,6 +101,8 @@ PLANNERS = (
         "The paper's method, swaps resolved: by collisions left, then by completion times.",
         options.TwoLevelOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -100,6 +110,7 @@ PLANNERS = (
         "rightofway.planners.two_level:paper",
         "The paper's method as published: swaps remain, and the exit code is 1 if there are any.",
         leaves_swaps=True,
+        knows_types=True,
     ),
     PlannerSpec(
         "lacam",
@@ -116,6 +127,8 @@ PLANNERS = (
         options.LocalSearchOptions,
         improves=True,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -124,6 +137,8 @@ PLANNERS = (
         "Right of way in the order of the scenario: the first robot goes first.",
         options.PriorityOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -132,6 +147,8 @@ PLANNERS = (
         "Right of way by random orders of the robots; the best plan is kept.",
         options.RandomPriorityOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -140,6 +157,8 @@ PLANNERS = (
         "Right of way by an order of the robots that hill climbing improves.",
         options.PrioritySearchOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -148,6 +167,8 @@ PLANNERS = (
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
     PlannerSpec(
@@ -157,6 +178,8 @@ PLANNERS = (
         options.LnsOptions,
         improves=True,
         knows_sizes=True,
+        knows_closures=True,
+        knows_types=True,
         knows_turns=True,
     ),
 )

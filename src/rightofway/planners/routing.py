@@ -6,18 +6,40 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import accumulate, pairwise
 
-from rightofway.model import Itinerary, Route, Scenario, Track, VertexId, route_along
+from rightofway.errors import GaveUp
+from rightofway.model import Itinerary, Route, Scenario, Track, VertexId, route_along, route_of
 from rightofway.planners.impossible import refuse_the_impossible
-from rightofway.planners.task import Task
-from rightofway.search import Congestion, Distances
+from rightofway.planners.task import Task, planning_problem
+from rightofway.search import Bookings, Congestion, Distances, earliest_track
 
 
 def chosen_routes(task: Task) -> tuple[Distances, list[Route]]:
     """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks."""
     checkpoint = partial(task.deadline.check, "choosing routes")
     distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
+    if task.scenario.problem.closures is not None:
+        return distances, routes_among_closures(task, distances)
     choose = clear_routes if task.options["routes"] == "clear" else shortest_routes
     return distances, choose(task.scenario, distances)
+
+
+def routes_among_closures(task: Task, distances: Distances) -> list[Route]:
+    """Return the best route of each robot as if it were alone, but for closures.
+
+    A route that closures cut off for a while may have no times at all; these have some. Raises
+    `GaveUp` where a robot finds none with the headway of planning.
+    """
+    refuse_the_impossible(task.scenario, distances)
+    bookings, routes = Bookings(planning_problem(task.scenario)), list[Route]()
+    for robot, itinerary in enumerate(task.scenario.problem.itineraries):
+        left = task.deadline.seconds_left()
+        track = earliest_track(robot, bookings, distances, time_limit=left)
+        if track is None:
+            name = task.scenario.robots[robot].name
+            message = f"{name} finds no way among closures with the headway of planning"
+            raise GaveUp(f"{message} (allow rotations, or choose prioritized)")
+        routes.append(route_of(task.scenario.roadmap, itinerary, track))
+    return routes
 
 
 def shortest_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -57,7 +79,7 @@ def shortest_route(itinerary: Itinerary, distances: Distances) -> Route:
     The way home from the last stop of a lap is the path that leads there from home, reversed,
     wherever that is a shortest path too.
     """
-    ticks, legs = itinerary.edge_ticks, []
+    ticks, legs = itinerary.weights, []
     for place, stage in _trips(itinerary):
         leg = distances.path(place, stage, ticks)
         if stage == itinerary.home:

@@ -30,7 +30,7 @@ from typing import Literal
 
 from rightofway.errors import InputError
 from rightofway.model import Decision, Plan, Tick, Track
-from rightofway.model.problem import refuse_turn_rates
+from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
@@ -70,6 +70,7 @@ def two_level(task: Task) -> Draft:
     """Plan a fleet by the method of the paper, without swaps; options: `TwoLevelOptions`."""
     if task.options.get("swaps") == "leave":
         refuse_sizes(task.scenario.problem.resources, "swaps=leave", "choose swaps=resolve")
+        refuse_closures(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         refuse_turn_rates(task.scenario.problem, "swaps=leave", "choose swaps=resolve")
         return paper(task)
     distances, routes = chosen_routes(task)

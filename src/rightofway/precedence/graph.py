@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import groupby, pairwise
+from itertools import accumulate, groupby, pairwise
 from typing import Literal
 
 import numpy as np
@@ -119,6 +119,60 @@ class BookedRows:
         return self.vertex, self.edge, self.first, self.excluded
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ClosedPlaces:
+    """When the places that visits book are closed.
+
+    Attributes
+    ----------
+    first
+        List ``2 x`` is of the vertex of visit ``x``, list ``2 x + 1`` of the edge driven into it:
+        entries ``first[k]`` to ``first[k + 1]`` (exclusive); int32, shape (2 N + 1,).
+    start, end
+        When each entry is closed [ticks]; int64, shape (K,).
+    drive
+        Ticks of the drive into each visit; int64, shape (N,).
+    """
+
+    first: NDArray[np.int32]
+    start: NDArray[np.int64]
+    end: NDArray[np.int64]
+    drive: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, scenario: Scenario, routes: Sequence[Route]) -> ClosedPlaces | None:
+        """Return when the places of routes are closed, or None where nothing ever is.
+
+        Parameters
+        ----------
+        scenario
+            The problem.
+        routes
+            One for each robot.
+        """
+        closures = scenario.problem.closures
+        if closures is None:
+            return None
+        lists: list[list[tuple[Tick, Tick]]] = []
+        for robot, route in enumerate(routes):
+            visited = np.array(route.vertices, np.int32)
+            edges = scenario.roadmap.edges(visited[:-1], visited[1:]).tolist()
+            for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
+                lists.append(closures.at_vertex(robot, vertex))
+                lists.append([] if edge is None else closures.along_edge(robot, edge))
+        times = [time for closed in lists for time in closed]
+        return cls(
+            first=np.array([0, *accumulate(map(len, lists))], np.int32),
+            start=np.array([start for start, _ in times], np.int64),
+            end=np.array([end for _, end in times], np.int64),
+            drive=np.array([ticks for route in routes for ticks in route.drive], np.int64),
+        )
+
+    def arrays(self) -> tuple[NDArray[np.int32] | NDArray[np.int64], ...]:
+        """Return the arrays as kernels take them."""
+        return self.first, self.start, self.end, self.drive
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Meeting:
     """A conflict that the timetable still holds.
@@ -160,6 +214,13 @@ class PrecedenceGraph:
         Visits that no right of way may delay: `give_way` refuses it.
     rows
         What the visits book, where robots have a size.
+    closed
+        When the places of visits are closed: a visit that would book one of them then comes later.
+
+    Raises
+    ------
+    ValueError
+        If closures leave the route of a robot no times.
     """
 
     def __init__(
@@ -171,6 +232,7 @@ class PrecedenceGraph:
         forbid_swaps: bool = True,
         frozen: Iterable[Visit] = (),
         rows: BookedRows | None = None,
+        closed: ClosedPlaces | None = None,
     ) -> None:
         self.routes = tuple(routes)
         self._has_sizes = rows is not None
@@ -191,7 +253,8 @@ class PrecedenceGraph:
             int(headway),
             forbid_swaps,
             np.ones(len(routes), np.uint8),
-            *(() if rows is None else rows.arrays()),
+            *((None,) * 4 if rows is None else rows.arrays()),
+            *((None,) * 4 if closed is None else closed.arrays()),
         )
 
     def visit(self, robot: int, index: int) -> Visit:
@@ -215,7 +278,8 @@ class PrecedenceGraph:
         ``first`` has ended.
 
         False, with nothing changed, if that is impossible: ``first`` never leaves, ``second`` is
-        there from the start or frozen, or both would deadlock with what is decided already.
+        there from the start or frozen, both would deadlock with what is decided already, or a visit
+        would be at a place while it is closed.
         """
         self._delays_frozen = second in self._frozen
         return not self._delays_frozen and self._kernel.precede(first, second)
@@ -405,6 +469,7 @@ def graph_on(
         books_ahead=scenario.rules.books_ahead,
         forbid_swaps=forbid_swaps,
         rows=BookedRows.of(scenario, [route.vertices for route in routes]),
+        closed=ClosedPlaces.of(scenario, routes),
     )
 
 

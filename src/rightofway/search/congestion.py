@@ -105,7 +105,7 @@ class Congestion:
         robot is in the way, this is the path of `Distances`.
         """
         self.distances.checkpoint()
-        to_go = self.distances.to(target, self.problem.itineraries[robot].edge_ticks)
+        to_go = self.distances.to(target, self.problem.itineraries[robot].weights)
         found = self._kernel.path(robot, start, target, to_go)
         return tuple(VertexId(vertex) for vertex in found.tolist())
 
@@ -118,7 +118,8 @@ def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
     """Return about how many edges it is from home to the first stop."""
     ticks = itinerary.edge_ticks
     way = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
-    return way / float(distances.ticks_of_edges(ticks).mean()) if way else 0.0
+    all_ticks = distances.ticks_of_edges(ticks)
+    return way / float(all_ticks[all_ticks > 0].mean()) if way else 0.0
 
 
 def _ticks_of_lap(distances: Distances, itinerary: Itinerary) -> int:

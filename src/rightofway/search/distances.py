@@ -49,7 +49,7 @@ class Distances:
         target
             The vertex to reach.
         edge_ticks
-            Ticks for an edge of each length class.
+            Ticks for an edge of each length class, -1 for one that is barred.
 
         Returns
         -------
@@ -83,7 +83,8 @@ class Distances:
         vertices = np.array(path, np.int32)
         edges = self.roadmap.edges(vertices[:-1], vertices[1:])
         ticks = self.ticks_of_edges(edge_ticks)[edges]
-        return None if edges.min(initial=0) < 0 else int(ticks.sum())
+        is_open = min(edges.min(initial=0), ticks.min(initial=0)) >= 0
+        return int(ticks.sum()) if is_open else None
 
     def path(self, start: VertexId, target: VertexId, edge_ticks: tuple[Tick, ...]) -> Path:
         """Return a shortest path; the target can be reached.
@@ -101,7 +102,7 @@ class Distances:
             nearer = (
                 heads[edge]
                 for edge in range(indptr[vertex], indptr[vertex + 1])
-                if 0 <= table[heads[edge]] == table[vertex] - ticks[edge]
+                if ticks[edge] > 0 and 0 <= table[heads[edge]] == table[vertex] - ticks[edge]
             )
             path.append(VertexId(int(next(nearer))))
         return tuple(path)

@@ -67,9 +67,9 @@ class FleetSearch:
         return alone
 
     @property
-    def flowtime(self) -> Tick:
-        """The sum of completions of all robots with a track [ticks]."""
-        return Tick(self._core.flowtime)
+    def cost(self) -> Tick:
+        """The sum of completions and surcharges of all robots with a track [ticks]."""
+        return Tick(self._core.cost)
 
     @property
     def idle(self) -> int:

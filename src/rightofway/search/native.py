@@ -36,6 +36,7 @@ def bound(problem: Problem) -> _core.Problem:
     native = _BOUND.get(problem)
     if native is None:
         roadmap, robots, sizes = problem.roadmap, problem.itineraries, problem.resources
+        closed = problem.closures
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
         stages = [stage for robot in robots for stage in robot.stages]
@@ -58,6 +59,10 @@ def bound(problem: Problem) -> _core.Problem:
             size_of=None if sizes is None else sizes.size_of,
             first=None if sizes is None else sizes.first,
             excluded=None if sizes is None else sizes.excluded,
+            surcharges=np.array(robots[0].surcharges, np.int64) if robots[0].surcharges else None,
+            closed_row=None if closed is None else closed.row,
+            closed_from=None if closed is None else closed.start,
+            closed_until=None if closed is None else closed.end,
             **turning,
         )
     return native

@@ -19,6 +19,9 @@ from rightofway.search.native import bound
 
 STOPPED = 2
 
+NOBODY = -1
+"""The robot that books what is closed."""
+
 
 class Booking(NamedTuple):
     """A vertex is one robot's for ``[start, end)`` [ticks]."""
@@ -29,7 +32,7 @@ class Booking(NamedTuple):
 
 
 class Bookings:
-    """What robots with a track book; no two bookings of a vertex overlap.
+    """What robots with a track book, and closures; no two bookings of a vertex overlap.
 
     Robots with a size book rows of `Resources`, a vertex or an edge; a booking marks all rows from
     which it excludes other robots.
@@ -43,9 +46,16 @@ class Bookings:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.resources = problem.resources
-        n_vertices = problem.roadmap.n_vertices
-        n_rows = n_vertices if self.resources is None else len(self.resources.first) - 1
+        self._n_vertices, closed = problem.roadmap.n_vertices, problem.closures
+        self._books_edges = closed is not None and closed.close_edges
+        n_rows = self._n_vertices + self._books_edges * problem.roadmap.n_edges
+        if self.resources is not None:
+            n_rows = len(self.resources.first) - 1
         self.table = _core.BookingTable(n_rows)
+        if closed is not None:
+            arrays = (closed.row, closed.start, closed.end)
+            for row, start, end in zip(*(array.tolist() for array in arrays), strict=True):
+                self.table.mark(row, start, end, NOBODY)
         self._of: defaultdict[int, list[tuple[int, Tick]]] = defaultdict(list)
 
     def at(self, row: int) -> list[Booking]:
@@ -64,8 +74,9 @@ class Bookings:
     def book(self, row: int, booking: Booking) -> None:
         """Book one vertex, or mark what one row excludes."""
         if self.resources is None:
-            self.table.book(row, *booking)
-            self._of[booking.robot].append((row, booking.start))
+            if row < self._n_vertices:  # points that book an edge exclude nobody from it
+                self.table.book(row, *booking)
+                self._of[booking.robot].append((row, booking.start))
             return
         for mark in self.resources.excluded_by(row).tolist():
             self.table.mark(mark, *booking)
@@ -87,11 +98,11 @@ class Bookings:
         ):
             row = self.vertex_row(robot, vertex)
             yield row, Booking(Tick(tick - approach), end, robot)
-        if self.resources is None:
+        if self.resources is None and not self._books_edges:
             return
         edges = problem.roadmap.edges(track.vertices[:-1], track.vertices[1:]).tolist()
         for edge, tick, drive, end in zip(edges, enter[1:], drives, ends[:-1], strict=True):
-            row = self.resources.edge_row(robot, edge)
+            row = self.vertex_row(robot, self._n_vertices + edge)
             yield row, Booking(Tick(tick - drive), end, robot)
 
     def in_the_way(self, robot: int, track: Track) -> set[int]:
@@ -100,7 +111,9 @@ class Bookings:
             other.robot
             for row, own in self.of_track(robot, track)
             for other in self.at(row)
-            if other.robot != robot and other.start < own.end and own.start < other.end
+            if other.robot not in {robot, NOBODY}
+            and other.start < own.end
+            and own.start < other.end
         }
 
 

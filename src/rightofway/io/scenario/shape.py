@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema
 
 from rightofway.errors import shown
 from rightofway.io.fields import (
+    POSITION,
     Angle,
     CellSize,
     Count,
@@ -117,7 +118,7 @@ class VertexDocument(Document):
     @model_validator(mode="before")
     @classmethod
     def _read_position(cls, data: Any) -> Any:
-        return data if isinstance(data, dict) else {"at": data}
+        return data if isinstance(data, dict) else {"at": POSITION.read(data)}
 
     @classmethod
     def __get_pydantic_json_schema__(
