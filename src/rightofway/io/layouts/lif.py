@@ -11,9 +11,17 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+import numpy as np
+
+from rightofway.errors import InputError
+from rightofway.io.layouts.draft import MICRO, Draft, Lane, LevelDraft
+from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.layouts.parts import Part
+from rightofway.model.geometry import Point
 from rightofway.model.layout import Layout, LayoutVertex, Station
+
+Curve = tuple[tuple[Point, ...], Fraction]
+"""Points of a curve [m], and how far it is from the lines between them [m]."""
 
 CHARGING = "startCharging"
 """The action that makes a node a charging place."""
@@ -99,15 +107,58 @@ def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
     if not own:
         draft.repair("an edge without a vehicle type is free for all")
         level.connect(Lane(place=edge.place, tail=tail, head=head))
-    limits: dict[Fraction | None, set[str]] = {}
+    ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for each in own:
         speed = each.get("maxSpeed")
         limit = None if speed is None else _number(speed, draft)
-        limits.setdefault(limit, set()).add(each.need("vehicleTypeId").text())
-    for limit, types in limits.items():  # one lane for all types with one speed limit
+        way = limit, _curve(each, draft)
+        ways.setdefault(way, set()).add(each.need("vehicleTypeId").text())
+    for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
-            Lane(place=edge.place, tail=tail, head=head, max_speed=limit, types=frozenset(types))
+            Lane(
+                place=edge.place,
+                tail=tail,
+                head=head,
+                max_speed=limit,
+                types=frozenset(types),
+                curve=curve,
+                chord_error=error,
+            )
         )
+
+
+def _curve(own: Part, draft: Draft) -> Curve:
+    """Return points of a trajectory [m], and how far it is from the lines between them [m]."""
+    trajectory = own.get("trajectory")
+    if trajectory is None:
+        return (), Fraction(0)
+    try:
+        found = _nurbs(trajectory, draft)
+        pieces = found.pieces()
+    except (InputError, ValueError):
+        draft.repair("a trajectory that cannot be read: its edge counts as straight")
+        return (), Fraction(0)
+    points = tuple(
+        (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
+        for x, y in pieces.tolist()
+    )
+    error = Fraction(repr(CHORD_ERROR)) if found.degree > 1 else Fraction(0)
+    return points, error
+
+
+def _nurbs(trajectory: Part, draft: Draft) -> Nurbs:
+    degree = trajectory.get("degree")
+    controls = trajectory.need("controlPoints").items()
+    knots = [float(_number(each, draft)) for each in trajectory.need("knotVector").items()]
+    weights = (each.get("weight") for each in controls)
+    return Nurbs(
+        degree=1 if degree is None else int(_number(degree, draft)),
+        knots=np.array(knots),
+        points=np.array(
+            [[float(_number(each.need(axis), draft)) for axis in "xy"] for each in controls]
+        ),
+        weights=np.array([1.0 if each is None else float(each.number()) for each in weights]),
+    )
 
 
 def _add_station(level: LevelDraft, station: Part) -> None:
