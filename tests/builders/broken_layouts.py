@@ -1,11 +1,7 @@
 """Broken layouts by the thousand: each opens, or is refused in words, soon and in little memory.
 
-<<<<<<< HEAD
 ``python -m tests.builders.broken_layouts --count 100000`` opens as many files as it says, in every
 way that users have.
-=======
-``python -m tests.builders.broken_layouts --count 100000`` opens as many files in all ways of users.
->>>>>>> 67f18fe (Trajectories of LIF are lanes of their length, and straight pieces for robots with a size)
 File k of a seed is always the same. A process of its own opens the files of one batch: it may take
 200 MB more than it has after its imports.
 """
