@@ -1,4 +1,7 @@
-"""LIF, the Layout Interchange Format of the VDMA, version 1.0.0, read leniently.
+"""LIF, the Layout Interchange Format of the VDMA, versions 1.0.0 and 2.0.0, read leniently.
+
+Version 2 has layouts inside origins, several types of robots with one set of properties, and other
+names of keys; the names of both versions are known in either.
 
 References
 ----------
@@ -23,6 +26,11 @@ from rightofway.model.layout import Layout, LayoutVertex, Station
 Curve = tuple[tuple[Point, ...], Fraction]
 """Points of a curve [m], and how far it is from the lines between them [m]."""
 
+NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
+EDGE_PROPERTIES = ("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
+ACTIONS = ("actions", "requiredActions", "feasibleActions")
+SPEEDS = ("maxSpeed", "maximumSpeed")
+
 CHARGING = "startCharging"
 """The action that makes a node a charging place."""
 
@@ -30,7 +38,9 @@ CHARGING = "startCharging"
 def recognizes(document: Any) -> bool:
     """Return whether a document is a LIF file: it has layouts, or the information about them."""
     return isinstance(document, dict) and (
-        "layouts" in document or {"metaInformation", "nodes"} <= set(document)
+        "layouts" in document
+        or "origins" in document
+        or {"metaInformation", "nodes"} <= set(document)
     )
 
 
@@ -43,8 +53,9 @@ def read(document: Any) -> Layout:
         With every node, edge and station that cannot be used.
     """
     draft, root = Draft("LIF layout"), Part(document)
-    names = _level_names(root.need("layouts").items())
-    for part, name in zip(root.need("layouts").items(), names, strict=True):
+    origins = [root] if root.get("origins") is None else root.need("origins").items()
+    layouts = [layout for origin in origins for layout in origin.need("layouts").items()]
+    for part, name in zip(layouts, _level_names(layouts), strict=True):
         level = draft.level(name)
         for node in part.need("nodes").items():
             draft.faults.attempt("", _add_node, level, node, draft)
@@ -87,8 +98,8 @@ def _add_node(level: LevelDraft, node: Part, draft: Draft) -> None:
             at=(_number(at.need("x"), draft), _number(at.need("y"), draft)),
             is_charging=any(
                 action.value.get("actionType") == CHARGING
-                for own in _listed(node, "vehicleTypeNodeProperties")
-                for action in _listed(own, "actions")
+                for own in _listed(node, *NODE_PROPERTIES)
+                for action in _listed(own, *ACTIONS)
                 if isinstance(action.value, dict)
             ),
         ),
@@ -96,23 +107,24 @@ def _add_node(level: LevelDraft, node: Part, draft: Draft) -> None:
     )
 
 
-def _listed(part: Part, key: str) -> list[Part]:
-    found = part.get(key)
-    return [] if found is None else found.items()
+def _listed(part: Part, *keys: str) -> list[Part]:
+    """Return the items of all lists under some keys."""
+    found = (part.get(key) for key in keys)
+    return [item for each in found if each is not None for item in each.items()]
 
 
 def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
     tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
-    own = _listed(edge, "vehicleTypeEdgeProperties")
+    own = _listed(edge, *EDGE_PROPERTIES)
     if not own:
         draft.repair("an edge without a vehicle type is free for all")
         level.connect(Lane(place=edge.place, tail=tail, head=head))
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for each in own:
-        speed = each.get("maxSpeed")
+        speed = next(filter(None, map(each.get, SPEEDS)), None)
         limit = None if speed is None else _number(speed, draft)
         way = limit, _curve(each, draft)
-        ways.setdefault(way, set()).add(each.need("vehicleTypeId").text())
+        ways.setdefault(way, set()).update(_types(each))
     for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
             Lane(
@@ -125,6 +137,14 @@ def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
                 chord_error=error,
             )
         )
+
+
+def _types(own: Part) -> list[str]:
+    """Return the vehicle types that properties are for: an id, or series of robots."""
+    series = own.get("mobileRobotTypes")
+    if series is None:
+        return [own.need("vehicleTypeId").text()]
+    return [each.need("seriesName").text() for each in series.items()]
 
 
 def _curve(own: Part, draft: Draft) -> Curve:
