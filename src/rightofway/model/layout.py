@@ -173,8 +173,8 @@ class Layout:
         if name is None and len(known) == 1:
             return self.levels[0]
         if name is None:
-            message = f"the layout has {len(known)} levels (give one of {listed(known)})"
-            raise InputError.at("level", message)
+            message = f"the layout has {len(known)} levels, and a plan stays on one"
+            raise InputError.at("level", f"{message} (give one of {listed(known)})")
         if name not in known:
             near = nearest(name, known)
             hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
