@@ -22,7 +22,7 @@ from rightofway.studio.guard import Access
 from rightofway.studio.serve import bound
 from rightofway.studio.session import Studio
 
-DOOR = {
+DOOR: dict[str, Any] = {
     "format": "rightofway-scenario/1",
     "map": {"grid": ["...", "@.@", "..."]},
     "robots": [
