@@ -1,11 +1,16 @@
-"""Studios that run in this process, with real workers and a real address."""
+"""Studios that run in this process or as the command, with real workers and a real address."""
 
 from __future__ import annotations
 
+import re
+import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from http.client import HTTPConnection
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +22,7 @@ from rightofway.studio.guard import Access
 from rightofway.studio.serve import bound
 from rightofway.studio.session import Studio
 
-DOOR = {
+DOOR: dict[str, Any] = {
     "format": "rightofway-scenario/1",
     "map": {"grid": ["...", "@.@", "..."]},
     "robots": [
@@ -47,6 +52,81 @@ def running(folder: Path, access: Access | None = None, **settings: Any) -> Iter
         finally:
             server.should_exit = True
             thread.join()
+
+
+class Command:
+    """The command ``rightofway studio``, as a process.
+
+    Attributes
+    ----------
+    process
+        The process.
+    client
+        A client of version 1 of its API.
+    """
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        words = ["-m", "rightofway", "studio", str(folder), "--no-browser", *options]
+        self.process = subprocess.Popen(
+            [sys.executable, *words], stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+        assert self.process.stderr is not None, "it is a pipe"
+        self.first_line = self.process.stderr.readline()
+        address = re.search(r"http://\S+?/", self.first_line)
+        assert address, self.first_line + self.process.stderr.read()
+        self.client = httpx.Client(base_url=f"{address[0]}api/v1", timeout=PATIENCE)
+
+    def end(self, by: signal.Signals = signal.SIGINT) -> str:
+        """End it by a signal, and return what it has written since its first line."""
+        self.client.close()
+        self.process.send_signal(by)
+        return self.process.communicate(timeout=PATIENCE)[1]
+
+    def workers(self) -> list[int]:
+        """Return the processes of its workers."""
+        found = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                parent = int((process / "stat").read_text().rpartition(")")[2].split()[1])
+                words = (process / "cmdline").read_text()
+            except (OSError, ValueError):
+                continue  # it has just ended
+            if parent == self.process.pid and "rightofway.studio.worker" in words:
+                found.append(int(process.name))
+        return found
+
+    def memory(self) -> int:
+        """Return the memory of the server itself [bytes]."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        line = re.search(r"^VmRSS:\s+(\d+) kB", status, re.MULTILINE)
+        assert line, status
+        return int(line[1]) * 1024
+
+
+@contextmanager
+def command(folder: Path, *options: str) -> Iterator[Command]:
+    """Run the command, and end it by Ctrl-C where the test has not."""
+    started = Command(folder, *options)
+    try:
+        yield started
+    finally:
+        if started.process.poll() is None:
+            started.end()
+
+
+def sent(
+    client: httpx.Client, method: str, target: str, body: bytes = b"", kind: str = ""
+) -> tuple[int, str]:
+    """Send a request whose target no client library has tidied up; return status and text."""
+    connection = HTTPConnection(client.base_url.host, client.base_url.port, timeout=PATIENCE)
+    with closing(connection):
+        connection.putrequest(method, target)
+        if body:
+            connection.putheader("Content-Type", kind)
+            connection.putheader("Content-Length", str(len(body)))
+        connection.endheaders(body or None)
+        answer = connection.getresponse()
+        return answer.status, answer.read().decode()
 
 
 def over(client: httpx.Client, number: int) -> dict[str, Any]:

@@ -9,12 +9,8 @@ from typing import Any
 import httpx
 import pytest
 
-from rightofway.io import dump_scenario
-from tests.builders.fleets import random_fleet
+from tests.builders.crowds import CROWD
 from tests.builders.studios import DOOR, over, planned, until
-
-CROWD = dump_scenario(random_fleet(seed=3, size=24, robots=60, walls=0))
-"""A fleet that lns can improve for longer than a test takes."""
 
 
 def events(client: httpx.Client, number: int) -> list[tuple[str, Any]]:

@@ -44,6 +44,7 @@ class Studio:
     ) -> None:
         self.workspace = Workspace(folder)
         self.file = file
+        self.is_to_keep = keeps
         self.store = Store(self.workspace.folder if keeps else None)
         self._scratch = tempfile.TemporaryDirectory(prefix="rightofway-studio-")
         place = self.workspace.folder, self._scratch.name
