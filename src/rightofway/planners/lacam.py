@@ -13,9 +13,6 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
-Where turning on the spot takes time, the timed search orders visits without it, and the earliest
-timetable of that order has the turns.
-
 Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
 long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
@@ -119,10 +116,7 @@ def plan_by_instants(task: Task, *, spreads: bool = True) -> Draft | None:
         raise
     if tracks is None:
         return None
-    if scenario.problem.turns:
-        visited = [track.vertices.tolist() for track in tracks]
-        tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
-    elif scenario.problem.resources is not None:
+    if scenario.problem.resources is not None:
         search = _search(task)
         search.start(tracks)
         search.retime()
