@@ -298,13 +298,31 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
             continue;
         }
         const bool pulls = partner != nobody && k == first && place != here;
-        if (pulls && !problem_.has_sizes() && is_idle(now, partner) && claim_[here] == nobody &&
+        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
             edge_to(now, partner, here) >= 0) {
-            take(now, partner, here);
+            pull(now, partner, here);
         }
         return true;
     }
     return false;
+}
+
+// Lets the partner follow the robot, if no other robot is in its way.
+void Pibt::pull(const FleetState& now, RobotId partner, VertexId place) {
+    if (!problem_.has_sizes()) {
+        take(now, partner, place);
+        return;
+    }
+    const auto stays = [&](RobotId other) { return !moves(now, other); };
+    if (!is_open(now, partner, place) || any_ahead(now, partner, place, stays)) {
+        return;
+    }
+    take(now, partner, place);
+    if (closes_circle(now, partner)) {
+        release(now, partner);
+        next_[partner] = nowhere;
+        chosen_.pop_back();
+    }
 }
 
 bool Pibt::is_idle(const FleetState& now, RobotId robot) const {

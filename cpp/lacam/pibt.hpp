@@ -77,6 +77,7 @@ class Pibt {
     template <class Use>
     bool any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
     bool goes_first(const FleetState& now, RobotId other, RobotId robot) const;
+    void pull(const FleetState& now, RobotId partner, VertexId place);
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
     bool is_booked(const FleetState& now, RobotId robot, VertexId place) const;
     bool moves(const FleetState& now, RobotId robot) const;

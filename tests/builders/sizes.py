@@ -146,7 +146,10 @@ def _sized_on_lanes(seed: int, robots: int) -> Scenario:
 
 
 def tiny(seed: int, *, robots: int = 2) -> Scenario:
-    """Return a few robots with sizes, one way trips and no work, on six vertices."""
+    """Return a few robots with sizes, one way trips and no work, on a few vertices.
+
+    There are six vertices for two robots, and five to eight for more.
+    """
     fleets = (_tiny(seed + 1000 * k, robots) for k in range(1000))
     return next(
         fleet for fleet in fleets if has_room(fleet) and fleet.problem.clock.tick >= Fraction(1, 8)
@@ -155,7 +158,8 @@ def tiny(seed: int, *, robots: int = 2) -> Scenario:
 
 def _tiny(seed: int, robots: int) -> Scenario:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    roadmap = crowded_roadmap(draw, vertices=6, edges=7)
+    vertices = 6 if robots == 2 else draw.randint(5, 8)
+    roadmap = crowded_roadmap(draw, vertices=vertices, edges=vertices + 1)
     homes, targets = (draw.sample(range(roadmap.n_vertices), robots) for _ in range(2))
     return Scenario(
         roadmap=roadmap,

@@ -99,15 +99,28 @@ def _refuse_or_give_up(task: Task) -> NoReturn:
     raise GaveUp(f"{message} (give a longer time limit, or other places)")
 
 
-def plan_by_instants(task: Task, *, spreads: bool = True) -> Draft | None:
-    """Plan the whole fleet by the timed search alone; None if it ends without a plan."""
+def plan_by_instants(
+    task: Task, *, spreads: bool = True, effort: int | None = None
+) -> Draft | None:
+    """Plan the whole fleet by the timed search alone; None if it ends without a plan.
+
+    Parameters
+    ----------
+    task
+        The problem.
+    spreads
+        Whether robots prefer paths that were spread before.
+    effort
+        Choices of robots at most, where they are to be fewer than usual.
+    """
     scenario, robots, share = task.scenario, len(task.scenario.robots), SHARE_OF_TIME
+    most_effort = max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices)
     refuse_stranded(scenario, ())
     try:
         tracks = plan_by_lacam(
             planning_problem(scenario),
             seed=task.seed,
-            most_effort=max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices),
+            most_effort=most_effort if effort is None else min(effort, most_effort),
             time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
             spreads=spreads,
         )
