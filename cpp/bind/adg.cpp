@@ -153,7 +153,8 @@ class BoundAdg {
             as_table(out.by_right_of_way), as_table(out.by_clock),
             to_numpy(std::vector<Tick>(sources.own())),
             to_numpy(std::vector<Tick>(sources.of_others())),
-            as_table(sources.between(), plan_.n_robots()));
+            as_table(sources.between(), plan_.n_robots()),
+            hand_over<TableOut<std::uint8_t>>(std::move(out.is_caught), {done, n_robots}));
     }
 
     auto sample(std::uint64_t seed, std::uint64_t run) const {
@@ -183,7 +184,8 @@ class BoundAdg {
         const ConflictCount count = conflicts_.count(times);
         return std::tuple(to_numpy(std::move(times.enter)), to_numpy(std::move(times.start)),
                           to_numpy(std::move(times.completion)),
-                          to_numpy(std::move(times.is_broken)), to_numpy(as_row(count)));
+                          to_numpy(std::move(times.is_broken)), to_numpy(as_row(count)),
+                          to_numpy(std::move(times.is_caught)));
     }
 
     auto deadlocked() const { return to_numpy(timetable_.deadlocked()); }
@@ -208,7 +210,10 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
           const std::optional<ArrayIn<std::int32_t>>& vertex_row,
           const std::optional<ArrayIn<std::int32_t>>& edge_row,
           const std::optional<ArrayIn<std::int32_t>>& first_excluded,
-          const std::optional<ArrayIn<std::int32_t>>& excluded) {
+          const std::optional<ArrayIn<std::int32_t>>& excluded,
+          const std::optional<ArrayIn<std::int32_t>>& first_closed,
+          const std::optional<ArrayIn<Tick>>& closed_from,
+          const std::optional<ArrayIn<Tick>>& closed_until) {
     require_length("delay_a", delay_a.size(), delay_kind.size());
     require_length("delay_b", delay_b.size(), delay_kind.size());
     std::vector<Delay> delays;
@@ -230,7 +235,9 @@ void init(BoundAdg* self, const ArrayIn<VisitId>& first_visit, const ArrayIn<Ver
                          view_or_empty(first_right),
                          view_or_empty(rights),
                          {view_or_empty(vertex_row), view_or_empty(edge_row),
-                          view_or_empty(first_excluded), view_or_empty(excluded)}},
+                          view_or_empty(first_excluded), view_or_empty(excluded)},
+                         {view_or_empty(first_closed), view_or_empty(closed_from),
+                          view_or_empty(closed_until), view(drive)}},
                         view(pace), std::move(delays), {first.begin(), first.end()},
                         stoppages_of(stoppage_tick, stoppage_ticks));
 }
@@ -246,7 +253,8 @@ void bind_adg(nb::module_& module) {
              array("stoppage_ticks"), array("first_right").none() = nb::none(),
              array("rights").none() = nb::none(), array("vertex_row").none() = nb::none(),
              array("edge_row").none() = nb::none(), array("first_excluded").none() = nb::none(),
-             array("excluded").none() = nb::none())
+             array("excluded").none() = nb::none(), array("first_closed").none() = nb::none(),
+             array("closed_from").none() = nb::none(), array("closed_until").none() = nb::none())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)

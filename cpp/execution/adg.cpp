@@ -42,6 +42,7 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
     }
     number_robots();
     incompatible_ = IncompatibleVisits(robot_, arrays.rows);
+    closures_ = VisitClosures(arrays.closures, vertex_.size());
     check();
 }
 

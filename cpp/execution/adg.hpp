@@ -12,6 +12,7 @@
 
 #include "core/types.hpp"
 #include "precedence/incompatible_visits.hpp"
+#include "precedence/visit_closures.hpp"
 
 namespace rightofway {
 
@@ -30,6 +31,7 @@ struct AdgArrays {
     std::span<const std::int32_t> first_right = {};
     std::span<const VisitId> rights = {};
     BookedRows rows = {};
+    VisitClosureArrays closures = {};
 };
 
 class ActionDependencyGraph {
@@ -73,6 +75,8 @@ class ActionDependencyGraph {
         return incompatible_.of(visit);
     }
 
+    const VisitClosures& closures() const { return closures_; }
+
     // Earliest start [tick]: when the right of way was given during execution, else 0.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[visit]; }
 
@@ -96,6 +100,7 @@ class ActionDependencyGraph {
     std::vector<VisitId> rights_;
     std::vector<RobotId> robot_;
     IncompatibleVisits incompatible_;
+    VisitClosures closures_;
     Tick headway_;
     bool books_ahead_;
 };

@@ -53,6 +53,7 @@ void reset(const ActionDependencyGraph& plan, const DelaySample& sample, ActualT
     times.start.assign(n_visits, never);
     times.completion.assign(n_robots, never);
     times.is_broken.assign(n_robots, 0);
+    times.is_caught.assign(n_robots, 0);
     next_stoppage.assign(sample.first_stoppage.begin(), sample.first_stoppage.end() - 1);
     for (RobotId r = 0; r < plan.n_robots(); ++r) {
         times.enter[plan.first_of(r)] = times.start[plan.first_of(r)] = 0;
@@ -187,6 +188,49 @@ void ExecutionTimetable::by_right_of_way(const DelaySample& sample, ActualTimes&
         }
     }
     complete(plan_, sample, times, next_stoppage_);
+    if (plan_.closures().is_known()) {
+        find_caught(sample, times);
+    }
+}
+
+// The earliest start of a visit's booking, from `start` on, with which its bookings keep clear of
+// closures if its drive and the next stay take as long as planned; `never` if there is none.
+Tick ExecutionTimetable::clear_of_closures(VisitId x, Tick start) const {
+    const VisitClosures& closed = plan_.closures();
+    if (!closed.is_known()) {
+        return start;
+    }
+    const Tick drive = plan_.drive(x);
+    const Tick before = plan_.books_ahead() ? 0 : drive;  // of the drive, before the start
+    const Tick stay = plan_.is_last(x) ? never
+                                       : drive - before + plan_.dwell(x) + plan_.drive(x + 1) +
+                                             plan_.headway();
+    for (Tick earlier = -1; earlier < start && start < never;) {
+        earlier = start;
+        start = closed.free_along(x, start - before, drive + plan_.headway());
+        start = start >= never ? never : start + before;
+        start = start >= never ? never : closed.free_stay(x, start, std::min(stay, never - start));
+    }
+    return start;
+}
+
+void ExecutionTimetable::find_caught(const DelaySample& sample, ActualTimes& times) const {
+    const VisitClosures& closed = plan_.closures();
+    for (VisitId x = 0; x < plan_.n_visits(); ++x) {
+        const Tick start = times.start[x];
+        if (start >= never) {
+            continue;
+        }
+        const Tick left = plan_.is_last(x) ? never : times.enter[x + 1];
+        const Tick end = left >= never ? never : left + plan_.headway();
+        bool is_caught = closed.free_at(x, start, end) > start;
+        if (!plan_.is_first(x)) {
+            const Tick begin = plan_.books_ahead() ? start : start - sample.drive[x];
+            const Tick entered = std::min(times.enter[x], never - plan_.headway());
+            is_caught |= closed.free_along(x, begin, entered + plan_.headway() - begin) > begin;
+        }
+        times.is_caught[plan_.robot(x)] |= static_cast<std::uint8_t>(is_caught);
+    }
 }
 
 void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, ActualTimes& times) {
@@ -209,7 +253,10 @@ void ExecutionTimetable::take_place(VisitId x, const DelaySample& sample, Actual
             }
         }
     }
-    const Tick start = stoppages.waits_until(std::max({ready, free, plan_.since(x)}));
+    Tick start = stoppages.waits_until(std::max({ready, free, plan_.since(x)}));
+    for (Tick clear = start; (clear = clear_of_closures(x, start)) > start;) {
+        start = stoppages.waits_until(clear);
+    }
     times.start[x] = start;
     times.enter[x] = drive_after == 0 ? start : stoppages.busy_until(sum(start, drive_after));
     times.cause[x] = free > ready && start == free ? other + 1 : x - 1;
@@ -241,6 +288,7 @@ void ExecutionTimetable::take_place_jointly(std::span<const VisitId> group,
         before = instant;
         for (const VisitId x : group) {
             put_off(x, times.enter[x - 1] >= never ? never : stoppages_of(x).waits_until(instant));
+            put_off(x, clear_of_closures(x, instant));
         }
     }
     for (const VisitId x : group) {

@@ -6,6 +6,10 @@
 // topological order of events is computed once, from the graph alone; visits outside this order can
 // never take place: a deadlock.
 //
+// Closures are kept by the clock: a robot starts a drive only if its bookings along the edge and of
+// the next stay, of planned durations, overlap no closure. A robot with a booking that overlaps one
+// all the same is caught.
+//
 // By the clock, each robot follows its planned times as closely as possible, regardless of others.
 #pragma once
 
@@ -26,6 +30,7 @@ struct ActualTimes {
     std::vector<VisitId> cause;    // of each visit: its predecessor on a longest path, or `none`
     std::vector<VisitId> source;   // of each visit: charged for lateness beyond the cause
     std::vector<std::uint8_t> is_broken;  // of each robot: broken down
+    std::vector<std::uint8_t> is_caught;  // of each robot: books something that is closed
 };
 
 class ExecutionTimetable {
@@ -45,6 +50,8 @@ class ExecutionTimetable {
     void emit(std::span<const VisitId> group);
     bool is_possible(std::span<const VisitId> group) const;
     void take_place(VisitId visit, const DelaySample& sample, ActualTimes& times);
+    Tick clear_of_closures(VisitId visit, Tick start) const;
+    void find_caught(const DelaySample& sample, ActualTimes& times) const;
     void take_place_jointly(std::span<const VisitId> group, const DelaySample& sample,
                             ActualTimes& times);
 
@@ -56,7 +63,7 @@ class ExecutionTimetable {
     std::vector<std::int32_t> next_stoppage_;  // per robot
 };
 
-// Fills all members except `cause` and `source`.
+// Fills all members except `cause`, `source` and `is_caught`.
 void by_clock(const ActionDependencyGraph& plan, const DelaySample& sample, ActualTimes& times);
 
 }  // namespace rightofway

@@ -71,6 +71,7 @@ RunBatch ExecutionRuns::run(std::uint64_t seed, std::uint64_t first, std::size_t
         out.by_clock.push_back(conflicts_by_clock_.count(times_by_clock_));
         out.completion.insert(out.completion.end(), times_.completion.begin(),
                               times_.completion.end());
+        out.is_caught.insert(out.is_caught.end(), times_.is_caught.begin(), times_.is_caught.end());
         out.is_broken.insert(out.is_broken.end(), times_.is_broken.begin(), times_.is_broken.end());
     }
     return out;

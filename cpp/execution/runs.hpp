@@ -44,6 +44,7 @@ class LatenessSources {
 struct RunBatch {
     std::vector<Tick> completion;         // by right of way; `never` if not completed
     std::vector<std::uint8_t> is_broken;  // breakdowns of robots
+    std::vector<std::uint8_t> is_caught;  // of each run and robot
     std::vector<ConflictCount> by_right_of_way;
     std::vector<ConflictCount> by_clock;
 };

@@ -39,6 +39,16 @@ Tick VisitClosures::free(std::int32_t list, Tick start, Tick end) const {
     return start;
 }
 
+Tick VisitClosures::free_stay(VisitId visit, Tick start, Tick ticks) const {
+    for (;;) {
+        const Tick later = free_at(visit, start, start + ticks);
+        if (later == start || later >= never) {
+            return later;
+        }
+        start = later;
+    }
+}
+
 Tick VisitClosures::free_along(VisitId visit, Tick start, Tick ticks) const {
     for (;;) {
         const Tick later = free(2 * visit + 1, start, start + ticks);

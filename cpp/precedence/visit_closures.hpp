@@ -32,7 +32,8 @@ class VisitClosures {
     // The earliest start, from `start` on, with which a booking of the vertex until `end` overlaps
     // no closure; `never` if there is none.
     Tick free_at(VisitId visit, Tick start, Tick end) const { return free(2 * visit, start, end); }
-    // The earliest start, from `start` on, of a booking of the edge for some ticks.
+    // The same for a booking of the vertex for some ticks; of the edge.
+    Tick free_stay(VisitId visit, Tick start, Tick ticks) const;
     Tick free_along(VisitId visit, Tick start, Tick ticks) const;
 
   private:

@@ -26,10 +26,11 @@ from rightofway.model import (
     squared_distance,
     straight_length,
 )
+from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import as_place, is_cell, vertex_at
 from rightofway.model.resources import circle_around
 from rightofway.model.spacing import SplitLanes, split_lanes
-from rightofway.model.values import Number, coordinate
+from rightofway.model.values import Number, coordinate, names, number
 from rightofway.model.values import length as exact_length
 from rightofway.model.zones import NamedZone
 
@@ -113,7 +114,10 @@ class FleetBuilder:
             raise InputError.at("spacing", "is for vertices and edges (take it out)")
         self._spacing = None if spacing is None else exact_length(spacing, "spacing")
         self._positions: dict[str, Point] = {}
-        self._edges: list[tuple[str, str, Fraction | None, Fraction | None]] = []
+        self._edges: list[tuple[str, str, Fraction | None, dict[str, Any]]] = []
+        self._barred: dict[str, frozenset[str]] = {}
+        self._surcharges: dict[str, Fraction] = {}
+        self._closures: list[Closure] = []
         self._zones: list[NamedZone] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
@@ -132,7 +136,15 @@ class FleetBuilder:
         elif graph is not None:
             self._add_graph(graph)
 
-    def add_vertex(self, name: str, x: Number, y: Number) -> Self:
+    def add_vertex(
+        self,
+        name: str,
+        x: Number,
+        y: Number,
+        *,
+        barred: Iterable[str] = (),
+        surcharge: Number = 0,
+    ) -> Self:
         """Add a vertex to the roadmap.
 
         Parameters
@@ -141,6 +153,10 @@ class FleetBuilder:
             A name of its own.
         x, y
             Where it lies on the site [length unit].
+        barred
+            Types of robots that may not be there.
+        surcharge
+            What makes each edge into it less liked, not slower [time unit].
 
         Raises
         ------
@@ -155,6 +171,8 @@ class FleetBuilder:
         if name in self._positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
         self._positions[name] = _point(place, x, y)
+        self._barred[name] = _types(f"{place}: barred", barred)
+        self._surcharges[name] = _surcharge(f"{place}: surcharge", surcharge)
         return self
 
     def add_edge(
@@ -165,6 +183,8 @@ class FleetBuilder:
         *,
         both_ways: bool = True,
         max_speed: Number | None = None,
+        barred: Iterable[str] = (),
+        surcharge: Number = 0,
     ) -> Self:
         """Add an edge between two vertices.
 
@@ -180,6 +200,10 @@ class FleetBuilder:
             Whether it is driven from head to tail, too.
         max_speed
             Its speed limit [length unit per time unit]; none by default.
+        barred
+            Types of robots that may not use it.
+        surcharge
+            What makes it less liked, not slower [time unit].
 
         Raises
         ------
@@ -198,9 +222,14 @@ class FleetBuilder:
         if given is None:
             _within(place, straight_length, self._square(tail, head))
         limit = None if max_speed is None else exact_length(max_speed, f"{place}: max_speed")
-        self._edges.append((tail, head, given, limit))
+        more = {
+            "max_speed": limit,
+            "barred": _types(f"{place}: barred", barred),
+            "surcharge": _surcharge(f"{place}: surcharge", surcharge),
+        }
+        self._edges.append((tail, head, given, more))
         if both_ways:
-            self._edges.append((head, tail, given, limit))
+            self._edges.append((head, tail, given, more))
         return self
 
     def add_zone(
@@ -245,6 +274,7 @@ class FleetBuilder:
         laps: int | None = None,
         radius: Number | None = None,
         size: tuple[Number, Number] | None = None,
+        type: str | None = None,  # noqa: A002 (the key of scenario files)
         turn_rate: Number | None = None,
     ) -> Self:
         """Add a robot; the map must be complete.
@@ -268,6 +298,8 @@ class FleetBuilder:
             Radius of the circle that it needs [length unit]; a point by default.
         size
             Its length and width [length unit] instead of ``radius``: the circle around it.
+        type
+            The name of its type, for edges and vertices that are barred for types.
         turn_rate
             How fast it turns on the spot [degrees per time unit], if that differs from the rules.
 
@@ -299,11 +331,61 @@ class FleetBuilder:
                 ends=ends,
                 laps=laps,
                 radius=_radius(radius, size),
+                type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
             )
         except InputError as error:
             raise InputError(error.faults, source) from None
         self._robots.append(robot)
+        return self
+
+    def add_closure(
+        self,
+        *,
+        at: Any = None,
+        edge: tuple[Any, Any] | None = None,
+        from_: Number = 0,
+        until: Number | None = None,
+        radius: Number | None = None,
+    ) -> Self:
+        """Close a place, or an edge in both directions, for a while; the map must be complete.
+
+        Parameters
+        ----------
+        at
+            The place that is closed, as for `add_robot`.
+        edge
+            The places at both ends of the edge that is closed, instead of ``at``.
+        from_
+            When the closure begins [time unit].
+        until
+            When it ends [time unit]; never by default.
+        radius
+            What is nearer than this, a robot's radius and the clearance is closed for that robot,
+            too [length unit]; nothing more by default.
+
+        Raises
+        ------
+        InputError
+            For a place that is not on the map, no edge between two places, and a value of a wrong
+            kind.
+        """
+        source = f"closure {len(self._closures)}"
+        try:
+            closure = Closure(
+                at=None if at is None else self._vertex("at", at),
+                edge=None
+                if edge is None
+                else (self._vertex("edge", edge[0]), self._vertex("edge", edge[1])),
+                from_=from_,  # type: ignore[arg-type]
+                until=until,  # type: ignore[arg-type]
+                radius=radius,  # type: ignore[arg-type]
+            )
+        except InputError as error:
+            raise InputError(error.faults, source) from None
+        if faults := list(closure_faults(closure, self.roadmap())):
+            raise InputError(faults, source)
+        self._closures.append(closure)
         return self
 
     def scenario(self) -> Scenario:
@@ -319,6 +401,7 @@ class FleetBuilder:
             robots=tuple(self._robots),
             rules=self._rules,
             units=self._units,
+            closures=tuple(self._closures),
         )
 
     def roadmap(self) -> Roadmap:
@@ -342,16 +425,22 @@ class FleetBuilder:
                     tail=tail,
                     head=head,
                     length=given or straight_length(self._square(tail, head), step),
-                    max_speed=limit,
+                    **more,
                 )
-                for tail, head, given, limit in self._edges
+                for tail, head, given, more in self._edges
             ]
             split = SplitLanes(self._positions, edges, {})
             if self._spacing is not None:
                 split = split_lanes(self._positions, edges, self._spacing)
             drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
             self._roadmap = roadmap_of_edges(
-                drawn, split.edges, y_up=self._y_up, zones=self._zones, pieces=split.pieces
+                drawn,
+                split.edges,
+                y_up=self._y_up,
+                zones=self._zones,
+                pieces=split.pieces,
+                barred={name: types for name, types in self._barred.items() if types},
+                surcharges={name: more for name, more in self._surcharges.items() if more},
             )
         return self._roadmap
 
@@ -385,6 +474,25 @@ class FleetBuilder:
             length = data.get("length", data.get("weight", None if is_drawn else 1))
             self.add_edge(str(tail), str(head), length, both_ways=not graph.is_directed())
         self.roadmap()
+
+
+def _types(place: str, given: Iterable[str]) -> frozenset[str]:
+    """Return types of robots; a text alone is no list of them."""
+    try:
+        return names(given if isinstance(given, str) else list(given))
+    except (TypeError, ValueError):
+        message = f"{shown(given)} are no types of robots (give a list of texts)"
+        raise InputError.at(place, message) from None
+
+
+def _surcharge(place: str, given: Number) -> Fraction:
+    try:
+        found = number(given)
+    except ValueError as error:
+        raise InputError.at(place, str(error)) from None
+    if found < 0:
+        raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
+    return found
 
 
 def _rules(given: dict[str, Any]) -> Rules:

@@ -167,6 +167,9 @@ def _totals(outcome: Outcome, quantities: Quantities) -> Iterator[str]:
     if late.flowtime.mean is not None:
         rows.append(("flowtime", _lateness(late.flowtime, quantities)))
         rows.append(("makespan", _lateness(late.makespan, quantities)))
+    if outcome.plan.scenario.closures:
+        caught = f"robots per run: {_mean(outcome.caught, runs)} are caught in a closure,"
+        rows.append(("closures", f"{caught} {_mean(outcome.stranded, runs)} never complete"))
     if outcome.switches:
         rows.append(("switched", _per_run(outcome.switches, runs)))
     if outcome.replans:

@@ -107,6 +107,7 @@ class ExecutionMonitor:
             own=np.zeros_like(kept.own),
             of_others=np.zeros_like(kept.of_others),
             between=np.zeros((0, 3), np.int64),
+            is_caught=self.execution.is_caught[None, :],
         )
 
     def trace(self) -> ExecutionTrace:

@@ -12,7 +12,7 @@ from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
-from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
+from rightofway.model import NEVER, ExecutionTrace, Plan, Problem, checked_time_limit
 from rightofway.model.problem import refuse_closures, refuse_turn_rates
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -70,6 +70,9 @@ def simulate(
     Notes
     -----
     By right of way, a robot enters a vertex after all visits that precede in the plan, at any time.
+    Closures are kept by the clock: a robot starts no drive whose bookings would overlap a closure
+    if all goes on as planned; robots that are caught in one all the same are counted.
+
     For delays of any length, bookings never overlap, and robots never deadlock, because the plan
     has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
@@ -79,10 +82,7 @@ def simulate(
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    if replan:
-        remedy = "leave out replan; switch is possible"
-        refuse_closures(plan.scenario.problem, "replanning during execution", remedy)
-        refuse_turn_rates(plan.scenario.problem, "replanning during execution", remedy)
+    _refuse_unknown(plan.scenario.problem, switch=switch, replan=replan)
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
@@ -127,6 +127,7 @@ def simulate(
         deadlocks=len(every.completion) if stuck.any() else deadlocks,
         broken=int(is_broken.sum()),
         stranded=int((unfinished & ~is_broken & ~stuck).sum()) - cut_off,
+        caught=int(every.is_caught.sum()),
         cut_off=cut_off,
         switches=switches,
         replans=replans,
@@ -135,3 +136,13 @@ def simulate(
         completion=np.where(unfinished, -1, every.completion),
         _trace=trace,
     )
+
+
+def _refuse_unknown(problem: Problem, *, switch: bool, replan: bool) -> None:
+    """Refuse policies that do not know turn rates or closures."""
+    if replan:
+        remedy = "leave out replan; switch is possible"
+        refuse_turn_rates(problem, "replanning during execution", remedy)
+    if switch or replan:
+        what = "replanning during execution" if replan else "switching rights of way"
+        refuse_closures(problem, what, "leave it out")

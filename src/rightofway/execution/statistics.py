@@ -240,7 +240,9 @@ class Outcome:
     broken
         Robots that broke down before completion, over all runs.
     stranded
-        Robots that wait for a broken robot for ever, over all runs.
+        Robots that wait for a broken robot, or before a closure, for ever, over all runs.
+    caught
+        Robots that are at a place while it is closed, over all runs.
     cut_off
         Robots that replanning did not bring to all their places, over all runs.
     switches, replans
@@ -262,6 +264,7 @@ class Outcome:
     deadlocks: int
     broken: int
     stranded: int
+    caught: int = 0
     cut_off: int = 0
     switches: int = 0
     replans: int = 0
@@ -341,6 +344,7 @@ class Outcome:
             },
             "broken": self.broken,
             "stranded": self.stranded,
+            **({"caught": self.caught} if self.plan.scenario.closures else {}),
             "cut_off": self.cut_off,
             "switches": self.switches,
             "replans": self.replans,

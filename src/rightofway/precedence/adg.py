@@ -15,14 +15,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, chain, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
-from rightofway.precedence.graph import BookedRows, Pairs, graph_on
+from rightofway.precedence.graph import BookedRows, ClosedPlaces, Pairs, graph_on
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -111,6 +111,8 @@ class Execution(NamedTuple):
     collisions
         Numbers of overlapping pairs of visits, of pairs that overlap by the headway only, and of
         swaps; and when the first of all these begins [ticks]; int64[4].
+    is_caught
+        Whether each robot books something while it is closed; uint8[R].
     """
 
     enter: NDArray[np.int64]
@@ -118,6 +120,7 @@ class Execution(NamedTuple):
     completion: NDArray[np.int64]
     is_broken: NDArray[np.uint8]
     collisions: NDArray[np.int64]
+    is_caught: NDArray[np.uint8]
 
 
 class RunBatch(NamedTuple):
@@ -133,6 +136,8 @@ class RunBatch(NamedTuple):
         Lateness that began at each visit, of its own robot and of others [ticks]; int64[N].
     between
         Robot, another, and how late the robot is because of the other [ticks]; int64[P, 3].
+    is_caught
+        As in `Execution`, for each run; [K, R].
     """
 
     completion: NDArray[np.int64]
@@ -142,6 +147,7 @@ class RunBatch(NamedTuple):
     own: NDArray[np.int64]
     of_others: NDArray[np.int64]
     between: NDArray[np.int64]
+    is_caught: NDArray[np.uint8]
 
 
 class ActionDependencyGraph:
@@ -219,6 +225,7 @@ class ActionDependencyGraph:
             np.array([one.tick for one in chain(*delay_model.stoppages)], np.int64),
             np.array([one.ticks for one in chain(*delay_model.stoppages)], np.int64),
             *self._rows_and_rights(),
+            *self._closed(),
         )
 
     def order_at(self, when: NDArray[np.int64]) -> NDArray[np.int32]:
@@ -240,14 +247,19 @@ class ActionDependencyGraph:
     def _before(self) -> NDArray[np.int32]:
         return self.order if self.order.ndim == 1 else np.full(len(self.vertex), -1, np.int32)
 
-    def _rows_and_rights(self) -> tuple[NDArray[np.int32], ...]:
+    def _rows_and_rights(self) -> tuple[Any, ...]:
         """Return what the kernel takes where robots have a size."""
         rows = BookedRows.of(self.scenario, [route.vertices for route in self.routes])
         if rows is None:
-            return ()
+            return (None,) * 6
         first, second = (column.copy() for column in self.order.T)
         begins = np.searchsorted(second, np.arange(len(self.vertex) + 1)).astype(np.int32)
         return begins, first, *rows.arrays()
+
+    def _closed(self) -> tuple[Any, ...]:
+        """Return what the kernel takes where something is closed for a while."""
+        closed = ClosedPlaces.of(self.scenario, self.routes)
+        return () if closed is None else (closed.first, closed.start, closed.end)
 
     def reordered(
         self, order: NDArray[np.int32], since: NDArray[np.int64] | None = None
