@@ -194,8 +194,13 @@ def replan(
         rest = _rest(scenario, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
-    better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
-    for plan in (better, first):
+    plans = [first]
+    try:
+        left = deadline.seconds_left()
+        plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
+    except (NoPlanExists, GaveUp):
+        pass  # planners read zones more strictly than the order of a plan does
+    for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:
             adg = _spliced(forecast, commitments, plan)
