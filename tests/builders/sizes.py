@@ -232,3 +232,56 @@ def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:
         ),
         rules=Rules(clearance=Fraction(clearance)),
     )
+
+
+def repeated(seed: int) -> Scenario:
+    """Return a random fleet with sizes that repeats its laps, on a grid or on lanes both ways."""
+    fleets = ((_on_grid if seed % 2 else _both_ways)(seed + 1000 * k) for k in range(1000))
+    return next(
+        fleet
+        for fleet in fleets
+        if has_room(fleet) and all(one.stops[0].at != one.home for one in fleet.robots)
+    )
+
+
+def _on_grid(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    rules = Rules(headway=Fraction(draw.choice([0, 0, 1])))
+    scenario = random_fleet(seed, size=8, robots=draw.randint(2, 4), walls=0.05, rules=rules)
+    return with_radii(
+        scenario, [Fraction(draw.randint(2, 8), 10) for _ in range(draw.randint(1, 3))]
+    )
+
+
+def _both_ways(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    one_way, robots = crowded_roadmap(draw, vertices=12, edges=22), draw.randint(2, 3)
+    names = [one_way.name(vertex) for vertex in range(one_way.n_vertices)]
+    lanes = {
+        frozenset((tail, int(one_way.heads[edge]))): one_way.lengths[one_way.length_class[edge]]
+        for tail in range(one_way.n_vertices)
+        for edge in range(int(one_way.indptr[tail]), int(one_way.indptr[tail + 1]))
+    }
+    edges = [
+        Edge(tail=names[tail], head=names[head], length=length)
+        for ends, length in lanes.items()
+        for tail, head in (sorted(ends), sorted(ends)[::-1])
+    ]
+    at = {name: (float(x), float(y)) for name, (x, y) in zip(names, one_way.positions, strict=True)}
+    places = draw.sample(range(one_way.n_vertices), 2 * robots)
+    return Scenario(
+        roadmap=roadmap_of_edges(at, edges),
+        robots=tuple(
+            Robot(
+                name=f"R{k + 1}",
+                home=VertexId(places[k]),
+                stops=(Stop(at=VertexId(places[robots + k]), work=Fraction(draw.randint(0, 3))),),
+                speed=draw.choice([Fraction(1), Fraction(1, 2), Fraction(2)]),
+                radius=Fraction(draw.randint(0 if k else 1, 5), 10),
+            )
+            for k in range(robots)
+        ),
+        rules=Rules(
+            headway=Fraction(draw.choice([0, 0, 1])), clearance=Fraction(draw.choice([0, 1]), 10)
+        ),
+    )

@@ -115,7 +115,7 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Closures:
+class Held:
     """What broken robots keep booked for ever.
 
     Attributes
@@ -131,7 +131,7 @@ class Closures:
     edges: frozenset[tuple[int, int]] = frozenset()
 
 
-def closures_of(forecast: Forecast) -> Closures:
+def held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
     adg, booked = forecast.adg, forecast.booked
     resources = adg.scenario.problem.resources
@@ -149,7 +149,7 @@ def closures_of(forecast: Forecast) -> Closures:
             )
             rows.update(other for row in own for other in resources.excluded_by(row).tolist())
     if resources is None:
-        return Closures(vertices=frozenset(vertices))
+        return Held(vertices=frozenset(vertices))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
     others = (robot for robot in range(len(adg.routes)) if robot not in forecast.broken)
     sizes = {int(resources.size_of[robot]) for robot in others}
@@ -158,7 +158,7 @@ def closures_of(forecast: Forecast) -> Closures:
     tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
     ends_of_edges = enumerate(zip(tails, roadmap.heads.tolist(), strict=True), n_vertices)
     edges = (ends for edge, ends in ends_of_edges if edge in shut or ends[1] in shut)
-    return Closures(vertices=frozenset(vertices), edges=frozenset(edges))
+    return Held(vertices=frozenset(vertices), edges=frozenset(edges))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,7 +180,7 @@ def replan(
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
-    closed = closures_of(forecast)
+    closed = held_by_broken(forecast)
     roadmap = scenario.roadmap
     if closed.vertices:
         roadmap = roadmap.without(closed.vertices, closed.edges)
@@ -194,8 +194,13 @@ def replan(
         rest = _rest(scenario, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
-    better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
-    for plan in (better, first):
+    plans = [first]
+    try:
+        left = deadline.seconds_left()
+        plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
+    except (NoPlanExists, GaveUp):
+        pass  # planners read zones more strictly than the order of a plan does
+    for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:
             adg = _spliced(forecast, commitments, plan)
@@ -210,7 +215,7 @@ def replan(
 def _going_on(
     forecast: Forecast,
     commitments: Sequence[Commitment],
-    closed: Closures,
+    closed: Held,
     rest: Scenario,
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
