@@ -41,6 +41,7 @@ from rightofway.model import (
     Track,
     VertexId,
     route_of,
+    turns_along,
 )
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lacam import order_of_steps, timetable_in_order
@@ -352,6 +353,22 @@ def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment
     return replace(scenario, roadmap=roadmap, robots=robots, clock=scenario.problem.clock)
 
 
+def _turn_aside(
+    scenario: Scenario, robot: int, one: Commitment, old: Route, ahead: Sequence[VertexId]
+) -> int:
+    """Return how long a robot turns at the end of its commitment to the vertex ahead, if any.
+
+    Where it drives on as planned, the turn is a part of what the robot is busy with.
+    """
+    came, planned = old.vertices[max(one.visit - 1, 0) : one.visit], old.vertices[one.visit + 1 :]
+    if one.drives_to is not None:
+        came, planned = (one.vertex,), ()
+    if not came or not ahead or ahead == planned[:1]:
+        return 0
+    path = np.array([*came, one.free_from, *ahead], np.int32)
+    return int(turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
+
+
 def _spliced(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
@@ -368,6 +385,9 @@ def _spliced(
         # The new route's visit at the end of the commitment is the last visit of the old route.
         begins, kept = new.serves[is_driving], one.visit + 1 + is_driving
         before = 0 if is_driving else old.dwell[one.visit] - one.busy
+        # The new route does not know where the robot has come from.
+        known = turns_along(plan.scenario.roadmap, itinerary, track.vertices)[begins]
+        aside = _turn_aside(adg.scenario, robot, one, old, new.vertices[begins + 1 : begins + 2])
         shift = kept - 1 - begins
         to_come = new.serves[len(new.serves) - len(one.left) :]
         serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
@@ -376,7 +396,7 @@ def _spliced(
             vertices=(*old.vertices[:kept], *new.vertices[begins + 1 :]),
             dwell=(
                 *old.dwell[: kept - 1],
-                Tick(before + new.dwell[begins]),
+                Tick(before + new.dwell[begins] - int(known) + aside),
                 *new.dwell[begins + 1 :],
             ),
             drive=(*old.drive[:kept], *new.drive[begins + 1 :]),
