@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from PIL import Image, ImageColor
 
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
-from rightofway.model import Plan
+from rightofway.model import Edge, Plan, Robot, Scenario, Stop, VertexId, roadmap_of_edges
+from rightofway.model.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours
@@ -212,3 +214,26 @@ def test_a_zone_lies_below_its_lanes(tmp_path: Path) -> None:
     write_png(scene.plan, tmp_path / "a.png", scale=40)
     tint = scene.faint(LIGHT.zone, 0.35)
     assert tint in {colour_at(tmp_path / "a.png", 0.5, 0.01 * y) for y in range(20, 50)}
+
+
+def test_the_picture_of_a_layout_lies_where_it_says(tmp_path: Path) -> None:
+    """Its right half is red: pixels of 1 m from x = -1 on, so that red begins at x = 1."""
+    picture = Image.new("RGB", (4, 4), "#ffffff")
+    picture.paste("#ff0000", (2, 0, 4, 4))
+    picture.save(tmp_path / "hall.png")
+    edge = Edge(tail="A", head="B", length=Fraction(2))
+    roadmap = replace(
+        roadmap_of_edges({"A": (0, 0), "B": (2, 0)}, [edge], y_up=True),
+        drawing=Drawing(
+            picture=Picture(
+                file=tmp_path / "hall.png", pixel=Fraction(1), corner=(Fraction(-1), Fraction(2))
+            )
+        ),
+    )
+    robot = Robot(name="R1", home=VertexId(0), stops=(Stop(at=VertexId(1)),), ends="none")
+    plan = solve(Scenario(roadmap=roadmap, robots=(robot,)))
+    write_png(plan, tmp_path / "a.png", scale=40)
+    # a unit is the edge of 2 m; 0.4 units above the lane nothing else is drawn
+    left, right = (colour_at(tmp_path / "a.png", x, -0.4) for x in (0.4, 0.7))
+    assert ImageColor.getrgb(left)[1] > 240
+    assert ImageColor.getrgb(right)[1] < 120

@@ -10,9 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
+from rightofway.viz.page.background import Background, place_of, unreadable
+from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
 from rightofway.viz.raster.sizes import MOST_ROUTES, Sizes
@@ -37,15 +40,32 @@ def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
     if scene.roadmap.grid is not None:
         _grid(pen, scene, scene.roadmap.grid)
+        _picture(pen, scene)
     elif scene.roadmap.sides is not None:
         _squares(pen, scene, scene.roadmap.sides / scene.plane.unit / 2)
+        _picture(pen, scene)
     else:
+        _picture(pen, scene)
         _network(pen, scene, sizes)
     for robot in range(len(scene.trips)) if routes else ():
         _route(pen, scene, sizes, robot)
     for robot in range(len(scene.trips)):
         _home(pen, scene, sizes, robot)
     _stops(pen, scene, sizes)
+
+
+def _picture(pen: Pen, scene: Scene) -> None:
+    """Draw the picture of the site; over cells, as these have no gaps."""
+    if scene.roadmap.drawing.picture is None:
+        return
+    background = Background.of(scene.roadmap.drawing.picture)
+    try:
+        with Image.open(background.picture) as picture:
+            place = place_of(scene.roadmap, background, *picture.size)
+            opacity = background.opacity * (0.4 if ink_on(scene.theme.paper) == "#ffffff" else 1)
+            pen.picture(picture, place, opacity)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise unreadable(background.picture) from None
 
 
 def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
