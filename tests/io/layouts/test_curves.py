@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rightofway import check, solve
+from rightofway import FleetBuilder, check, solve
 from rightofway.io import read_layout
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
@@ -141,6 +141,15 @@ def test_both_directions_share_the_pieces_and_the_clearance_grows(tmp_path: Path
         "2 curves are cut into straight pieces for robots with a size, which leave the curve by at"
         " most 0.005 m: the clearance grows by 0.01 m"
     )
+
+
+def test_a_builder_cuts_curves_for_robots_with_a_size_only(tmp_path: Path) -> None:
+    fleet = FleetBuilder(layout=hall(tmp_path, 4)).add_robot("R1", home="A", target="B")
+    assert fleet.scenario().roadmap.n_vertices == 4
+    cut = fleet.add_robot("R2", home="C", target="D", radius=0.3).scenario()
+    assert cut.roadmap.n_vertices > 20
+    assert cut.rules.clearance == 2 * Fraction(repr(CHORD_ERROR))
+    assert [cut.roadmap.name(robot.home) for robot in cut.robots] == ["A", "C"]
 
 
 def test_pieces_are_near_the_curve_and_have_its_length(tmp_path: Path) -> None:
