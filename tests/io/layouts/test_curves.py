@@ -16,6 +16,7 @@ from rightofway import FleetBuilder, check, solve
 from rightofway.io import read_layout
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
+from rightofway.metrics import Site, inspect
 from rightofway.model.layout import Layout
 
 
@@ -184,3 +185,11 @@ def test_a_trajectory_that_cannot_be_is_mended(
     assert isinstance(found, Layout)
     assert repair in found.notes
     assert all(edge.length in (10, 4) for edge in found.levels[0].edges)
+
+
+def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_path: Path) -> None:
+    scenario = loaded(hall(tmp_path, 4), radius=0.3).scenario
+    site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
+    near = [each.fact for each in inspect(site).findings if each.kind == "too near"]
+    assert any("is too near to the lane C to D" in fact for fact in near)
+    assert not any(fact.count("A-B/") > 1 for fact in near)
