@@ -1,4 +1,4 @@
-"""The page of the studio in a browser: open, plan, watch; nothing from elsewhere, nothing inline."""
+"""The page of the studio in a browser: open, plan, watch; nothing from elsewhere or inline."""
 
 from __future__ import annotations
 
