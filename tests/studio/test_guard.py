@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import socket
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
+from PIL import Image
 
 from rightofway.studio.guard import Access
 from tests.builders.studios import DOOR, running, sent
@@ -119,16 +122,40 @@ def test_no_asset_is_outside_of_the_assets(client: httpx.Client, path: str) -> N
     assert json.loads(text)["error"]["status"] == status
 
 
+OUTSIDE = ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
 @pytest.mark.parametrize(
-    "name", ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
+    "part",
+    [
+        lambda name: {"map": {"file": name}},
+        lambda name: {"map": {"layout": name}},
+        lambda name: {"robots": {"table": name}},
+        lambda name: {"robots": {"scen": name}},
+    ],
+    ids=["file", "layout", "table", "scen"],
 )
-@pytest.mark.parametrize("key", ["file", "layout"])
 def test_a_document_cannot_name_a_file_outside_of_the_folder(
-    client: httpx.Client, key: str, name: str
+    client: httpx.Client, part: Callable[[str], dict[str, Any]], name: str
 ) -> None:
-    verdict = client.post("/validate", json={"document": {**DOOR, "map": {key: name}}}).json()
+    verdict = client.post("/validate", json={"document": {**DOOR, **part(name)}}).json()
     assert not verdict["ok"]
     assert "outside of the folder" in verdict["faults"][0]["message"]
+
+
+def test_a_layout_cannot_name_a_picture_outside_of_the_folder(
+    client: httpx.Client, folder: Path
+) -> None:
+    Image.new("L", (4, 4), 255).save(folder.parent / "secret.png")
+    lines = "resolution: 0.5", "origin: [0, 0, 0]", "negate: 0"
+    limits = "occupied_thresh: 0.65", "free_thresh: 0.25"
+    for name, is_there in (("../secret.png", False), ("inside.png", True)):
+        Image.new("L", (4, 4), 255).save(folder / "inside.png")
+        (folder / "ros.yaml").write_text("\n".join((f"image: {name}", *lines, *limits)))
+        opened = client.get("/documents/ros.yaml")
+        assert opened.is_success == is_there, opened.text
+        assert is_there or "outside of the folder" in opened.text
 
 
 @pytest.mark.parametrize("place", ["..", "/", "../floor", "a/../..", ".", "out"])

@@ -50,7 +50,7 @@ class Studio:
         place = self.workspace.folder, self._scratch.name
         self.desk = Crew(*place, size=DESK, queue=DESK_QUEUE)
         self.planners = Crew(*place, size=planners, queue=planners)
-        self.runs = Runs(self.store, self.planners)
+        self.runs = Runs(self.store, self.planners, self.desk)
 
     async def start(self) -> None:
         """Start workers, and take up what was left."""
