@@ -35,7 +35,7 @@ thorough *args:
 
 # Open broken layouts: 100 000 take about half an hour
 fuzz-layouts *args:
-    python -m tests.fuzz.layouts {{ args }}
+    python -m tests.builders.broken_layouts {{ args }}
 
 # The native tests under AddressSanitizer and UndefinedBehaviorSanitizer, warnings as errors
 native:

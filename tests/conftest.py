@@ -32,6 +32,10 @@ SLOW = (
     "laws/test_timed_event_graph.py",
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
+    "studio/test_attacks.py",  # thousands of requests
+    "studio/test_page.py",  # a browser
+    "studio/test_runs.py",  # plans
+    "studio/test_survival.py",  # starts the command as a process, and kills it
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )

@@ -44,7 +44,8 @@ std::shared_ptr<const DistanceTable> SharedDistances::to(VertexId target, RobotI
 }
 
 std::shared_ptr<const TurningTable> SharedDistances::with_turns(RobotId robot) {
-    if (!problem_.turns(robot).take_time()) {
+    const std::size_t n_entries = problem_.n_stages() * problem_.graph().indices.size();
+    if (!problem_.turns(robot).take_time() || sizeof(std::int32_t) * n_entries > budget_) {
         return nullptr;
     }
     {
@@ -55,17 +56,7 @@ std::shared_ptr<const TurningTable> SharedDistances::with_turns(RobotId robot) {
     }
     auto table = std::make_shared<const TurningTable>(problem_, robot);
     const std::lock_guard lock(mutex_);
-    if (turning_.emplace(robot, table).second) {
-        turning_by_age_.push_back(robot);
-        turning_bytes_ += table->bytes();
-    }
-    while (turning_bytes_ > budget_ && turning_by_age_.size() > 1) {
-        const auto oldest = turning_.find(turning_by_age_.front());
-        turning_bytes_ -= oldest->second->bytes();
-        turning_.erase(oldest);
-        turning_by_age_.pop_front();
-    }
-    return table;
+    return turning_.emplace(robot, std::move(table)).first->second;
 }
 
 Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
@@ -96,10 +87,16 @@ void SharedDistances::take_alone(std::span<const Tick> alone) {
 }
 
 Tick SharedDistances::least_completion(RobotId robot) {
-    if (const auto table = with_turns(robot)) {
-        return table->from(-1, 0);
-    }
     const Itinerary itinerary = problem_.itinerary(robot);
+    if (itinerary.turns.take_time()) {
+        std::vector<std::shared_ptr<const DistanceTable>> tables;
+        std::vector<DistanceView> to_stage;
+        for (const VertexId stage : itinerary.stage_vertex) {
+            tables.push_back(to(stage, robot));
+            to_stage.push_back(tables.back()->view(scale(robot)));
+        }
+        return least_completion_with_turns(problem_, robot, to_stage);
+    }
     const std::size_t first_at_end = itinerary.first_stage_at_end();
     Tick sum = 0;
     VertexId place = itinerary.home;

@@ -48,7 +48,8 @@ class SharedDistances {
     // if all edges have equal length.
     Tick between(VertexId from, VertexId target, RobotId robot);
 
-    // The table of a robot that turns in some time, else null. Thread-safe.
+    // The table of a robot that turns in some time, else null; null, too, if the tables of all
+    // robots would exceed the memory budget. Thread-safe.
     std::shared_ptr<const TurningTable> with_turns(RobotId robot);
 
     // The completion time of a robot that drives alone, -1 if it cannot reach a stage. Cached;
@@ -90,8 +91,6 @@ class SharedDistances {
     std::deque<Key> by_age_;
     std::size_t bytes_ = 0;
     std::unordered_map<RobotId, std::shared_ptr<const TurningTable>> turning_;
-    std::deque<RobotId> turning_by_age_;
-    std::size_t turning_bytes_ = 0;
     std::vector<std::atomic<Tick>> alone_;  // value + 2; 0: not computed
 };
 

@@ -38,7 +38,7 @@ const Trip& TripReader::read(RobotId robot) {
     const Problem& problem = distances_.problem();
     static_cast<Itinerary&>(trip_) = problem.itinerary(robot);
     trip_.first_row = problem.first_row(robot);
-    trip_.with_turns = distances_.with_turns(robot);
+    trip_.with_turns = with_turns_ ? distances_.with_turns(robot) : nullptr;
     tables_.clear();
     trip_.to_stage.clear();
     for (const VertexId stage : trip_.stage_vertex) {

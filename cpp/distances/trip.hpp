@@ -15,7 +15,7 @@ namespace rightofway {
 struct Trip : Itinerary {
     std::vector<DistanceView> to_stage;  // distances to each stage's vertex
     std::int32_t first_row = 0;          // of the robot's size class in a booking table
-    std::shared_ptr<const TurningTable> with_turns = nullptr;  // where turning takes time
+    std::shared_ptr<const TurningTable> with_turns = nullptr;  // better bounds; may be null
 };
 
 // Throws std::invalid_argument if the arrays of a trip do not fit each other or the roads, or if
@@ -25,14 +25,17 @@ void require_trip(const Roads& roads, const Trip& trip);
 // Builds the trip of a robot in reused memory; one reader per thread.
 class TripReader {
   public:
-    // Borrows the distances.
-    explicit TripReader(SharedDistances& distances) : distances_(distances) {}
+    // Borrows the distances. With turns, a trip gets the table of a robot that turns in some time:
+    // it takes longer than one search, and many searches are faster with it.
+    explicit TripReader(SharedDistances& distances, bool with_turns = false)
+        : distances_(distances), with_turns_(with_turns) {}
 
     // The trip of a robot, valid until the next call.
     const Trip& read(RobotId robot);
 
   private:
     SharedDistances& distances_;
+    bool with_turns_;
     RobotId robot_ = -1;
     Trip trip_;
     std::vector<std::shared_ptr<const DistanceTable>> tables_;

@@ -6,6 +6,8 @@
 #include <queue>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace rightofway {
@@ -105,6 +107,67 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
         }
         least[-1] = at_home > largest ? -1 : static_cast<std::int32_t>(at_home);
     }
+}
+
+Tick least_completion_with_turns(const Problem& problem, RobotId robot,
+                                 std::span<const DistanceView> to_stage) {
+    using Key = std::tuple<Tick, Tick, std::uint64_t>;  // bound, rest, state: a total order
+    const Graph& graph = problem.graph();
+    const Itinerary trip = problem.itinerary(robot);
+    const std::size_t first_last = trip.first_stage_at_end();
+    const std::uint64_t n_places = graph.indices.size() + 1;
+    std::vector<Tick> later(trip.n_stages(), 0);  // from each stage's vertex, its work included
+    for (std::size_t k = trip.n_stages(); k-- > 0;) {
+        later[k] = trip.stage_work[k];
+        if (k >= first_last) {
+            later[k] += k + 1 < trip.n_stages() ? later[k + 1] : 0;
+        } else {
+            const Tick way = to_stage[k + 1].from(trip.stage_vertex[k]);
+            if (way < 0) {
+                return -1;
+            }
+            later[k] += trip.stage_turn[k] + way + later[k + 1];
+        }
+    }
+    std::unordered_map<std::uint64_t, Tick> best;
+    std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
+    const auto reach = [&](EdgeId edge, VertexId vertex, std::size_t stage, Tick now) {
+        for (; stage < first_last && trip.stage_vertex[stage] == vertex; ++stage) {
+            now += trip.stage_work[stage] + trip.stage_turn[stage];
+        }
+        const Tick way = to_stage[stage].from(vertex);
+        const std::uint64_t state = stage * n_places + static_cast<std::uint64_t>(edge + 1);
+        if (way < 0) {
+            return;
+        }
+        const auto [known, is_new] = best.emplace(state, now);
+        if (is_new || now < known->second) {
+            known->second = now;
+            open.emplace(now + way + later[stage], way + later[stage], state);
+        }
+    };
+    reach(-1, trip.home, 0, 0);
+    while (!open.empty()) {
+        const auto [bound, rest, state] = open.top();
+        open.pop();
+        const auto edge = static_cast<EdgeId>(state % n_places) - 1;
+        const std::size_t stage = state / n_places;
+        const VertexId vertex = edge < 0 ? trip.home : graph.indices[edge];
+        if (stage >= first_last && vertex == trip.stage_vertex.back()) {
+            return bound;
+        }
+        const Tick now = bound - rest;
+        if (now > best[state]) {
+            continue;
+        }
+        for (EdgeId e = graph.indptr[vertex]; e < graph.indptr[vertex + 1]; ++e) {
+            const Tick drive = problem.drive(robot, e);
+            if (drive > 0) {
+                reach(e, graph.indices[e], stage, now + trip.turns.between(edge, e) + drive);
+            }
+        }
+    }
+    return -1;
 }
 
 }  // namespace rightofway

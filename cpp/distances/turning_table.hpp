@@ -7,8 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "distances/distance_tables.hpp"
 #include "problem/problem.hpp"
 
 namespace rightofway {
@@ -25,11 +27,14 @@ class TurningTable {
                       static_cast<std::size_t>(edge + 1)];
     }
 
-    std::size_t bytes() const { return sizeof(std::int32_t) * least_.size(); }
-
   private:
     std::size_t n_places_;             // the home, then the edges
     std::vector<std::int32_t> least_;  // stage * n_places_ + edge + 1
 };
+
+// The completion time of a robot that drives alone and turns in some time, by A* from its home.
+// Needs the distances to the vertex of each stage; -1 if the robot cannot reach a stage.
+Tick least_completion_with_turns(const Problem& problem, RobotId robot,
+                                 std::span<const DistanceView> to_stage);
 
 }  // namespace rightofway

@@ -45,6 +45,7 @@ FleetState::FleetState(const Problem& problem)
                                                               : problem.n_vertices()),
                  {nobody, nobody, -problem.rules().headway}) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        has_turns_ = has_turns_ || problem.turns(r).take_time();
         robots_[r] = {problem.home(r), problem.home(r), problem.first_stage(r), busy, 0, 0};
         resources_[problem.home(r)].here = r;
         begin_stage(r);
@@ -56,7 +57,8 @@ std::uint64_t FleetState::key(RobotId robot) const {
     const auto pack = [](std::int32_t high, std::int32_t low) {
         return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(low);
     };
-    return mix(pack(robot, r.stage) ^ mix(pack(r.at, r.to)));
+    const std::uint64_t heading = has_turns_ ? mix(static_cast<std::uint64_t>(r.edge + 1)) : 0;
+    return mix(pack(robot, r.stage) ^ mix(pack(r.at, r.to)) ^ heading);
 }
 
 void FleetState::set_busy(RobotId robot, Tick until) {
@@ -154,6 +156,7 @@ bool FleetState::advance() {
     for (const RobotId robot : finished_) {
         Robot& r = robots_[robot];
         if (r.at != r.to) {
+            r.edge = has_turns_ ? problem_->graph().edge(r.at, r.to) : -1;
             r.at = r.to;
             resources_[r.at].here = robot;
             resources_[r.at].comes = nobody;

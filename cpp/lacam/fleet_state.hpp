@@ -35,7 +35,10 @@ class FleetState {
     VertexId to(RobotId robot) const { return robots_[robot].to; }  // `at`, unless the robot moves
     std::int32_t stage(RobotId robot) const { return robots_[robot].stage; }
     VertexId target(RobotId robot) const { return problem_->stage_vertex(robots_[robot].stage); }
-    Tick ready(RobotId robot) const { return robots_[robot].ready; }  // of a busy robot
+    // When a busy robot finishes; when a free robot has finished.
+    Tick ready(RobotId robot) const { return robots_[robot].ready; }
+    // The edge driven in, -1 before the first drive. Only where turning takes time.
+    EdgeId came_by(RobotId robot) const { return robots_[robot].edge; }
     Tick on_its_way_since(RobotId robot) const { return robots_[robot].since; }
     bool is_busy(RobotId robot) const { return robots_[robot].place == busy; }
     bool has_arrived(RobotId robot) const { return robots_[robot].place == arrived; }
@@ -69,6 +72,7 @@ class FleetState {
         std::int32_t place;
         Tick ready;
         Tick since;
+        EdgeId edge = -1;
     };
     struct Resource {
         RobotId here;
@@ -89,6 +93,7 @@ class FleetState {
     void begin_stage(RobotId robot);
 
     const Problem* problem_;
+    bool has_turns_ = false;
     Tick now_ = 0;
     std::vector<Robot> robots_;
     std::vector<Resource> resources_;  // edges only where robots have sizes

@@ -48,6 +48,7 @@ Pibt::Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& p
     }
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         pace_.push_back(problem.quickest_edge(r));
+        turns_.push_back(problem.turns(r));
     }
     for (VertexId v = 0; v < problem.graph().n_vertices(); ++v) {
         most_heads_ = std::max(most_heads_, problem.graph().heads(v).size());
@@ -297,13 +298,31 @@ bool Pibt::try_places(const FleetState& now, RobotId robot, std::size_t first, R
             continue;
         }
         const bool pulls = partner != nobody && k == first && place != here;
-        if (pulls && !problem_.has_sizes() && is_idle(now, partner) && claim_[here] == nobody &&
+        if (pulls && is_idle(now, partner) && claim_[here] == nobody &&
             edge_to(now, partner, here) >= 0) {
-            take(now, partner, here);
+            pull(now, partner, here);
         }
         return true;
     }
     return false;
+}
+
+// Lets the partner follow the robot, if no other robot is in its way.
+void Pibt::pull(const FleetState& now, RobotId partner, VertexId place) {
+    if (!problem_.has_sizes()) {
+        take(now, partner, place);
+        return;
+    }
+    const auto stays = [&](RobotId other) { return !moves(now, other); };
+    if (!is_open(now, partner, place) || any_ahead(now, partner, place, stays)) {
+        return;
+    }
+    take(now, partner, place);
+    if (closes_circle(now, partner)) {
+        release(now, partner);
+        next_[partner] = nowhere;
+        chosen_.pop_back();
+    }
 }
 
 bool Pibt::is_idle(const FleetState& now, RobotId robot) const {
@@ -327,6 +346,12 @@ Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick dr
         return false;
     });
     return std::max(now.now() + drive, left + problem_.gap(drive));
+}
+
+// When a free robot can begin to drive along an edge: it turns as soon as it is free.
+Tick Pibt::turned(const FleetState& now, RobotId robot, EdgeId edge) const {
+    const Tick turn = turns_[robot].between(now.came_by(robot), edge);
+    return turn == 0 ? now.now() : std::max(now.now(), now.ready(robot) + turn);
 }
 
 // The steps to the target from the robot's vertex and its neighbours; cached for waiting robots.
@@ -427,7 +452,8 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
         if (arrival_[robot] != in_queue) {
             continue;  // part of a circle
         }
-        const Tick drive = problem_.drive(robot, edge_to(now, robot, place));
+        const EdgeId edge = edge_to(now, robot, place);
+        const Tick drive = problem_.drive(robot, edge);
         Tick left = -problem_.rules().headway;
         any_near(now, robot, place, [&](std::int32_t resource, std::int32_t, bool) {
             left = std::max(left, now.left(resource));
@@ -437,7 +463,8 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
             left = std::max(left, now.is_busy(other) ? now.ready(other) : arrival_[other]);
             return false;
         });
-        arrival_[robot] = std::max(now.now() + drive, left + problem_.gap(drive));
+        arrival_[robot] =
+            std::max(turned(now, robot, edge) + drive, left + problem_.gap(drive));
     }
     return true;
 }
@@ -446,15 +473,15 @@ bool Pibt::settle_circle(const FleetState& now, RobotId member) {
     if (!problem_.may_rotate()) {
         return false;
     }
-    Tick slowest = 0;
+    Tick latest = 0;
     RobotId robot = member;
     do {
-        slowest = std::max<Tick>(
-            slowest, problem_.drive(robot, problem_.graph().edge(now.at(robot), next_[robot])));
+        const EdgeId edge = edge_to(now, robot, next_[robot]);
+        latest = std::max(latest, turned(now, robot, edge) + problem_.drive(robot, edge));
         robot = now.here(next_[robot]);
     } while (robot != member);
     do {
-        arrival_[robot] = now.now() + slowest;
+        arrival_[robot] = latest;
         robot = now.here(next_[robot]);
     } while (robot != member);
     return true;

@@ -6,7 +6,7 @@
 // robot tries its second choice. Robots that drive or work cannot be pushed; a robot waits if other
 // robots drive to all vertices that it prefers. After all choices, arrivals are computed from the
 // front of each queue to its end; a rotation arrives at one instant, the arrival of its slowest
-// robot.
+// robot. Turns on the spot delay arrivals, but no robot prefers a place for them.
 //
 // Robots with sizes: a place is blocked, or held, by the robots near to it, and near to the edge that
 // leads there. A robot pushes each of them, and waits for each of them to leave. For points the only
@@ -77,6 +77,7 @@ class Pibt {
     template <class Use>
     bool any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const;
     bool goes_first(const FleetState& now, RobotId other, RobotId robot) const;
+    void pull(const FleetState& now, RobotId partner, VertexId place);
     bool is_open(const FleetState& now, RobotId robot, VertexId place) const;
     bool is_booked(const FleetState& now, RobotId robot, VertexId place) const;
     bool moves(const FleetState& now, RobotId robot) const;
@@ -94,6 +95,7 @@ class Pibt {
     static bool ranks_before(const Place& left, const Place& right);
     void push_places(const FleetState& now, RobotId robot);
     Tick soonest(const FleetState& now, RobotId robot, VertexId place, Tick drive) const;
+    Tick turned(const FleetState& now, RobotId robot, EdgeId edge) const;
     bool is_idle(const FleetState& now, RobotId robot) const;
     std::int32_t way(const FleetState& now, RobotId robot, VertexId vertex);
     bool settle_arrivals(const FleetState& now);
@@ -106,6 +108,7 @@ class Pibt {
     const SpaceUtilization& paths_;
     std::vector<StepTables::TableId> stage_table_;
     std::vector<Tick> pace_;
+    std::vector<Turns> turns_;  // of each robot
     std::vector<Outlook> outlook_;            // of each robot, at its latest choice
     std::size_t most_heads_ = 0;              // greatest out-degree
     std::vector<std::int32_t> steps_beside_;  // per robot: most_heads_ neighbours

@@ -17,7 +17,7 @@ struct Lns::Worker {
     Worker(SharedDistances& distances, FleetPlan& own, std::span<const Tick> alone)
         : plan(own),
           search(distances.problem().roads(), distances.problem().rules()),
-          reader(distances),
+          reader(distances, true),
           neighbourhoods(distances, own, alone) {}
 
     FleetPlan& plan;

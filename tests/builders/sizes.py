@@ -16,11 +16,21 @@ from rightofway.model import (
     Stop,
     VertexId,
     roadmap_of_edges,
+    roadmap_of_grid,
 )
 from rightofway.model.zones import Zone
-from tests.builders.fleets import random_fleet
+from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
 
-__all__ = ["crossing", "crowded_roadmap", "sized", "sized_on_lanes", "tiny", "with_radii", "zoned"]
+__all__ = [
+    "crossing",
+    "crowded_roadmap",
+    "dense",
+    "sized",
+    "sized_on_lanes",
+    "tiny",
+    "with_radii",
+    "zoned",
+]
 
 
 def with_radii(
@@ -55,6 +65,32 @@ def _sized(seed: int, robots: int, headway: int) -> Scenario:
         radii[-1:] = [Fraction(0), Fraction(1, 2)]
     rules = Rules(headway=Fraction(headway), ends=draw.choice(["home", "none"]))
     return with_radii(random_fleet(seed, robots=robots, walls=0.05, rules=rules), radii)
+
+
+def dense(seed: int, *, size: int, robots: int, radii: Sequence[str]) -> Scenario:
+    """Return a large fleet on an open grid with few walls; one way trips."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    grid = random_grid(draw, size=size, walls=0.05)
+    roadmap = roadmap_of_grid(grid)
+    exact = [Fraction(radius) for radius in radii]
+
+    def places() -> list[str]:
+        taken: list[tuple[tuple[int, int], Fraction]] = []
+        names = []
+        for vertex in draw.sample(largest_part(roadmap), len(largest_part(roadmap))):
+            row, column = divmod(int(roadmap.name(vertex)[1:]), size)
+            radius = exact[len(taken) % len(exact)]
+            if len(taken) < robots and all(
+                (row - there[0]) ** 2 + (column - there[1]) ** 2 >= (radius + other) ** 2
+                for there, other in taken
+            ):
+                taken.append(((row, column), radius))
+                names.append(roadmap.name(vertex))
+        assert len(names) == robots, "the grid is too small"
+        return names
+
+    trips = list(zip(places(), places(), strict=True))
+    return with_radii(grid_fleet(grid, trips, rules=Rules(ends="none")), exact)
 
 
 def crowded_roadmap(
@@ -110,7 +146,10 @@ def _sized_on_lanes(seed: int, robots: int) -> Scenario:
 
 
 def tiny(seed: int, *, robots: int = 2) -> Scenario:
-    """Return a few robots with sizes, one way trips and no work, on six vertices."""
+    """Return a few robots with sizes, one way trips and no work, on a few vertices.
+
+    There are six vertices for two robots, and five to eight for more.
+    """
     fleets = (_tiny(seed + 1000 * k, robots) for k in range(1000))
     return next(
         fleet for fleet in fleets if has_room(fleet) and fleet.problem.clock.tick >= Fraction(1, 8)
@@ -119,7 +158,8 @@ def tiny(seed: int, *, robots: int = 2) -> Scenario:
 
 def _tiny(seed: int, robots: int) -> Scenario:
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    roadmap = crowded_roadmap(draw, vertices=6, edges=7)
+    vertices = 6 if robots == 2 else draw.randint(5, 8)
+    roadmap = crowded_roadmap(draw, vertices=vertices, edges=vertices + 1)
     homes, targets = (draw.sample(range(roadmap.n_vertices), robots) for _ in range(2))
     return Scenario(
         roadmap=roadmap,
@@ -191,4 +231,57 @@ def crossing(radius: str = "0.4", clearance: str = "0.1") -> Scenario:
             for name, home, target in [("R1", "A", "B"), ("R2", "C", "D")]
         ),
         rules=Rules(clearance=Fraction(clearance)),
+    )
+
+
+def repeated(seed: int) -> Scenario:
+    """Return a random fleet with sizes that repeats its laps, on a grid or on lanes both ways."""
+    fleets = ((_on_grid if seed % 2 else _both_ways)(seed + 1000 * k) for k in range(1000))
+    return next(
+        fleet
+        for fleet in fleets
+        if has_room(fleet) and all(one.stops[0].at != one.home for one in fleet.robots)
+    )
+
+
+def _on_grid(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    rules = Rules(headway=Fraction(draw.choice([0, 0, 1])))
+    scenario = random_fleet(seed, size=8, robots=draw.randint(2, 4), walls=0.05, rules=rules)
+    return with_radii(
+        scenario, [Fraction(draw.randint(2, 8), 10) for _ in range(draw.randint(1, 3))]
+    )
+
+
+def _both_ways(seed: int) -> Scenario:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    one_way, robots = crowded_roadmap(draw, vertices=12, edges=22), draw.randint(2, 3)
+    names = [one_way.name(vertex) for vertex in range(one_way.n_vertices)]
+    lanes = {
+        frozenset((tail, int(one_way.heads[edge]))): one_way.lengths[one_way.length_class[edge]]
+        for tail in range(one_way.n_vertices)
+        for edge in range(int(one_way.indptr[tail]), int(one_way.indptr[tail + 1]))
+    }
+    edges = [
+        Edge(tail=names[tail], head=names[head], length=length)
+        for ends, length in lanes.items()
+        for tail, head in (sorted(ends), sorted(ends)[::-1])
+    ]
+    at = {name: (float(x), float(y)) for name, (x, y) in zip(names, one_way.positions, strict=True)}
+    places = draw.sample(range(one_way.n_vertices), 2 * robots)
+    return Scenario(
+        roadmap=roadmap_of_edges(at, edges),
+        robots=tuple(
+            Robot(
+                name=f"R{k + 1}",
+                home=VertexId(places[k]),
+                stops=(Stop(at=VertexId(places[robots + k]), work=Fraction(draw.randint(0, 3))),),
+                speed=draw.choice([Fraction(1), Fraction(1, 2), Fraction(2)]),
+                radius=Fraction(draw.randint(0 if k else 1, 5), 10),
+            )
+            for k in range(robots)
+        ),
+        rules=Rules(
+            headway=Fraction(draw.choice([0, 0, 1])), clearance=Fraction(draw.choice([0, 1]), 10)
+        ),
     )

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from rightofway.cli.main import commands
 from tests.cli.conftest import EXAMPLES, SWAP, Cli
@@ -241,6 +242,31 @@ def test_show_lays_a_picture_under_the_map_of_the_page(cli: Cli, door: Path) -> 
     options = ("--background", "hall.png", "--background-scale", "0.01")
     assert cli("show", door, "--page", "a.html", *options).code == 0
     assert '"background":{"href":"data:image/png;base64,' in Path("a.html").read_text("utf-8")
+
+
+def test_show_puts_a_ros_map_where_its_file_says(cli: Cli, door: Path) -> None:
+    Image.new("L", (60, 60), 255).save("hall.pgm")
+    Path("hall.yaml").write_text(
+        "image: hall.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.2\n"
+    )
+    ended = cli("show", door, "--page", "a.html", "--background", "hall.yaml")
+    assert ended.code == 0
+    assert '"background":{"href":"data:image/png;base64,' in Path("a.html").read_text("utf-8")
+    scaled = cli(
+        "show", door, "--page", "a.html", "--background", "hall.yaml", "--background-scale", "1"
+    )
+    assert (scaled.code, "hall.yaml says its own scale" in scaled.err) == (2, True)
+
+
+def test_a_layout_without_a_picture_is_no_background(cli: Cli, door: Path) -> None:
+    Path("nav.yaml").write_text(
+        "levels:\n  L1:\n    vertices: [[0, 0, {name: a}], [1, 0, {name: b}]]\n"
+        "    lanes: [[0, 1, {}]]\n"
+    )
+    ended = cli("show", door, "--page", "a.html", "--background", "nav.yaml")
+    assert ended.code == 2
+    assert "nav.yaml: names 0 pictures (give a ROS map, or a building of one level)" in ended.err
 
 
 def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:

@@ -122,3 +122,32 @@ def test_wrong_input_is_refused_with_a_remedy(
 ) -> None:
     ended = cli("inspect", *(door if arg == "door" else arg for arg in args))
     assert (ended.code, message in ended.err) == (2, True)
+
+
+def test_the_report_is_written_and_shown_on_a_page(cli: Cli) -> None:
+    ended = cli("inspect", LAYOUTS / "plant.xml", "-o", "report.txt", "--page", "plant.html")
+    assert (ended.code, ended.out) == (0, "")
+    report = Path("report.txt").read_text(encoding="utf-8")
+    assert report == cli("inspect", LAYOUTS / "plant.xml").out
+    assert "an openTCS plant model" in Path("plant.html").read_text(encoding="utf-8")
+
+
+def test_a_report_that_ends_in_json_is_that_of_programs(cli: Cli) -> None:
+    ended = cli("inspect", LAYOUTS / "plant.xml", "-o", "report.json")
+    assert (ended.code, ended.out) == (0, "")
+    written = Path("report.json").read_text(encoding="utf-8")
+    assert written == cli("inspect", LAYOUTS / "plant.xml", "--json").out
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["-o", "report.pdf"], "does not end in .json or .txt"),
+        (["--page", "report.json"], "does not end in .html or .htm"),
+        (["-o", "-", "--json"], "both go to standard output"),
+    ],
+)
+def test_outputs_that_do_not_fit_are_refused(cli: Cli, options: list[str], message: str) -> None:
+    ended = cli("inspect", LAYOUTS / "plant.xml", *options)
+    assert ended.code == 2
+    assert message in ended.err

@@ -307,3 +307,34 @@ def test_json_has_a_row_or_a_robot_on_a_line(tmp_path: Path) -> None:
 def test_another_suffix_is_no_scenario(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"the suffix '\.txt' is no scenario's"):
         write_scenario(fleet_of_all_kinds(), tmp_path / "a.txt")
+
+
+def test_stations_and_parking_places_of_vertices_that_are_not_there_are_all_reported() -> None:
+    shape = {
+        "vertices": {"A": [0, 0], "B": [2, 0]}, "edges": [["A", "B"]],
+        "stations": {"Press": "C"}, "parking": ["A", "D"], "charging": ["AA"],
+    }  # fmt: skip
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": shape},
+        "robots": [{"name": "R1", "home": "A", "target": "B"}],
+    }
+    with pytest.raises(InputError) as caught:
+        scenario_of(document)
+    assert {(fault.place, fault.message) for fault in caught.value.faults} == {
+        ("map.roadmap.stations.Press", "no vertex is named 'C' (add it to vertices)"),
+        ("map.roadmap.parking[1]", "no vertex is named 'D' (add it to vertices)"),
+        ("map.roadmap.charging[0]", "no vertex is named 'AA' (did you mean 'A'?)"),
+    }
+
+
+def test_a_robot_may_name_a_station_of_a_roadmap() -> None:
+    shape = {"vertices": {"A": [0, 0], "B": [2, 0]}, "edges": [["A", "B"]]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {**shape, "stations": {"Press": "B"}}},
+        "robots": [{"name": "R1", "home": "A", "target": "Press"}],
+    }
+    scenario = scenario_of(document)
+    assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "B"
+    assert dump_scenario(scenario)["map"]["roadmap"]["stations"] == {"Press": "B"}

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rightofway.io.text import parse_yaml
-from tests.fuzz.layouts import BOMBS, failures, limited, opened
+from tests.builders.broken_layouts import BOMBS, failures, limited, opened
 
 HERE = Path(__file__).parents[1] / "data" / "layouts"
 FILES = sorted(path for path in HERE.iterdir() if path.suffix != ".md")

@@ -17,7 +17,7 @@ from rightofway.check import check
 from rightofway.errors import NoPlanExists
 from rightofway.execution.forecast import Forecast
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.execution.replan import closures_of, commitment_of, replan
+from rightofway.execution.replan import commitment_of, held_by_broken, replan
 from rightofway.model import NEVER, Plan, Rules, Stage, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
@@ -81,7 +81,7 @@ def most_by_brute_force(forecast: Forecast, stages: Sequence[tuple[Stage, ...]])
         [one.vertex for one in kept],
         goals,
         forecast.broken,
-        closures_of(forecast).vertices,
+        held_by_broken(forecast).vertices,
         may_rotate=may_rotate,
     )
 

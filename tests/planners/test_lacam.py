@@ -13,6 +13,7 @@ import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Occupancy, Rules, Scenario
 from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.sizes import dense, with_radii
 
 HARD = sorted((Path(__file__).parents[1] / "data" / "hard").glob("*.scen"))
 
@@ -70,6 +71,36 @@ def test_without_rotations_a_full_hall_takes_the_order_of_moves_first() -> None:
     plan = rightofway.solve(scenario, "lacam", time_limit=60, report=said.append)
     assert plan.run.status == "order of moves first"
     assert said == ["no end by instants: planning the order of moves without clocks"]
+
+
+def test_a_large_robot_pushes_every_robot_in_its_way() -> None:
+    """R2 and R3 stand beside the row in which R1 drives: 1 away, where 1.5 are needed."""
+    trips = [("N17", "N22"), ("N12", "N12"), ("N28", "N28")]
+    fleet = grid_fleet(["." * 8] * 5, trips, rules=Rules(ends="none"))
+    plan = rightofway.solve(with_radii(fleet, list(map(Fraction, ["1.2", "0.3", "0.3"]))), "lacam")
+    assert plan.run.status == "instant by instant"
+    visits = [len(track) for track in plan.tracks]
+    assert visits[0] == 6
+    assert min(visits[1:]) >= 3
+
+
+@pytest.mark.parametrize(
+    ("robots", "radii"), [(45, ["0.7"]), (130, ["0.45"]), (35, ["0.3", "0.7", "1"])]
+)
+def test_dense_fleets_of_robots_with_sizes_are_planned_by_instants(
+    robots: int, radii: list[str]
+) -> None:
+    """Robots one after another find no way for the second fleet, and take seconds for the first."""
+    plan = rightofway.solve(dense(0, size=16, robots=robots, radii=radii), "lacam")
+    assert plan.run.status == "instant by instant"
+    assert rightofway.check(plan).ok
+
+
+def test_robots_with_sizes_that_are_boxed_in_are_planned_by_single_moves() -> None:
+    """Nine cells, seven robots: they fill the hall, so that nobody can be pushed far."""
+    scenario = all_but_two(["..."] * 3, 0, Rules(ends="none"), [Fraction(1)])
+    plan = rightofway.solve(with_radii(scenario, [Fraction("0.5")]), "lacam")
+    assert rightofway.check(plan).ok
 
 
 def test_spread_paths_are_better_than_shortest_ones_in_aisles() -> None:

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,7 +12,10 @@ import pytest
 from PIL import Image, ImageColor
 
 from rightofway.errors import InputError
-from rightofway.model import Plan
+from rightofway.io import scenario_of
+from rightofway.model import Edge, Plan, Robot, Scenario, Stop, VertexId, roadmap_of_edges
+from rightofway.model.drawing import Drawing, Picture
+from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, robot_colours
 from rightofway.viz.raster.canvas import Pen, Scene
@@ -179,3 +183,57 @@ def test_the_page_needs_no_pillow() -> None:
         "import sys, rightofway.viz.page.document, rightofway.viz; sys.exit('PIL' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_robots_with_a_size_have_it_in_a_picture(tmp_path: Path) -> None:
+    """R1 has a radius of half an edge of 4 m: its disc ends 2 m from its vertex."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": {"A": [0, 0], "B": [4, 0]}, "edges": [["A", "B"]]}},
+        "robots": [{"name": "R1", "home": "A", "target": "B", "radius": 2, "return": "none"}],
+    }
+    write_png(solve(scenario_of(document)), tmp_path / "a.png", scale=40)
+    with Image.open(tmp_path / "a.png") as image:
+        # the robot reaches no farther than the half unit round the map: no margin more
+        assert image.size == (2 * MARGIN + 80, 2 * MARGIN + 40)
+    assert colour_at(tmp_path / "a.png", 0, 0.4) == BLUE
+    assert colour_at(tmp_path / "a.png", 0, 0.49 + 0.1) != BLUE
+
+
+def test_a_zone_lies_below_its_lanes(tmp_path: Path) -> None:
+    shape = {
+        "vertices": {"A": [0, 0], "B": [4, 0]}, "edges": [["A", "B"]],
+        "zones": [{"name": "aisle", "vertices": ["A"], "edges": [["A", "B"]]}],
+    }  # fmt: skip
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": shape},
+        "robots": [{"name": "R1", "home": "A", "target": "B"}],
+    }
+    scene = Scene(solve(scenario_of(document)), LIGHT)
+    write_png(scene.plan, tmp_path / "a.png", scale=40)
+    tint = scene.faint(LIGHT.zone, 0.35)
+    assert tint in {colour_at(tmp_path / "a.png", 0.5, 0.01 * y) for y in range(20, 50)}
+
+
+def test_the_picture_of_a_layout_lies_where_it_says(tmp_path: Path) -> None:
+    """Its right half is red: pixels of 1 m from x = -1 on, so that red begins at x = 1."""
+    picture = Image.new("RGB", (4, 4), "#ffffff")
+    picture.paste("#ff0000", (2, 0, 4, 4))
+    picture.save(tmp_path / "hall.png")
+    edge = Edge(tail="A", head="B", length=Fraction(2))
+    roadmap = replace(
+        roadmap_of_edges({"A": (0, 0), "B": (2, 0)}, [edge], y_up=True),
+        drawing=Drawing(
+            picture=Picture(
+                file=tmp_path / "hall.png", pixel=Fraction(1), corner=(Fraction(-1), Fraction(2))
+            )
+        ),
+    )
+    robot = Robot(name="R1", home=VertexId(0), stops=(Stop(at=VertexId(1)),), ends="none")
+    plan = solve(Scenario(roadmap=roadmap, robots=(robot,)))
+    write_png(plan, tmp_path / "a.png", scale=40)
+    # a unit is the edge of 2 m; 0.4 units above the lane nothing else is drawn
+    left, right = (colour_at(tmp_path / "a.png", x, -0.4) for x in (0.4, 0.7))
+    assert ImageColor.getrgb(left)[1] > 240
+    assert ImageColor.getrgb(right)[1] < 120

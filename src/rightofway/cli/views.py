@@ -19,7 +19,6 @@ from rightofway.errors import InputError
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
-    from rightofway.model.drawing import Picture
     from rightofway.viz import Background
 
 LAYOUTS_WITH_PICTURES = (".yaml", ".yml")
@@ -216,14 +215,14 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
     if not path.lower().endswith(LAYOUTS_WITH_PICTURES):
         return Background(picture=path, scale=scale)
     from rightofway.io import read_layout
-    from rightofway.model.layout import Layout
+    from rightofway.model.layout import Layout, Level
     from rightofway.model.occupancy import Occupancy
 
-    layout, found = read_layout(path), list[Picture]()
-    if isinstance(layout, Layout):
-        found = [level.picture for level in layout.levels if level.picture]
-    elif isinstance(layout, Occupancy) and layout.picture:
-        found = [layout.picture]
+    layout = read_layout(path)
+    owners = layout.levels if isinstance(layout, Layout) else (layout,)
+    found = [
+        each.picture for each in owners if isinstance(each, Level | Occupancy) and each.picture
+    ]
     if len(found) != 1:
         message = f"names {len(found)} pictures (give a ROS map, or a building of one level)"
         raise InputError.at("", message, path)

@@ -114,7 +114,8 @@ class Window:
 
         Two cyclic routes that agree for the length of both laps together agree for ever (Fine and
         Wilf 1965). Robots with a size: a segment that links two visits with visits whole laps later
-        of one robot and whole laps earlier of the other goes on in the same way.
+        of one robot and whole laps earlier of the other goes on in the same way. If it comes again
+        for one of the robots only, that robot can go on for ever.
 
         Raises
         ------
@@ -128,13 +129,13 @@ class Window:
         if i_last < len(self.routes[i]) - 2 and j_last < len(self.routes[j]) - 2:
             return False
         i_lap, j_lap = len(self.context.routes[i]), len(self.context.routes[j])
-        if isinstance(segment, Segment):
-            is_known = len(segment.vertices) >= i_lap + j_lap
-        else:
-            is_known = _recurs(((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap)
-        if not is_known:
-            raise TooShort(meeting.robots)
-        return True
+        if isinstance(segment, SegmentOfSizes):
+            recurrence = _recurrence(((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap)
+            if recurrence is not None:
+                return recurrence == "head-on"
+        elif len(segment.vertices) >= i_lap + j_lap:
+            return True
+        raise TooShort(meeting.robots)
 
     def _rows(self) -> BookedRows | None:
         """Return what the visits book where robots have a size; the last vertices are free."""
@@ -190,17 +191,27 @@ class Window:
         return max(leave - max(past[visit], self.begins), 1)
 
 
-def _recurs(pairs: Iterable[tuple[int, int]], i_lap: int, j_lap: int) -> bool:
-    """Return whether two pairs are whole laps apart, one robot later and the other one earlier."""
-    at_place = defaultdict[tuple[int, int], list[tuple[int, int]]](list)
+def _recurrence(
+    pairs: Iterable[tuple[int, int]], i_lap: int, j_lap: int
+) -> Literal["head-on", "in place"] | None:
+    """Return how pairs of a head-on segment come again whole laps apart, so that it has no end.
+
+    ``head-on``: later for one robot and earlier for the other. ``in place``: for one robot only;
+    it can go on for ever while the other robot waits. None if no pair comes again.
+    """
+    j_at_place = defaultdict[tuple[int, int], dict[int, list[int]]](dict)
     for a, b in pairs:
-        at_place[a % i_lap, b % j_lap].append((a, b))
-    return any(
-        one[0] < other[0] and one[1] > other[1]
-        for found in at_place.values()
-        for one in found
-        for other in found
-    )
+        j_at_place[a % i_lap, b % j_lap].setdefault(a, []).append(b)
+    found: Literal["in place"] | None = None
+    for j_by_i in j_at_place.values():
+        latest = -1
+        for _, visits in sorted(j_by_i.items()):
+            if min(visits) < latest:
+                return "head-on"
+            if len(visits) > 1 or latest in visits:
+                found = "in place"
+            latest = max(latest, *visits)
+    return found
 
 
 WindowRule = Callable[[Window, Meeting, AnySegment], Literal[0, 1]]

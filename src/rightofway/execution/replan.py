@@ -41,6 +41,7 @@ from rightofway.model import (
     Track,
     VertexId,
     route_of,
+    turns_along,
 )
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lacam import order_of_steps, timetable_in_order
@@ -115,7 +116,7 @@ def commitment_of(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Co
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Closures:
+class Held:
     """What broken robots keep booked for ever.
 
     Attributes
@@ -131,7 +132,7 @@ class Closures:
     edges: frozenset[tuple[int, int]] = frozenset()
 
 
-def closures_of(forecast: Forecast) -> Closures:
+def held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
     adg, booked = forecast.adg, forecast.booked
     resources = adg.scenario.problem.resources
@@ -149,7 +150,7 @@ def closures_of(forecast: Forecast) -> Closures:
             )
             rows.update(other for row in own for other in resources.excluded_by(row).tolist())
     if resources is None:
-        return Closures(vertices=frozenset(vertices))
+        return Held(vertices=frozenset(vertices))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
     others = (robot for robot in range(len(adg.routes)) if robot not in forecast.broken)
     sizes = {int(resources.size_of[robot]) for robot in others}
@@ -158,7 +159,7 @@ def closures_of(forecast: Forecast) -> Closures:
     tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
     ends_of_edges = enumerate(zip(tails, roadmap.heads.tolist(), strict=True), n_vertices)
     edges = (ends for edge, ends in ends_of_edges if edge in shut or ends[1] in shut)
-    return Closures(vertices=frozenset(vertices), edges=frozenset(edges))
+    return Held(vertices=frozenset(vertices), edges=frozenset(edges))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,7 +181,7 @@ def replan(
     """
     scenario, cut_off = forecast.adg.scenario, frozenset[int]()
     commitments = [commitment_of(forecast, robot, own) for robot, own in enumerate(stages)]
-    closed = closures_of(forecast)
+    closed = held_by_broken(forecast)
     roadmap = scenario.roadmap
     if closed.vertices:
         roadmap = roadmap.without(closed.vertices, closed.edges)
@@ -194,8 +195,13 @@ def replan(
         rest = _rest(scenario, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
-    better = improve(first, time_limit=deadline.seconds_left(), seed=seed, options=options)
-    for plan in (better, first):
+    plans = [first]
+    try:
+        left = deadline.seconds_left()
+        plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
+    except (NoPlanExists, GaveUp):
+        pass  # planners read zones more strictly than the order of a plan does
+    for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:
             adg = _spliced(forecast, commitments, plan)
@@ -210,7 +216,7 @@ def replan(
 def _going_on(
     forecast: Forecast,
     commitments: Sequence[Commitment],
-    closed: Closures,
+    closed: Held,
     rest: Scenario,
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
@@ -347,6 +353,22 @@ def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment
     return replace(scenario, roadmap=roadmap, robots=robots, clock=scenario.problem.clock)
 
 
+def _turn_aside(
+    scenario: Scenario, robot: int, one: Commitment, old: Route, ahead: Sequence[VertexId]
+) -> int:
+    """Return how long a robot turns at the end of its commitment to the vertex ahead, if any.
+
+    Where it drives on as planned, the turn is a part of what the robot is busy with.
+    """
+    came, planned = old.vertices[max(one.visit - 1, 0) : one.visit], old.vertices[one.visit + 1 :]
+    if one.drives_to is not None:
+        came, planned = (one.vertex,), ()
+    if not came or not ahead or ahead == planned[:1]:
+        return 0
+    path = np.array([*came, one.free_from, *ahead], np.int32)
+    return int(turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
+
+
 def _spliced(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
@@ -363,6 +385,9 @@ def _spliced(
         # The new route's visit at the end of the commitment is the last visit of the old route.
         begins, kept = new.serves[is_driving], one.visit + 1 + is_driving
         before = 0 if is_driving else old.dwell[one.visit] - one.busy
+        # The new route does not know where the robot has come from.
+        known = turns_along(plan.scenario.roadmap, itinerary, track.vertices)[begins]
+        aside = _turn_aside(adg.scenario, robot, one, old, new.vertices[begins + 1 : begins + 2])
         shift = kept - 1 - begins
         to_come = new.serves[len(new.serves) - len(one.left) :]
         serves = [*old.serves[: len(one.begun)], *(visit + shift for visit in to_come)]
@@ -371,7 +396,7 @@ def _spliced(
             vertices=(*old.vertices[:kept], *new.vertices[begins + 1 :]),
             dwell=(
                 *old.dwell[: kept - 1],
-                Tick(before + new.dwell[begins]),
+                Tick(before + new.dwell[begins] - int(known) + aside),
                 *new.dwell[begins + 1 :],
             ),
             drive=(*old.drive[:kept], *new.drive[begins + 1 :]),

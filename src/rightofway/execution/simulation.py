@@ -12,8 +12,8 @@ from rightofway.errors import InputError, kernel_limits
 from rightofway.execution.delays import DEFAULT, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import Collisions, Lateness, Outcome, PolicyGain, joined
-from rightofway.model import NEVER, ExecutionTrace, Plan, Problem, checked_time_limit
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
+from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
+from rightofway.model.problem import refuse_closures
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 
@@ -82,7 +82,9 @@ def simulate(
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
     if runs < 1:
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    _refuse_unknown(plan.scenario.problem, switch=switch, replan=replan)
+    if switch or replan:
+        what = "replanning during execution" if replan else "switching rights of way"
+        refuse_closures(plan.scenario.problem, what, "leave it out")
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
@@ -136,13 +138,3 @@ def simulate(
         completion=np.where(unfinished, -1, every.completion),
         _trace=trace,
     )
-
-
-def _refuse_unknown(problem: Problem, *, switch: bool, replan: bool) -> None:
-    """Refuse policies that do not know turn rates or closures."""
-    if replan:
-        remedy = "leave out replan; switch is possible"
-        refuse_turn_rates(problem, "replanning during execution", remedy)
-    if switch or replan:
-        what = "replanning during execution" if replan else "switching rights of way"
-        refuse_closures(problem, what, "leave it out")

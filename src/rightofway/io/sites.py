@@ -125,7 +125,8 @@ def _of_layout(path: Path, found: Layout, choice: Choice) -> Sites:
             notes.append(f"level {level.name} is empty")
             continue
         name = choice.vehicle_type or _usual_type(level)
-        roadmap, lacks = roadmap_of_level(level, vehicle_type=name)
+        made = roadmap_of_level(level, vehicle_type=name)
+        roadmap, lacks = made.roadmap, made.notes
         if name and choice.vehicle_type is None:
             others = len(level.vehicle_types) - 1
             types = "1 other type" if others == 1 else f"{others} other types"

@@ -184,7 +184,7 @@ def parse_json(text: str) -> Any:
         raise _fault(error.lineno, f"{error.msg} (check the JSON there)") from None
     except RecursionError:
         raise _too_deep() from None
-    _check_depth(data)
+    check_depth(data)
     if doubled:
         raise InputError(
             InputFault(
@@ -208,7 +208,14 @@ def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
     return ()  # a key given twice has overwritten the mapping
 
 
-def _check_depth(data: Any) -> None:
+def check_depth(data: Any) -> None:
+    """Refuse data in which mappings and lists are inside each other more than `MAX_DEPTH` deep.
+
+    Parameters
+    ----------
+    data
+        Plain data.
+    """
     level = [data] if isinstance(data, dict | list) else []
     for _ in range(MAX_DEPTH):
         level = [

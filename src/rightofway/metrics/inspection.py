@@ -28,6 +28,7 @@ from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site,
 from rightofway.model import Roadmap, decimal
 from rightofway.model.geometry import squared_distance
 from rightofway.model.resources import ClosePairs, close_pairs
+from rightofway.model.spacing import along_one_lane
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
@@ -198,6 +199,8 @@ def _near(site: Site) -> Iterator[Finding]:
     pairs = close_pairs(roadmap, room or TOUCHING)
     yield from _near_vertices(site, pairs, need)
     for vertex, (tail, head) in pairs.beside:
+        if along_one_lane(site.names((vertex, tail, head))):
+            continue
         lane = f"the lane {roadmap.name(tail)} to {roadmap.name(head)}"
         beside = (
             f"{site.name(vertex)} is too near to {lane}; {need}"
@@ -234,6 +237,8 @@ def _smallest_cell(roadmap: Roadmap) -> Fraction | None:
 def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:
     roadmap = site.roadmap
     for one, other in pairs.vertices:
+        if along_one_lane(site.names((one, other))):
+            continue
         apart = site.units.written_length(_distance(roadmap, one, other))
         both_homes = _homes_clash(site, one, other)
         is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None

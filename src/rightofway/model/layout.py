@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.model.drawing import Drawing, Picture
@@ -52,7 +53,10 @@ class LayoutEdge:
     types
         Vehicle types that may use it; None for all.
     shape
-        Points between its ends, for drawing [m]; empty for a straight lane.
+        Points between its ends where it is drawn [m]; empty for a straight lane.
+    chord_error
+        How far at most a curve that robots drive along is from the straight lines between these
+        points [m]; None where robots drive straight, whatever is drawn.
     """
 
     tail: str
@@ -61,6 +65,7 @@ class LayoutEdge:
     max_speed: Fraction | None = None
     types: frozenset[str] | None = None
     shape: tuple[Point, ...] = ()
+    chord_error: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -168,13 +173,34 @@ class Layout:
         if name is None and len(known) == 1:
             return self.levels[0]
         if name is None:
-            message = f"the layout has {len(known)} levels (give one of {listed(known)})"
-            raise InputError.at("level", message)
+            message = f"the layout has {len(known)} levels, and a plan stays on one"
+            raise InputError.at("level", f"{message} (give one of {listed(known)})")
         if name not in known:
             near = nearest(name, known)
             hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
             raise InputError.at("level", f"no level is named {shown(name)} ({hint})")
         return self.levels[known.index(name)]
+
+
+class LevelRoadmap(NamedTuple):
+    """The roadmap of a level.
+
+    Attributes
+    ----------
+    roadmap
+        The roadmap.
+    curves
+        How many lanes were split into the straight pieces of a curve.
+    chord_error
+        How far at most these pieces are from their curves [length unit].
+    notes
+        What the roadmap lacks, a sentence each.
+    """
+
+    roadmap: Roadmap
+    curves: int
+    chord_error: Fraction
+    notes: tuple[str, ...]
 
 
 def roadmap_of_level(
@@ -185,7 +211,8 @@ def roadmap_of_level(
     metre: Fraction = Fraction(1),
     second: Fraction = Fraction(1),
     spacing: Fraction | None = None,
-) -> tuple[Roadmap, tuple[str, ...]]:
+    cuts_curves: bool = False,
+) -> LevelRoadmap:
     """Make the roadmap of a level.
 
     Parameters
@@ -201,11 +228,9 @@ def roadmap_of_level(
         A metre in length units, and a second in time units, of the roadmap.
     spacing
         The longest piece of a lane [length unit]; None to split none.
-
-    Returns
-    -------
-    tuple
-        The roadmap, and notes of what it lacks, a sentence each.
+    cuts_curves
+        Whether curves are split into straight pieces, as robots with a size need them; for others a
+        curve is a lane of its length.
 
     Raises
     ------
@@ -243,13 +268,35 @@ def roadmap_of_level(
         if vertex.name not in closed
     }
     edges, zones = list(slowest.values()), _zones(level, positions, slowest)
+    curves = _curves(lanes, slowest) if cuts_curves else {}
     split = SplitLanes(positions, edges, {})
-    if spacing is not None:
-        split = split_lanes(positions, edges, spacing)
+    if spacing is not None or curves:
+        shapes = {
+            ends: [(x * metre, y * metre) for x, y in lane.shape] for ends, lane in curves.items()
+        }
+        split = split_lanes(positions, edges, spacing, shapes)
     drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
     roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
     roadmap = replace(roadmap, drawing=_drawing(level, roadmap, metre))
-    return roadmap, tuple(_lacks(level, lanes, slowest, closed))
+    return LevelRoadmap(
+        roadmap=roadmap,
+        curves=len(curves),
+        chord_error=metre * max((each.chord_error or Fraction(0) for each in curves.values()),
+                                default=Fraction(0)),
+        notes=tuple(_lacks(level, lanes, slowest, closed)),
+    )  # fmt: skip
+
+
+def _curves(
+    lanes: Sequence[LayoutEdge], kept: Collection[tuple[str, str]]
+) -> dict[tuple[str, str], LayoutEdge]:
+    """Return the lanes that robots drive along a curve; of parallel lanes the longest counts."""
+    found: dict[tuple[str, str], LayoutEdge] = {}
+    for lane in lanes:
+        ends = (lane.tail, lane.head)
+        if ends in kept and (ends not in found or lane.length > found[ends].length):
+            found[ends] = lane
+    return {ends: lane for ends, lane in found.items() if lane.chord_error is not None}
 
 
 def _drawing(level: Level, roadmap: Roadmap, metre: Fraction) -> Drawing:

@@ -120,6 +120,11 @@ class Problem:
         return any(min(one.edge_ticks, default=1) < 0 for one in self.itineraries)
 
     @property
+    def is_open(self) -> bool:
+        """Whether nothing is closed, and every robot may drive along every edge."""
+        return self.closures is None and not self.is_barred
+
+    @property
     def turns(self) -> bool:
         """Whether a change of heading takes time for some robot."""
         return any(itinerary.turning is not None for itinerary in self.itineraries)

@@ -27,7 +27,7 @@ from rightofway.model.clustering import MAX_CELLS
 from rightofway.model.geometry import Frame, Point
 from rightofway.model.roadmap import Roadmap
 
-MAX_SMALLEST = 64_000_000
+MAX_SMALLEST = 32_000_000
 """The most smallest cells, free and blocked."""
 
 LARGEST = 4
@@ -75,7 +75,9 @@ class Squares:
             yield f"Q{column}-{row}x{side}" if side > 1 else f"Q{column}-{row}"
 
 
-def squares_of(free: NDArray[np.bool_], *, largest: int, near: bool) -> Squares:
+def squares_of(
+    free: NDArray[np.bool_], *, largest: int, near: bool, max_squares: int = MAX_CELLS
+) -> Squares:
     """Join free cells to the largest squares of a balanced quadtree.
 
     Parameters
@@ -88,6 +90,13 @@ def squares_of(free: NDArray[np.bool_], *, largest: int, near: bool) -> Squares:
         Whether an edge may pass a corner at 1/sqrt(10) of a smallest cell. If not, a square of two
         by two cells is not joined where only one of the two cells beside it is free. All other
         edges keep at least half a smallest cell from what is not free.
+    max_squares
+        The most squares to make.
+
+    Raises
+    ------
+    InputError
+        If there are more squares.
 
     Notes
     -----
@@ -98,6 +107,11 @@ def squares_of(free: NDArray[np.bool_], *, largest: int, near: bool) -> Squares:
     block = 1 << levels
     padded = np.pad(free, ((0, -rows % block), (0, -columns % block)))
     joined = _joined(padded, levels, near=near)
+    counts = [int(whole.sum()) for whole in joined]
+    count = sum(counts) - 4 * sum(counts[1:])  # each block but the smallest has four in it
+    if count > max_squares:
+        message = f"{count} squares, more than {max_squares} (give a larger one)"
+        raise InputError.at("smallest", message)
     found: list[tuple[NDArray[np.int64], NDArray[np.int64], int]] = []
     for level, whole in enumerate(joined):
         alone = whole & ~_halved(joined[level + 1]) if level < levels else whole
@@ -209,11 +223,8 @@ def roadmap_of_squares(
         raise InputError.at("", f"no free cell in {free.size} (give a smaller one)")
     least = min(radius, smallest / 2)
     near = least**2 <= CLEARANCE * smallest**2
-    squares = squares_of(free, largest=int(largest // smallest), near=near)
+    squares = squares_of(free, largest=int(largest // smallest), near=near, max_squares=max_squares)
     count = len(squares.side)
-    if count > max_squares:
-        message = f"{count} squares, more than {max_squares} (give a larger one)"
-        raise InputError.at("smallest", message)
     tails, heads, lengths = _edges(squares, y_up=y_up)
     known, length_class = np.unique(lengths, return_inverse=True)
     left, low = (corner[0] - origin[0], corner[1] - origin[1]) if yaw else corner

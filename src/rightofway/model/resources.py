@@ -144,13 +144,18 @@ def too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, floa
     """
     if roadmap.grid is not None:
         return
-    at = exact_positions(roadmap)
-    for tail in range(roadmap.n_vertices):
-        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
-            head, length = int(roadmap.heads[edge]), roadmap.lengths[roadmap.length_class[edge]]
-            square = squared_distance(at[tail], at[head])
-            if square > (length * (1 + ROUNDING)) ** 2:
-                yield tail, head, length, sqrt(square)
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+    lengths = np.array([float(length) for length in roadmap.lengths])[roadmap.length_class]
+    begin, end = roadmap.positions[tails], roadmap.positions[roadmap.heads]
+    doubt = 1e-14 * np.abs(roadmap.positions).max()  # of coordinates and their differences
+    straight = np.hypot(*(end - begin).T) + doubt
+    for edge in np.flatnonzero(straight > lengths * (1 + float(ROUNDING) / 2)).tolist():
+        length = roadmap.lengths[roadmap.length_class[edge]]
+        (x, y), (to_x, to_y) = begin[edge].tolist(), end[edge].tolist()
+        tail = Fraction(repr(x)), Fraction(repr(y))
+        square = squared_distance(tail, (Fraction(repr(to_x)), Fraction(repr(to_y))))
+        if square > (length * (1 + ROUNDING)) ** 2:
+            yield int(tails[edge]), int(roadmap.heads[edge]), length, sqrt(square)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -10,8 +11,16 @@ from math import ceil
 from typing import NamedTuple
 
 from rightofway.errors import InputError
-from rightofway.model.geometry import Point
+from rightofway.model.geometry import (
+    COARSE,
+    Point,
+    squared_distance,
+    straight_length,
+)
 from rightofway.model.roadmap import Edge
+
+PIECE = re.compile("(.+)/[1-9][0-9]*")
+"""The name of a vertex between two pieces of a lane."""
 
 
 class SplitLanes(NamedTuple):
@@ -33,12 +42,15 @@ class SplitLanes(NamedTuple):
 
 
 def split_lanes(
-    positions: Mapping[str, Point], edges: Sequence[Edge], spacing: Fraction
+    positions: Mapping[str, Point],
+    edges: Sequence[Edge],
+    spacing: Fraction | None,
+    shapes: Mapping[tuple[str, str], Sequence[Point]] | None = None,
 ) -> SplitLanes:
-    """Split each lane that is longer than the spacing into pieces of equal length.
+    """Split lanes that are longer than the spacing into equal pieces, and curves at their points.
 
     Both directions of a lane share the new vertices, which are named by the direction that is given
-    first: ``A-B/1``, ``A-B/2``, ….
+    first: ``A-B/1``, ``A-B/2``, …. Directions that are driven along different curves share none.
 
     Parameters
     ----------
@@ -47,7 +59,9 @@ def split_lanes(
     edges
         Directed edges; their ends are vertices.
     spacing
-        The longest piece [length unit], above 0.
+        The longest piece [length unit], above 0; None to split curves only.
+    shapes
+        Points between the ends of curved edges, by tail and head [length unit].
 
     Raises
     ------
@@ -61,38 +75,104 @@ def split_lanes(
     >>> [(edge.tail, edge.head, str(edge.length)) for edge in split.edges]
     [('A', 'A-B/1', '5/3'), ('A-B/1', 'A-B/2', '5/3'), ('A-B/2', 'B', '5/3')]
     """
-    longest: dict[frozenset[str], Fraction] = {}
+    curves = {ends: tuple(points) for ends, points in (shapes or {}).items()}
+    longest: dict[Lane, Fraction] = {}
     for edge in edges:
-        lane = frozenset((edge.tail, edge.head))
+        lane = _lane(edge, curves)
         longest[lane] = max(longest.get(lane, edge.length), edge.length)
     found, split = dict(positions), list[Edge]()
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
-    stations: dict[frozenset[str], list[str]] = {}
+    ways: dict[Lane, tuple[list[str], list[Fraction], Fraction]] = {}
     for edge in edges:
-        lane = frozenset((edge.tail, edge.head))
-        count = ceil(longest[lane] / spacing)
-        if lane not in stations:
-            names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, count)]
-            stations[lane] = [edge.tail, *names, edge.head]
-            begin, end = positions[edge.tail], positions[edge.head]
-            for k, name in enumerate(names, start=1):
+        lane = _lane(edge, curves)
+        if lane not in ways:
+            points = [
+                positions[edge.tail],
+                *curves.get((edge.tail, edge.head), ()),
+                positions[edge.head],
+            ]
+            lengths = _lengths(points, longest[lane])
+            inside, parts = _cuts(points, lengths, spacing)
+            names = [f"{edge.tail}-{edge.head}/{k}" for k in range(1, len(inside) + 1)]
+            for name, point in zip(names, inside, strict=True):
                 if name in found:
                     message = f"{name!r} is the name of a piece of a lane (rename the vertex)"
                     raise InputError.at("vertices", message)
-                share = Fraction(k, count)
-                x, y = (a + share * (b - a) for a, b in zip(begin, end, strict=True))
-                found[name] = (x, y)
-        way = stations[lane] if stations[lane][0] == edge.tail else stations[lane][::-1]
-        if count > 1:
+                found[name] = point
+            whole = sum(parts, Fraction(0))
+            least = whole if len(lengths) > 1 else Fraction(0)
+            ways[lane] = [edge.tail, *names, edge.head], [part / whole for part in parts], least
+        way, shares, least = ways[lane]
+        if way[0] != edge.tail:
+            way, shares = way[::-1], shares[::-1]
+        if len(shares) > 1:
             pieces[edge.tail, edge.head] = list(pairwise(way))
         split += [
             replace(
                 edge,
                 tail=tail,
                 head=head,
-                length=edge.length / count,
-                surcharge=edge.surcharge / count,
+                length=max(edge.length, least) * share,
+                surcharge=edge.surcharge * share,
             )
-            for tail, head in pairwise(way)
+            for (tail, head), share in zip(pairwise(way), shares, strict=True)
         ]
     return SplitLanes(found, split, pieces)
+
+
+Lane = frozenset[str] | tuple[str, str]
+"""Both ends of a lane; in order where its directions are driven along different curves."""
+
+
+def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> Lane:
+    there, back = curves.get((edge.tail, edge.head), ()), curves.get((edge.head, edge.tail), ())
+    ends = (edge.tail, edge.head)
+    return frozenset(ends) if there == back[::-1] else ends
+
+
+def _lengths(points: Sequence[Point], length: Fraction) -> list[Fraction]:
+    """Return the lengths of the parts of a way; of a straight one, the length that is given.
+
+    Parts of a curve that differ by rounding only get one length, so that a tick need not be short.
+    """
+    if len(points) == 2:  # noqa: PLR2004 - both ends
+        return [length]
+    parts = [straight_length(squared_distance(*ends)) for ends in pairwise(points)]
+    longest = max(parts)
+    return [longest] * len(parts) if longest - min(parts) <= 2 * COARSE else parts
+
+
+def _cuts(
+    points: Sequence[Point], lengths: Sequence[Fraction], spacing: Fraction | None
+) -> tuple[list[Point], list[Fraction]]:
+    """Return the points between the ends of a way, and the lengths of the pieces between them."""
+    inside, parts = list[Point](), list[Fraction]()
+    for (begin, end), length in zip(pairwise(points), lengths, strict=True):
+        count = 1 if spacing is None else ceil(length / spacing)
+        for k in range(1, count + 1):
+            share = Fraction(k, count)
+            x, y = (a + share * (b - a) for a, b in zip(begin, end, strict=True))
+            inside.append((x, y))
+            parts.append(length / count)
+    return inside[:-1], parts
+
+
+def along_one_lane(names: Collection[str]) -> bool:
+    """Return whether vertices are pieces, or pieces and ends, of one lane that was split.
+
+    Parameters
+    ----------
+    names
+        Names of vertices.
+
+    Examples
+    --------
+    >>> along_one_lane(["A", "A-B/1", "A-B/3"]), along_one_lane(["A-B/1", "C"])
+    (True, False)
+    """
+    pieces = {name: found[1] for name in names if (found := PIECE.fullmatch(name))}
+    lanes = set(pieces.values())
+    ends = [name for name in names if name not in pieces]
+    return len(lanes) == 1 and all(
+        lane.startswith(f"{end}-") or lane.endswith(f"-{end}") for lane in lanes for end in ends
+    )

@@ -21,7 +21,7 @@ import numpy as np
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
 from rightofway.planners.lacam import plan_fleet
-from rightofway.planners.prioritized import fleet_search, plan_in_turn, refuse_or_give_up
+from rightofway.planners.prioritized import fleet_search, plan_in_turn
 from rightofway.planners.routing import shortest_route
 from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import (
@@ -213,13 +213,10 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
 def _plan_together(task: Task, because: str) -> Draft:
     robots, problem = range(len(task.scenario.robots)), task.scenario.problem
     found = None
-    if problem.resources is not None or problem.closures is not None or problem.is_barred:
+    if problem.resources is not None or not problem.is_open:
         found = plan_in_turn(task, fleet_search(task), "shortest")
-    if found is None:
-        refuse_or_give_up(task)
-        found = plan_fleet(task)
     return replace(
-        found,
+        found or plan_fleet(task),
         status="re-routed all robots together",
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )

@@ -13,9 +13,6 @@ path finding*, Artificial Intelligence 310, 2022.
 
 Notes
 -----
-Where turning on the spot takes time, the timed search orders visits without it, and the earliest
-timetable of that order has the turns.
-
 Complete: the untimed search finds an order of moves or proves that none exists. Deterministic, as
 long as nine tenths of the time limit are enough for the timed search. Not optimal.
 """
@@ -23,11 +20,12 @@ long as nine tenths of the time limit are enough for the timed search. Not optim
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import NoPlanExists
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Track, VertexId, route_through
 from rightofway.planners.impossible import (
     blocking_set,
@@ -57,48 +55,91 @@ def lacam(task: Task) -> Draft:
 
 def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
-    scenario = task.scenario
+    scenario, robots = task.scenario, len(task.scenario.robots)
+    if scenario.problem.is_open:
+        found = plan_by_instants(task, spreads=spreads)
+        if found is not None:
+            return found
+    if scenario.problem.resources is not None:
+        task.report("no end by instants: planning the order of single moves")
+        return plan_by_moves(task, _search(task))
+    if not scenario.problem.is_open:
+        _refuse_or_give_up(task)
+    task.report("no end by instants: planning the order of moves without clocks")
+    refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
+    left = task.deadline.seconds_left()
+    try:
+        steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
+    except NoPlanExists:
+        task.report("no plan exists: looking for the robots that block each other")
+        found_set = blocking_set(scenario, range(robots), seed=task.seed, deadline=task.deadline)
+        raise NoPlanExists([found_set]) from None
+    task.has_plan()
+    return Draft(tracks=tuple(timetable_of(scenario, steps)), status="order of moves first")
+
+
+def _refuse_or_give_up(task: Task) -> NoReturn:
+    """Raise for points among closures and barred edges that find no plan one after another.
+
+    Raises
+    ------
+    NoPlanExists
+        If no order of moves exists: closures and barred edges leave no more moves.
+    GaveUp
+        Otherwise.
+    """
+    left = task.deadline.seconds_left()
+    try:
+        untimed_lacam(task.scenario.problem, seed=task.seed, time_limit=left)
+    except NoPlanExists:
+        everybody = range(len(task.scenario.robots))
+        found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
+        raise NoPlanExists([found]) from None
+    message = "robots one after another find no plan that keeps clear of closures and barred edges"
+    raise GaveUp(f"{message} (give a longer time limit, or other places)")
+
+
+def plan_by_instants(
+    task: Task, *, spreads: bool = True, effort: int | None = None
+) -> Draft | None:
+    """Plan the whole fleet by the timed search alone; None if it ends without a plan.
+
+    Parameters
+    ----------
+    task
+        The problem.
+    spreads
+        Whether robots prefer paths that were spread before.
+    effort
+        Choices of robots at most, where they are to be fewer than usual.
+    """
+    scenario, robots, share = task.scenario, len(task.scenario.robots), SHARE_OF_TIME
+    most_effort = max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices)
     refuse_stranded(scenario, ())
-    robots, share = len(scenario.robots), SHARE_OF_TIME
     try:
         tracks = plan_by_lacam(
             planning_problem(scenario),
             seed=task.seed,
-            most_effort=max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices),
+            most_effort=most_effort if effort is None else min(effort, most_effort),
             time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
             spreads=spreads,
         )
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         raise
-    status = "instant by instant"
-    if scenario.problem.turns and scenario.problem.resources is not None:
-        tracks = None  # instants have no turns in them, and orders at vertices know no sizes
-    elif tracks is not None and scenario.problem.turns:
-        visited = [track.vertices.tolist() for track in tracks]
-        tracks = timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
+    if tracks is None:
+        return None
     if scenario.problem.resources is not None:
-        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
-        if tracks is None:
-            task.report("no end by instants: planning the order of single moves")
-            return plan_by_moves(task, search)
+        search = _search(task)
         search.start(tracks)
         search.retime()
         tracks = list(search.tracks())
-    elif tracks is None:
-        task.report("no end by instants: planning the order of moves without clocks")
-        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
-        left = task.deadline.seconds_left()
-        try:
-            steps = untimed_lacam(scenario.problem, seed=task.seed, time_limit=left)
-        except NoPlanExists:
-            task.report("no plan exists: looking for the robots that block each other")
-            everybody = range(robots)
-            found = blocking_set(scenario, everybody, seed=task.seed, deadline=task.deadline)
-            raise NoPlanExists([found]) from None
-        tracks, status = timetable_of(scenario, steps), "order of moves first"
     task.has_plan()
-    return Draft(tracks=tuple(tracks), status=status)
+    return Draft(tracks=tuple(tracks), status="instant by instant")
+
+
+def _search(task: Task) -> FleetSearch:
+    return FleetSearch(planning_problem(task.scenario), seed=task.seed, alone=task.alone)
 
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:

@@ -22,7 +22,7 @@ from functools import partial
 
 from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Tick, Track, cost_of
-from rightofway.planners.lacam import plan_fleet
+from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.moves import plan_few
 from rightofway.planners.prioritized import MOST_ROBOTS, fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, planning_headway
@@ -31,6 +31,12 @@ from rightofway.search import FleetSearch
 
 SHARE = 0.9
 """The part of the time for LaCAM, which makes a first plan."""
+
+SHARE_WITH_SIZES, EFFORT_WITH_SIZES = 0.2, 2000
+"""The same for robots with a size, and how many choices LaCAM has for each robot.
+
+Where it finds a plan for robots with a size, it does so with a few hundred choices for each.
+"""
 
 PATIENCE = 1000
 """The search ends after this many neighbourhoods per robot without a gain."""
@@ -57,17 +63,22 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
 
     For a few robots with a size it begins with their best order of moves instead.
     """
-    found: tuple[Draft | None, ...]
     problem = task.scenario.problem
-    if problem.closures is not None:
-        found = (first, plan_few(task, search) or _if_found(task, search, needed=first is None))
-    elif problem.is_barred and problem.resources is None:
-        found = (first, plan_in_turn(task, search, "shortest"))
+    few = None
+    if problem.resources is not None or problem.closures is not None:
+        few = plan_few(task, search)
+    found: tuple[Draft | None, ...]
+    if few is not None:
+        found = (first, few)
+    elif not problem.is_open:
+        found = (first, _if_found(task, search, needed=first is None))
     elif problem.resources is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     else:
-        found = (first, plan_few(task, search) or plan_in_turn(task, search, "shortest"))
+        found = (first, _quickly_together(task), plan_in_turn(task, search, "shortest"))
     plans = [plan for plan in found if plan is not None]
+    if not plans and (problem.resources is not None or not problem.is_open):
+        plans = [plan_fleet(task)]
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
@@ -92,6 +103,13 @@ def _together(task: Task) -> Draft | None:
     except GaveUp:
         return None
     return replace(draft, status="all together")
+
+
+def _quickly_together(task: Task) -> Draft | None:
+    """Plan robots with a size by LaCAM: in an instant, or not at all, as in long narrow lanes."""
+    hurried = replace(task, deadline=task.deadline.sooner(SHARE_WITH_SIZES))
+    draft = plan_by_instants(hurried, effort=EFFORT_WITH_SIZES * len(task.scenario.robots))
+    return replace(draft, status="all together") if draft is not None else None
 
 
 def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:

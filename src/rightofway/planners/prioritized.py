@@ -19,14 +19,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Stop, cost_of
-from rightofway.planners.impossible import blocking_set, refuse_stranded
+from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
-from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Deadline, Draft, Task, planning_headway, planning_problem
 from rightofway.precedence import graph_of
-from rightofway.search import FleetSearch, untimed_lacam
+from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
 """The parts of the time left for planning at own speeds, then at one pace, then at own speeds."""
@@ -41,7 +39,7 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
-SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.7
+SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.3
 """The same for robots with a size or among closures, and the part of the time left for that."""
 
 MOST_ROBOTS = 8000
@@ -57,7 +55,6 @@ def prioritized(task: Task) -> Draft:
     if found is not None:
         return found
     task.deadline.check("planning robots one after another")
-    refuse_or_give_up(task)
     status = "all together, because robots one after another found no way"
     return replace(plan_fleet(task), status=status)
 
@@ -73,16 +70,14 @@ def fleet_search(task: Task) -> FleetSearch:
 def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
-    None if no plan was found, or no time is left; that proves nothing. Robots with a size get a
-    plan, or an error.
+    None if no plan was found, or no time is left; that proves nothing.
     """
-    if task.scenario.problem.resources is not None:
-        return _with_sizes(task, search, order)
-    if task.scenario.problem.closures is not None:
-        return _patiently(task, search, order)
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
+    problem = task.scenario.problem
+    if problem.resources is not None or problem.closures is not None:
+        return _patiently(task, search, turns)
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
@@ -98,43 +93,15 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
 
 
-def refuse_or_give_up(task: Task) -> None:
-    """Raise for fleets that LaCAM cannot plan where robots one after another find no plan.
+def _patiently(task: Task, search: FleetSearch, turns: Sequence[int]) -> Draft | None:
+    """Plan robots one after another at their own speeds only.
 
-    Raises
-    ------
-    NoPlanExists
-        If no order of moves exists: closures and barred edges leave no more moves.
-    GaveUp
-        Otherwise, where something is closed or barred.
+    One pace gains nothing for robots with a size, which book ahead; and closures are at times.
     """
-    problem = task.scenario.problem
-    if problem.closures is None and not problem.is_barred:
-        return
-    left = task.deadline.seconds_left()
-    try:
-        untimed_lacam(problem, seed=task.seed, time_limit=left)
-    except NoPlanExists:
-        everybody = range(len(task.scenario.robots))
-        found = blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
-        raise NoPlanExists([found]) from None
-    message = "robots one after another find no plan that keeps clear of closures and barred edges"
-    raise GaveUp(f"{message} (give a longer time limit, or other places)")
-
-
-def _with_sizes(task: Task, search: FleetSearch, order: str) -> Draft:
-    """Plan robots with a size one after another, or else by an order of moves."""
-    return _patiently(task, search, order) or plan_by_moves(task, search)
-
-
-def _patiently(task: Task, search: FleetSearch, order: str) -> Draft | None:
-    """Plan robots one after another at their own speeds only."""
-    turns = _in_order(task.scenario, search, order, task.seed)
     searches = SEARCHES_WITH_SIZES * len(turns)
     limit = _part(task.deadline, SHARE_WITH_SIZES)
-    if search.prioritize(turns, searches=searches, time_limit=limit):
-        return _at_own_speeds(task, search)
-    return None
+    found = search.prioritize(turns, searches=searches, time_limit=limit)
+    return _at_own_speeds(task, search) if found else None
 
 
 def _part(deadline: Deadline, share: float) -> float | None:
@@ -144,9 +111,8 @@ def _part(deadline: Deadline, share: float) -> float | None:
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.tracks()
     if task.scenario.problem.closures is not None:  # a robot may have waited for a kept home
-        tracks = tuple(
-            graph_of(task.scenario, tracks, headway=planning_headway(task.scenario)).tracks()
-        )
+        headway = planning_headway(task.scenario)
+        tracks = tuple(graph_of(task.scenario, tracks, headway=headway).tracks())
     task.has_plan()
     return Draft(tracks=tracks, status="one after another")
 

@@ -75,9 +75,9 @@ def _turning(problem: Problem) -> dict[str, Any]:
     class_of = [
         -1 if one.turning is None else number.setdefault(one.turning, len(number)) for one in robots
     ]
-    if not number:
-        return {}
     classes = list(number)
+    if not classes or not len(classes[0].ticks):
+        return {}  # or no edge follows another
     angles = classes[0].angles
     ticks = np.concatenate([one.ticks for one in classes])
     if ticks.max(initial=0) > np.iinfo(np.int32).max:

@@ -58,6 +58,7 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
         openapi_url=f"{API}/openapi.json",
         docs_url=None,  # their pages load scripts from elsewhere
         redoc_url=None,
+        redirect_slashes=False,
         lifespan=life,
     )
     app.state.studio = studio

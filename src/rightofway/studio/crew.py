@@ -165,6 +165,7 @@ class Crew:
         self._all: set[Worker] = set()
         self._slots = asyncio.Semaphore(size)
         self._waiting = 0
+        self._is_over = False
 
     async def start(self) -> None:
         """Start one worker in advance."""
@@ -242,8 +243,10 @@ class Crew:
         """Take a worker back; one that died or was killed is replaced at once."""
         if is_whole:
             self._free.append(worker)
-        else:
-            await asyncio.shield(self._gone(worker))
+            return
+        await asyncio.shield(self._gone(worker))
+        if not self._is_over:
+            self._free.append(await asyncio.shield(self._new()))
 
     async def _gone(self, worker: Worker) -> None:
         self._all.discard(worker)
@@ -251,6 +254,7 @@ class Crew:
 
     async def close(self) -> None:
         """End all workers."""
+        self._is_over = True
         await asyncio.gather(*(worker.end() for worker in self._all))
         self._all.clear()
         self._free.clear()

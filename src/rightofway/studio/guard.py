@@ -15,6 +15,7 @@ import sys
 from collections.abc import Awaitable, Callable, MutableMapping
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
 from typing import Any
 from urllib.parse import parse_qs, unquote_to_bytes, urlencode
 
@@ -93,7 +94,12 @@ class Access:
 
 def is_loopback(host: str) -> bool:
     """Return whether only this machine reaches an address."""
-    return host in {"localhost", "::1", "[::1]"} or host.startswith("127.")
+    if host == "localhost":
+        return True
+    try:
+        return ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
 
 
 @dataclass(slots=True)
@@ -156,7 +162,9 @@ class Guard:
         """Refuse what is not a request of our own page, of a program here, or of an address bar."""
         scope, method = request.scope, request.scope["method"]
         if method not in READS | CHANGES:
-            raise Refused(f"the method {method[:20]!r} is not known (see /api/v1/docs)", 405)
+            raise Refused(
+                f"the method {method[:20]!r} is not known (see /api/v1/openapi.json)", 405
+            )
         raw = scope.get("raw_path") or scope["path"].encode()
         if len(raw) + len(scope["query_string"]) > LONGEST_PATH:
             raise Refused(f"the path is longer than {LONGEST_PATH} bytes (shorten it)", 414)

@@ -33,6 +33,9 @@ MAX_BEHIND = 1000
 GRACE = 10.0
 """A worker that was asked to stop is killed after that time [s]."""
 
+QUICK = 2.0
+"""A run of at most that time limit is not queued behind long ones [s]."""
+
 SPARE = 30.0
 """A worker is killed that long after half as much again as its time limit [s]."""
 
@@ -123,14 +126,18 @@ class Runs:
         Where they are kept.
     crew
         Who works on them.
+    desk
+        Who works on quick ones, such as a change that somebody tries.
     """
 
-    def __init__(self, store: Store, crew: Crew) -> None:
+    def __init__(self, store: Store, crew: Crew, desk: Crew) -> None:
         self._store = store
         self._crew = crew
+        self._desk = desk
         self._runs: dict[int, Run] = {}
         self._work: dict[int, _Work] = {}
         self._queue: asyncio.Queue[int] = asyncio.Queue()
+        self._quick: asyncio.Queue[int] = asyncio.Queue()
         self._listeners: dict[int, set[asyncio.Queue[Event | None]]] = {}
         self._consumers: list[asyncio.Task[None]] = []
 
@@ -146,8 +153,14 @@ class Runs:
                 run.status = "the studio went down; the best plan so far is kept"
                 await self._save(run)
             elif run.state == "queued":
-                self._queue.put_nowait(number)
-        self._consumers = [asyncio.create_task(self._consume()) for _ in range(self._crew.size)]
+                self._queue_of(run).put_nowait(number)
+        works = [self._consume(self._queue, self._crew) for _ in range(self._crew.size)]
+        works.append(self._consume(self._quick, self._desk))
+        self._consumers = [asyncio.create_task(work) for work in works]
+
+    def _queue_of(self, run: Run) -> asyncio.Queue[int]:
+        limit = run.request.get("time_limit")
+        return self._quick if limit is not None and limit <= QUICK else self._queue
 
     async def close(self) -> None:
         """End all work; runs that are running become interrupted when the studio starts again."""
@@ -194,7 +207,7 @@ class Runs:
         if waiting >= MAX_QUEUED:
             raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
         await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
-        self._queue.put_nowait(run.number)
+        self._queue_of(run).put_nowait(run.number)
         return run
 
     async def add_done(self, run: Run, plan: bytes) -> Run:
@@ -251,19 +264,19 @@ class Runs:
         """Return what is told of a run."""
         return {**asdict(run), "has_plan": run.revision > 0}
 
-    async def _consume(self) -> None:
+    async def _consume(self, queue: asyncio.Queue[int], crew: Crew) -> None:
         while True:
-            run = self._runs.get(await self._queue.get())
+            run = self._runs.get(await queue.get())
             if run is not None and run.state == "queued":
-                await self._execute(run)
+                await self._execute(run, crew)
 
-    async def _execute(self, run: Run) -> None:
+    async def _execute(self, run: Run, crew: Crew) -> None:
         work = self._work[run.number] = _Work()
         try:
             run.state, run.started = "running", time.time()
             await self._save(run)
             self._tell(run, "run", self.data(run))
-            await self._finish(run, work)
+            await self._finish(run, work, crew)
         except StudioError as failed:
             await asyncio.gather(*work.tasks)
             is_wanted = work.wants == "cancelled" or (work.wants and run.revision)
@@ -283,7 +296,7 @@ class Runs:
         for listener in self._listeners.get(run.number, ()):
             listener.put_nowait(None)
 
-    async def _finish(self, run: Run, work: _Work) -> None:
+    async def _finish(self, run: Run, work: _Work, crew: Crew) -> None:
         """Have the task of a run done, and note how it ended."""
         arguments = json.loads(await self.blob(run.number, "arguments"))
         given = await asyncio.to_thread(self._store.blob, run.number, "given")
@@ -298,7 +311,7 @@ class Runs:
         if work.wants:
             run.state = work.wants
             return
-        result, blobs = await self._crew.do(work.job)
+        result, blobs = await crew.do(work.job)
         await asyncio.gather(*work.tasks)
         await self._keep(run, result, blobs)
         run.state = work.wants or "done"

@@ -21,8 +21,8 @@ PORT = 7477
 """The port that is taken where it is free, so that an address can be kept."""
 
 NOT_KEPT = (
-    "drafts and runs are kept in memory only (by --no-history, or because the folder cannot be"
-    " written, or because another studio has it open)"
+    "drafts and runs are kept in memory only: the folder cannot be written, or another studio has"
+    " it open (--no-history says that this is wanted)"
 )
 
 
@@ -83,7 +83,7 @@ def serve(
 
     def ready() -> None:
         say(f"studio: {address} (end it with Ctrl-C)")
-        if not studio.store.is_kept:
+        if studio.is_to_keep and not studio.store.is_kept:
             say(NOT_KEPT)
         if opens_browser:
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
+from rightofway.io.text import check_depth
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.runs import Runs
 from rightofway.studio.store import Store
@@ -43,12 +44,13 @@ class Studio:
     ) -> None:
         self.workspace = Workspace(folder)
         self.file = file
+        self.is_to_keep = keeps
         self.store = Store(self.workspace.folder if keeps else None)
         self._scratch = tempfile.TemporaryDirectory(prefix="rightofway-studio-")
         place = self.workspace.folder, self._scratch.name
         self.desk = Crew(*place, size=DESK, queue=DESK_QUEUE)
         self.planners = Crew(*place, size=planners, queue=planners)
-        self.runs = Runs(self.store, self.planners)
+        self.runs = Runs(self.store, self.planners, self.desk)
 
     async def start(self) -> None:
         """Start workers, and take up what was left."""
@@ -93,12 +95,12 @@ def checked_json(data: Any) -> bytes:
     data
         As it came from JSON, whose readers take more than the norm has.
     """
+    check_depth(data)
     try:
         text = json.dumps(data, allow_nan=False)
         json.dumps(data, ensure_ascii=False).encode()
     except UnicodeEncodeError:
         raise InputError.at("", "a text has half of a character (write it in UTF-8)") from None
-    except (ValueError, RecursionError):
-        message = "a number is not finite, or lists are too deep (give plain data)"
-        raise InputError.at("", message) from None
+    except ValueError:
+        raise InputError.at("", "a number is not finite (give a plain one)") from None
     return text.encode()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -72,6 +73,7 @@ class Workspace:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.resolve(strict=True)
+        self._writing = threading.Lock()
 
     def path(self, name: str) -> Path:
         """Return where a file is.
@@ -86,15 +88,17 @@ class Workspace:
         Refused
             For a path that is absolute, climbs, is hidden, or leads through a symbolic link.
         """
-        parts = PurePosixPath(name).parts
-        if not parts or name != "/".join(parts) or UNSAFE.search(name):
+        given = PurePosixPath(name)
+        parts = given.parts
+        is_plain = bool(parts) and name == "/".join(parts) and not given.is_absolute()
+        if not is_plain or UNSAFE.search(name):
             raise Refused(f"{name!r} is no path in the folder (give names with / between)")
         if any(part.startswith(".") or part.endswith((".", " ")) for part in parts):
             raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
         if any(len(os.fsencode(part)) > LONGEST_NAME for part in parts):
             raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
         path = self.folder.joinpath(*parts)
-        if path.resolve() != path:
+        if _resolved(path) != path:
             raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
         return path
 
@@ -138,13 +142,14 @@ class Workspace:
             If it cannot be written.
         """
         path = self.path(name)
-        if revision is not None and revision != (self.revision(name) or ""):
-            was = "was changed by another program" if revision else "is there already"
-            raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
-        try:
-            write_whole(path, content)
-        except InputError as error:
-            raise InputError(error.faults, name) from None
+        with self._writing:
+            if revision is not None and revision != (self.revision(name) or ""):
+                was = "was changed by another program" if revision else "is there already"
+                raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
+            try:
+                write_whole(path, content)
+            except InputError as error:
+                raise InputError(error.faults, name) from None
         return revision_of(content)
 
     def revision(self, name: str) -> str | None:
@@ -172,6 +177,14 @@ class Workspace:
                 stat = each.stat(follow_symlinks=False)
                 name = Path(each.path).relative_to(self.folder).as_posix()
                 yield Entry(name, kind, stat.st_size, stat.st_mtime)
+
+
+def _resolved(path: Path) -> Path | None:
+    """Return where a path leads; None for links that lead in a circle."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):
+        return None
 
 
 def revision_of(content: bytes) -> str:

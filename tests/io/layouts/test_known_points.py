@@ -1,6 +1,7 @@
 """Known points land where the source says; all numbers are worked out by hand."""
 
 from fractions import Fraction
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -266,3 +267,38 @@ def test_a_reference_level_that_is_no_name_counts_as_the_first_level(tmp_path: P
     path = tmp_path / "hall.yaml"
     path.write_text(text.replace("reference_level_name: L1", "reference_level_name: [L2]"), "utf-8")
     assert read_layout(path) == read_layout(HERE / "hall.building.yaml")
+
+
+def test_stations_and_parking_places_stay_with_the_plan_of_a_layout() -> None:
+    plan = solve(scenario_on("Dock", "Saw 1", layout="plant.xml"))
+    again = plan_of(dump_plan(plan))
+    for each in (plan, again):
+        roadmap = each.scenario.roadmap
+        drawing = roadmap.drawing
+        assert [(name, roadmap.name(at)) for name, at in drawing.stations] == [
+            ("Socket", "Dock"), ("Saw 1", "End"),
+        ]  # fmt: skip
+        assert [*map(roadmap.name, drawing.parking)] == ["Dock"]
+        assert [*map(roadmap.name, drawing.charging)] == ["Dock"]
+
+
+def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path) -> None:
+    """100 pixels are 5 m; the second level is turned by 90 degrees and half as large."""
+    text = (HERE / "hall.building.yaml").read_text(encoding="utf-8")
+    text = text.replace("  L2:\n", "  L2:\n    drawing: {filename: hall.png}\n")
+    path = tmp_path / "hall.building.yaml"
+    path.write_text(text, encoding="utf-8")
+    missing = read_layout(path)
+    assert isinstance(missing, Layout)
+    assert missing.level("L1").picture is None
+    assert "the picture 'hall.png' is not beside the file" in " ".join(missing.notes)
+    (tmp_path / "hall.png").write_bytes(b"")  # only its name counts here
+    found = read_layout(path)
+    assert isinstance(found, Layout)
+    one, two = (found.level(name).picture for name in ("L1", "L2"))
+    assert one is not None
+    assert two is not None
+    assert (one.pixel, one.corner, one.yaw) == (Fraction(1, 20), at(0, 0), Fraction(0))
+    # its pixel (50, 10) lies on (0, 0); two to the right in L1 are one down in L2
+    assert (float(two.pixel), float(two.yaw)) == pytest.approx((0.1, pi / 2))
+    assert [float(it) for it in two.corner] == pytest.approx([-1.0, -5.0])

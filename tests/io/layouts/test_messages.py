@@ -8,6 +8,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import load, load_either, read_layout, scenario_of
+from rightofway.model.layout import Layout
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 
@@ -60,7 +61,7 @@ def told(**shape: Any) -> str:
         ),
         (
             {"layout": "hall.nav.yaml"},
-            "map.level: the layout has 2 levels (give one of L1 and L2)",
+            "map.level: the layout has 2 levels, and a plan stays on one (give one of L1 and L2)",
         ),
         (
             {"layout": "hall.nav.yaml", "level": "L3"},
@@ -171,3 +172,34 @@ def test_a_bad_layout_is_refused_with_line_and_remedy(
     with pytest.raises(InputError) as caught:
         read_layout(tmp_path / name)
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("levels", "lifts", "note"),
+    [
+        ("L1", "Lift1", "the lift Lift1 is not used, a plan stays on one level"),
+        (
+            "L1 L2",
+            "Lift1 Lift2",
+            (
+                "the lifts Lift1 and Lift2 are not used, a plan stays on one level:"
+                " plan each of L1 and L2 by itself, with level"
+            ),
+        ),
+    ],
+)
+def test_lifts_of_a_building_are_said_to_be_unused(
+    tmp_path: Path, levels: str, lifts: str, note: str
+) -> None:
+    path = tmp_path / "0.yaml"
+    graph = "{vertices: [[0, 0, {}], [1, 0, {}]], lanes: [[0, 1, {}]]}"
+    path.write_text(
+        "levels:\n"
+        + "".join(f"  {name}: {graph}\n" for name in levels.split())
+        + "lifts:\n"
+        + "".join(f"  {name}: {{position: [0, 0, 0]}}\n" for name in lifts.split()),
+        encoding="utf-8",
+    )
+    found = read_layout(path)
+    assert isinstance(found, Layout)
+    assert found.notes == (note,)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import groupby, pairwise
 
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults
@@ -12,6 +13,7 @@ from rightofway.model.drawing import Picture
 from rightofway.model.geometry import (
     Point,
     rounding_step,
+    squared_distance,
     straight_length,
 )
 from rightofway.model.layout import (
@@ -29,6 +31,9 @@ MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
 MICRO = 1_000_000
 """Positions are kept to a micrometre: floats hold those of a whole country exactly."""
 
+NEAR = Fraction(1, 100)
+"""How far the ends of a trajectory may be from its vertices [m]."""
+
 SHORTEST = Fraction(1, 1000)
 """Length of a lane between two vertices at one position [m]."""
 
@@ -45,6 +50,10 @@ class Lane:
         As those of `LayoutEdge`.
     length
         Its length [m]; None for the straight distance.
+    curve
+        Points of the curve that it is driven along, both ends included [m]; empty for none.
+    chord_error
+        How far at most that curve is from the straight lines between these points [m].
     """
 
     place: str
@@ -54,6 +63,8 @@ class Lane:
     max_speed: Fraction | None = None
     types: frozenset[str] | None = None
     shape: tuple[Point, ...] = ()
+    curve: tuple[Point, ...] = ()
+    chord_error: Fraction = Fraction(0)
 
 
 @dataclass(slots=True)
@@ -172,7 +183,10 @@ class Draft:
             elif lane.max_speed is not None and lane.max_speed <= 0:
                 self.faults.note(lane.place, f"speed limit {lane.max_speed} is not positive")
             else:
-                edges.append(self._edge(lane, square, straight[square]))
+                edge = self._edge(lane, square, straight[square])
+                if lane.curve:
+                    edge = self._curved(edge, lane, vertices)
+                edges.append(edge)
         return Level(
             name=level.name,
             vertices=tuple(vertices.values()),
@@ -199,6 +213,30 @@ class Draft:
             max_speed=lane.max_speed,
             types=lane.types,
             shape=lane.shape,
+        )
+
+    def _curved(
+        self, edge: LayoutEdge, lane: Lane, vertices: dict[str, LayoutVertex]
+    ) -> LayoutEdge:
+        """Return an edge with its curve, if that leads from its tail to its head."""
+        ends = vertices[lane.tail].at, vertices[lane.head].at
+        gaps = (
+            squared_distance(*each)
+            for each in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
+        )
+        if max(gaps) > NEAR**2:
+            self.repair("a trajectory that does not lead from start to end counts as straight")
+            return edge
+        points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
+        squares = [squared_distance(*each) for each in pairwise(points)]
+        step = rounding_step(squares)
+        return replace(
+            edge,
+            length=max(
+                edge.length, sum((straight_length(square, step) for square in squares), Fraction(0))
+            ),
+            shape=tuple(points[1:-1]),
+            chord_error=lane.chord_error,
         )
 
     def _served(self, level: LevelDraft) -> list[Station]:

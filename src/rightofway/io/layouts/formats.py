@@ -69,7 +69,7 @@ def _is_movingai(text: str) -> bool:
 def _own() -> dict[str, LayoutFormat]:
     return {
         "lif": LayoutFormat(
-            summary="Layout Interchange Format of the VDMA, 1.0.0", content="data",
+            summary="Layout Interchange Format of the VDMA, 1.0.0 and 2.0.0", content="data",
             recognizes=lif.recognizes, read=lambda content, _: lif.read(content),
         ),
         "nav2": LayoutFormat(

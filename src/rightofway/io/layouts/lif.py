@@ -1,4 +1,7 @@
-"""LIF, the Layout Interchange Format of the VDMA, version 1.0.0, read leniently.
+"""LIF, the Layout Interchange Format of the VDMA, versions 1.0.0 and 2.0.0, read leniently.
+
+Version 2 has layouts inside origins, several types of robots with one set of properties, and other
+names of keys; the names of both versions are known in either.
 
 References
 ----------
@@ -11,9 +14,22 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
+import numpy as np
+
+from rightofway.errors import InputError
+from rightofway.io.layouts.draft import MICRO, Draft, Lane, LevelDraft
+from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.layouts.parts import Part
+from rightofway.model.geometry import Point
 from rightofway.model.layout import Layout, LayoutVertex, Station
+
+Curve = tuple[tuple[Point, ...], Fraction]
+"""Points of a curve [m], and how far it is from the lines between them [m]."""
+
+NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
+EDGE_PROPERTIES = ("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
+ACTIONS = ("actions", "requiredActions", "feasibleActions")
+SPEEDS = ("maxSpeed", "maximumSpeed")
 
 CHARGING = "startCharging"
 """The action that makes a node a charging place."""
@@ -22,7 +38,9 @@ CHARGING = "startCharging"
 def recognizes(document: Any) -> bool:
     """Return whether a document is a LIF file: it has layouts, or the information about them."""
     return isinstance(document, dict) and (
-        "layouts" in document or {"metaInformation", "nodes"} <= set(document)
+        "layouts" in document
+        or "origins" in document
+        or {"metaInformation", "nodes"} <= set(document)
     )
 
 
@@ -35,8 +53,9 @@ def read(document: Any) -> Layout:
         With every node, edge and station that cannot be used.
     """
     draft, root = Draft("LIF layout"), Part(document)
-    names = _level_names(root.need("layouts").items())
-    for part, name in zip(root.need("layouts").items(), names, strict=True):
+    origins = [root] if root.get("origins") is None else root.need("origins").items()
+    layouts = [layout for origin in origins for layout in origin.need("layouts").items()]
+    for part, name in zip(layouts, _level_names(layouts), strict=True):
         level = draft.level(name)
         for node in part.need("nodes").items():
             draft.faults.attempt("", _add_node, level, node, draft)
@@ -79,8 +98,8 @@ def _add_node(level: LevelDraft, node: Part, draft: Draft) -> None:
             at=(_number(at.need("x"), draft), _number(at.need("y"), draft)),
             is_charging=any(
                 action.value.get("actionType") == CHARGING
-                for own in _listed(node, "vehicleTypeNodeProperties")
-                for action in _listed(own, "actions")
+                for own in _listed(node, *NODE_PROPERTIES)
+                for action in _listed(own, *ACTIONS)
                 if isinstance(action.value, dict)
             ),
         ),
@@ -88,26 +107,78 @@ def _add_node(level: LevelDraft, node: Part, draft: Draft) -> None:
     )
 
 
-def _listed(part: Part, key: str) -> list[Part]:
-    found = part.get(key)
-    return [] if found is None else found.items()
+def _listed(part: Part, *keys: str) -> list[Part]:
+    """Return the items of all lists under some keys."""
+    found = (part.get(key) for key in keys)
+    return [item for each in found if each is not None for item in each.items()]
 
 
 def _add_edge(level: LevelDraft, edge: Part, draft: Draft) -> None:
     tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
-    own = _listed(edge, "vehicleTypeEdgeProperties")
+    own = _listed(edge, *EDGE_PROPERTIES)
     if not own:
         draft.repair("an edge without a vehicle type is free for all")
         level.connect(Lane(place=edge.place, tail=tail, head=head))
-    limits: dict[Fraction | None, set[str]] = {}
+    ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for each in own:
-        speed = each.get("maxSpeed")
+        speed = next(filter(None, map(each.get, SPEEDS)), None)
         limit = None if speed is None else _number(speed, draft)
-        limits.setdefault(limit, set()).add(each.need("vehicleTypeId").text())
-    for limit, types in limits.items():  # one lane for all types with one speed limit
+        way = limit, _curve(each, draft)
+        ways.setdefault(way, set()).update(_types(each))
+    for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
         level.connect(
-            Lane(place=edge.place, tail=tail, head=head, max_speed=limit, types=frozenset(types))
+            Lane(
+                place=edge.place,
+                tail=tail,
+                head=head,
+                max_speed=limit,
+                types=frozenset(types),
+                curve=curve,
+                chord_error=error,
+            )
         )
+
+
+def _types(own: Part) -> list[str]:
+    """Return the vehicle types that properties are for: an id, or series of robots."""
+    series = own.get("mobileRobotTypes")
+    if series is None:
+        return [own.need("vehicleTypeId").text()]
+    return [each.need("seriesName").text() for each in series.items()]
+
+
+def _curve(own: Part, draft: Draft) -> Curve:
+    """Return points of a trajectory [m], and how far it is from the lines between them [m]."""
+    trajectory = own.get("trajectory")
+    if trajectory is None:
+        return (), Fraction(0)
+    try:
+        found = _nurbs(trajectory, draft)
+        pieces = found.pieces()
+    except (InputError, ValueError):
+        draft.repair("a trajectory that cannot be read: its edge counts as straight")
+        return (), Fraction(0)
+    points = tuple(
+        (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
+        for x, y in pieces.tolist()
+    )
+    error = Fraction(repr(CHORD_ERROR)) if found.degree > 1 else Fraction(0)
+    return points, error
+
+
+def _nurbs(trajectory: Part, draft: Draft) -> Nurbs:
+    degree = trajectory.get("degree")
+    controls = trajectory.need("controlPoints").items()
+    knots = [float(_number(each, draft)) for each in trajectory.need("knotVector").items()]
+    weights = (each.get("weight") for each in controls)
+    return Nurbs(
+        degree=1 if degree is None else int(_number(degree, draft)),
+        knots=np.array(knots),
+        points=np.array(
+            [[float(_number(each.need(axis), draft)) for axis in "xy"] for each in controls]
+        ),
+        weights=np.array([1.0 if each is None else float(each.number()) for each in weights]),
+    )
 
 
 def _add_station(level: LevelDraft, station: Part) -> None:

@@ -12,7 +12,7 @@ from math import atan2, hypot
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, listed, shown
 from rightofway.io.layouts.draft import Draft, Lane, LevelDraft
 from rightofway.io.layouts.parts import Part
 from rightofway.model.drawing import Picture
@@ -59,7 +59,20 @@ def read(document: Any, path: Path) -> Layout:
         _read_level(level, part, transforms.get(name), draft)
         if is_building and root.value.get("coordinate_system") in IN_PIXELS:
             level.picture = _picture(part, transforms[name], path.parent, draft)
+    _note_lifts(root, draft)
     return draft.layout()
+
+
+def _note_lifts(root: Part, draft: Draft) -> None:
+    """Note that plans use no lift, and which levels there are to choose from."""
+    lifts = root.get("lifts")
+    if lifts is None or not lifts.mapping():
+        return
+    names = [shown(name).strip("'") for name, _ in lifts.entries()]
+    several = f"the lifts {listed(names)} are" if len(names) > 1 else f"the lift {names[0]} is"
+    levels = [level.name for level in draft.levels if level.vertices]
+    remedy = f": plan each of {listed(levels)} by itself, with level" if len(levels) > 1 else ""
+    draft.repair(f"{several} not used, a plan stays on one level{remedy}")
 
 
 def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> Picture | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -12,9 +12,9 @@ from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.maps import LoadedMap, joined_note
-from rightofway.model import Units, roadmap_of_grid
+from rightofway.model import Units, decimal, roadmap_of_grid
 from rightofway.model.drawing import Drawing
-from rightofway.model.layout import Layout, roadmap_of_level
+from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
 from rightofway.model.occupancy import CellMap, Occupancy
 from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
 
@@ -44,27 +44,36 @@ def laid_out(
     if isinstance(found, Layout):
         _refuse(document, "a layout of lanes", "cell_size", "smallest", "largest", "unknown")
         level = found.level(document.level)
-        roadmap, lacks = roadmap_of_level(
+        made = roadmap_of_level(
             level,
             vehicle_type=document.vehicle_type,
             robot_types=types(),
             metre=1 / metres,
             second=1 / seconds,
             spacing=document.spacing,
+            cuts_curves=radius() > 0,
         )
+        roadmap = made.roadmap
         stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
-        known = set(roadmap.labels or ())
-        parking = [each.name for each in level.vertices if each.is_parking or each.is_charging]
-        notes = (*found.notes, *lacks)
+        notes = (*found.notes, *made.notes, *_of_curves(made, units))
         return LoadedMap(
             roadmap=roadmap,
             units=units,
             stations=stations,
-            parking=tuple(roadmap.vertex(name) for name in parking if name in known),
+            chord_error=made.chord_error,
             notes=notes,
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _cut(document, found, units, metres, radius())
+
+
+def _of_curves(made: LevelRoadmap, units: Units) -> Iterator[str]:
+    if made.curves:
+        curves = f"{made.curves} curves are" if made.curves > 1 else "1 curve is"
+        error, twice = (f"{decimal(each * made.chord_error, 6)} {units.length}" for each in (1, 2))
+        near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
+        near = near if made.chord_error else ""
+        yield f"{curves} cut into straight pieces for robots with a size{near}"
 
 
 def _cut(

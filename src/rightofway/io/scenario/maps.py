@@ -58,7 +58,7 @@ class LoadedMap:
     rounding: str | None = None  # how many lengths are rounded up, and to which step
     units: Units = field(default_factory=Units)
     stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
-    parking: tuple[VertexId, ...] = ()  # parking and charging places
+    chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     notes: tuple[str, ...] = ()  # of a layout's reader
 

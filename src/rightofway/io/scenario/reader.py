@@ -132,14 +132,10 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     robots = faults.part(document, "robots", _written_robots, base) or []
     speeds = _speeds(robots)
     loaded = faults.part(document, "map", loaded_map_of)
-    more = list[str]()
-    if isinstance(robots, _Rows):
-        placed = _dealt(robots, loaded, faults) if loaded else []
-    else:
-        deals = document.get("homes") == "parking"
-        placed = _listed(robots, loaded, faults, deals=deals)
-        if deals and loaded and placed:
-            placed, more = _housed(placed, loaded, rules, faults)
+    if loaded:
+        rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)
+    deals = document.get("homes") == "parking"
+    placed, more = _fleet(robots, loaded, rules, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
     if loaded and placed:
@@ -243,6 +239,21 @@ def _place_of_laps(document: TripDocument, place: str) -> str:
     return "rules.laps" if document.ends is None else f"{place}.return"
 
 
+def _fleet(
+    robots: Sequence[Any] | _Rows,
+    on: LoadedMap | None,
+    rules: Rules,
+    faults: Faults,
+    *,
+    deals: bool,
+) -> tuple[Sequence[_Placed], Sequence[str]]:
+    """Return the robots at their homes, and notes on homes that were dealt out."""
+    if isinstance(robots, _Rows):
+        return (_dealt(robots, on, faults) if on else ()), ()
+    placed = _listed(robots, on, faults, deals=deals)
+    return _housed(placed, on, rules, faults) if deals and on and placed else (placed, ())
+
+
 def _listed(
     robots: Sequence[Any], on: LoadedMap | None, faults: Faults, *, deals: bool
 ) -> list[_Placed]:
@@ -282,7 +293,9 @@ def _housed(
         stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
         clearance=rules.clearance,
     )
-    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, on.parking, fixed)
+    drawing = on.roadmap.drawing
+    parking = [VertexId(at) for at in sorted({*drawing.parking, *drawing.charging})]
+    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, parking, fixed)
     if homes is None:
         return [], []
     names = [on.roadmap.name(home) for home in homes]
@@ -291,7 +304,7 @@ def _housed(
         replace(it, robot=replace(it.robot, home=next(left))) if it.robot.home == HOMELESS else it
         for it in placed
     ]
-    return housed, list(note_of_homes(wanted, names, len(on.parking)))
+    return housed, list(note_of_homes(wanted, names, len(parking)))
 
 
 def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:

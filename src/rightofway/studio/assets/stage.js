@@ -6,11 +6,6 @@ import { MapView } from "./viewer/map_view.js";
 import { Motion } from "./viewer/motion.js";
 import { Plan } from "./viewer/plan.js";
 import { Theme } from "./viewer/theme.js";
-import { Use } from "./viewer/use.js";
-import { Words } from "./viewer/words.js";
-
-/** Lights nothing: a stage has no bottleneck. */
-const NO_BOTTLENECK = { paintMap() {}, paintRobots() {} };
 
 export class Stage {
   /** All that is in `holder` is of the stage. */
@@ -27,10 +22,9 @@ export class Stage {
     const { clock: before, view: old } = this;
     const plan = new Plan(payload);
     const clock = new Clock(plan);
-    const [choice, words, motion] = [new Choice(plan), new Words(plan), new Motion(plan)];
+    const [choice, motion] = [new Choice(plan), new Motion(plan)];
     const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
-    const canvas = this.#freshCanvas();
-    const view = new MapView(canvas, plan, motion, ghosts, clock, choice, this.theme, words, new Use(plan), NO_BOTTLENECK, false);
+    const view = new MapView(this.#freshCanvas(), plan, this.theme, { motion, ghosts, clock, choice });
     Object.assign(this, { plan, clock, choice, motion, view });
     view.viewport.fit();
     if (old && !old.viewport.fitted && old.roadmap.width === plan.roadmap.width && old.roadmap.height === plan.roadmap.height) {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import asdict
 from pathlib import PurePosixPath
 from typing import Annotated, Any
@@ -86,10 +87,9 @@ async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[st
     _, blobs = await studio.ask(
         "write", document=save.document, folder=studio.place(save.folder), name=path
     )
-    return {
-        "path": path,
-        "revision": studio.workspace.write(path, blobs[0], revision=save.revision),
-    }
+    write = studio.workspace.write
+    revision = await asyncio.to_thread(write, path, blobs[0], revision=save.revision)
+    return {"path": path, "revision": revision}
 
 
 @router.post("/validate", tags=["documents"])

@@ -50,7 +50,8 @@ def asset(path: str) -> Response:
     return Response(content, media_type=MEDIA[suffix], headers={"cache-control": "no-cache"})
 
 
-@about.get("/", tags=["studio"])
+@about.get("", tags=["studio"])
+@about.get("/", include_in_schema=False)
 def describe(studio: InStudio) -> dict[str, Any]:
     """Tell what this studio is: its version, its folder, the file to open first, its limits."""
     return {

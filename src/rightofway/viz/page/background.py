@@ -100,6 +100,20 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
         If the file is no picture that can be read.
     """
     href, columns, rows = _data_uri(background.picture)
+    place = place_of(roadmap, background, columns, rows)
+    return {"href": href, "opacity": background.opacity, **place}
+
+
+def place_of(roadmap: Roadmap, background: Background, columns: int, rows: int) -> dict[str, float]:
+    """Return where a picture lies in the drawing, as `background_data` has it.
+
+    Parameters
+    ----------
+    roadmap, background
+        As for `background_data`.
+    columns, rows
+        Size of the picture [pixels].
+    """
     plane, frame = plane_of(roadmap), roadmap.frame
 
     def drawn(point: tuple[float, float]) -> tuple[float, float]:
@@ -119,8 +133,7 @@ def background_data(roadmap: Roadmap, background: Background) -> dict[str, Any]:
         if background.origin is not None:
             x, y = drawn(background.origin)
         x, y = x + rows * pixel * sin(turn), y - rows * pixel * cos(turn)
-    found = {"href": href, "opacity": background.opacity, "x": x, "y": y}
-    found |= {"width": columns * pixel, "height": rows * pixel}
+    found = {"x": x, "y": y, "width": columns * pixel, "height": rows * pixel}
     return {**found, "turn": turn} if turn else found
 
 
@@ -141,11 +154,15 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             else:
                 content.write(Path(path).read_bytes())
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise InputError.at(
-            str(path), "is no picture that can be read (give a PNG, JPEG or PGM file)"
-        ) from error
+        raise unreadable(path) from error
     encoded = base64.b64encode(content.getvalue()).decode()
     return f"data:{kind or 'image/png'};base64,{encoded}", columns, rows
+
+
+def unreadable(path: str | os.PathLike[str]) -> InputError:
+    """Return the error for a file that is no picture."""
+    message = "is no picture that can be read (give a PNG, JPEG or PGM file)"
+    return InputError.at(str(path), message)
 
 
 def _mode(image: Image) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from functools import cache
 
 import numpy as np
@@ -57,7 +58,7 @@ class Pen:
     """
 
     def __init__(self, image: Image.Image, *, origin: Point, scale: float, fineness: int) -> None:
-        self.draw = ImageDraw.Draw(image)
+        self.image, self.draw = image, ImageDraw.Draw(image)
         self.origin = origin
         self.scale = scale
         self.fineness = fineness
@@ -72,6 +73,23 @@ class Pen:
         """Fill a rectangle; boxes that share a side neither overlap nor leave a gap."""
         x0, y0, x1, y1 = map(round, (*self._at(corner), *self._at(opposite)))
         self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
+
+    def picture(self, picture: Image.Image, place: Mapping[str, float], opacity: float) -> None:
+        """Lay a picture over what is drawn; ``place`` as `place_of` returns it."""
+        scale, turn = self.scale * self.fineness, place.get("turn", 0.0)
+        left, top = self._at((place["x"], place["y"]))
+        fine = picture.width / place["width"] / scale  # pixels of the picture for one of the image
+        if fine >= 2:  # noqa: PLR2004 - else every second pixel would be left out
+            picture = picture.convert("RGBA").reduce(int(fine))
+            fine = picture.width / place["width"] / scale
+        filtered = Image.Resampling.BILINEAR if fine > 1 else Image.Resampling.NEAREST
+        cos, sin = fine * math.cos(turn), fine * math.sin(turn)
+        back = (cos, sin, -cos * left - sin * top, -sin, cos, sin * left - cos * top)
+        laid = picture.convert("RGBA").transform(
+            self.image.size, Image.Transform.AFFINE, back, filtered
+        )
+        cover = laid.getchannel("A").point([round(opacity * level) for level in range(256)])
+        self.image.paste(laid.convert("RGB"), (0, 0), cover)
 
     def disc(self, middle: Point, radius: float, colour: str) -> None:
         """Fill a circle."""

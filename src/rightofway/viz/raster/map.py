@@ -10,9 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from rightofway.model import Grid
 from rightofway.viz.motion import Activity, Moment
+from rightofway.viz.page.background import Background, place_of, unreadable
+from rightofway.viz.palette import ink_on
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.names import Label, Names
 from rightofway.viz.raster.sizes import MOST_ROUTES, Sizes
@@ -27,22 +30,42 @@ WHOLE = (0, 1)
 """A circle [turns]."""
 
 FAULT_RING = 1.7
-"""Radius of the ring round a robot that has part in a fault, in radii of the robot."""
+"""Radius of the ring round a robot that has part in a fault, in radii of a robot without a size."""
+
+DIAL = {"point": 1.38, "size": 0.62}
+"""Radius of the circle that work fills [radii of the robot]: inside of a true size."""
 
 
 def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     """Draw what does not move, with the routes of all robots if wanted."""
     if scene.roadmap.grid is not None:
         _grid(pen, scene, scene.roadmap.grid)
+        _picture(pen, scene)
     elif scene.roadmap.sides is not None:
         _squares(pen, scene, scene.roadmap.sides / scene.plane.unit / 2)
+        _picture(pen, scene)
     else:
+        _picture(pen, scene)
         _network(pen, scene, sizes)
     for robot in range(len(scene.trips)) if routes else ():
         _route(pen, scene, sizes, robot)
     for robot in range(len(scene.trips)):
         _home(pen, scene, sizes, robot)
     _stops(pen, scene, sizes)
+
+
+def _picture(pen: Pen, scene: Scene) -> None:
+    """Draw the picture of the site; over cells, as these have no gaps."""
+    if scene.roadmap.drawing.picture is None:
+        return
+    background = Background.of(scene.roadmap.drawing.picture)
+    try:
+        with Image.open(background.picture) as picture:
+            place = place_of(scene.roadmap, background, *picture.size)
+            opacity = background.opacity * (0.4 if ink_on(scene.theme.paper) == "#ffffff" else 1)
+            pen.picture(picture, place, opacity)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise unreadable(background.picture) from None
 
 
 def _grid(pen: Pen, scene: Scene, grid: Grid) -> None:
@@ -74,6 +97,7 @@ def _squares(pen: Pen, scene: Scene, halves: NDArray[np.float64]) -> None:
 def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:
     """Draw lanes: broad where both ways are driven, narrower with arrow heads for one way."""
     theme, edges = scene.theme, set(scene.edges)
+    _zones(pen, scene, sizes)
     for tail, head in scene.edges:
         is_one_way = (head, tail) not in edges
         width = sizes.lane * (0.7 if is_one_way else 1) * pen.hairline
@@ -86,6 +110,16 @@ def _network(pen: Pen, scene: Scene, sizes: Sizes) -> None:
     for point in scene.points:
         pen.disc(point, sizes.vertex * pen.hairline, theme.muted)
         pen.disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
+
+
+def _zones(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+    """Draw the members of each zone as a band."""
+    colour, width = scene.faint(scene.theme.zone, 0.35), sizes.zone * pen.hairline
+    for zone in scene.roadmap.zones:
+        for tail, head in zone.edges:
+            pen.line([scene.points[tail], scene.points[head]], colour, width)
+        for vertex in {*zone.vertices, *(end for edge in zone.edges for end in edge)}:
+            pen.disc(scene.points[vertex], width / 2, colour)
 
 
 def _arrows(pen: Pen, scene: Scene, sizes: Sizes, tail: Point, head: Point) -> None:
@@ -137,9 +171,10 @@ def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
 def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     """Draw a tinted frame."""
     colour, home = scene.colours[robot], scene.points[scene.trips[robot].vertices[0]]
-    width = min(max(sizes.home * 0.1, 1.5), 3) * pen.hairline
-    side = 2 * sizes.home * pen.hairline
-    pen.square(home, side, scene.faint(colour, 0.12), colour, width)
+    half = sizes.homes[robot]
+    width, side = min(max(half * 0.1, 1.5), 3) * pen.hairline, 2 * half * pen.hairline
+    has_size = scene.plan.scenario.robots[robot].radius > 0  # its true size may cover lanes
+    pen.square(home, side, None if has_size else scene.faint(colour, 0.12), colour, width)
 
 
 def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
@@ -170,9 +205,13 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: Names, tick: float)
     moments = [trip.at(tick) for trip in scene.trips]
     middles = [_middle(scene, moment) for moment in moments]
     for robot, (moment, middle) in enumerate(zip(moments, middles, strict=True)):
-        _robot(pen, scene, moment, Disc(middle, sizes.robot * pen.hairline, scene.colours[robot]))
+        has_size = scene.plan.scenario.robots[robot].radius > 0
+        radius = sizes.robots[robot] * pen.hairline
+        _robot(pen, scene, moment, Disc(middle, radius, scene.colours[robot], has_size))
     for robot in scene.faulty:
-        radius = sizes.robot * FAULT_RING * pen.hairline
+        has_size = scene.plan.scenario.robots[robot].radius > 0
+        wide = sizes.robots[robot] + 4 if has_size else sizes.robots[robot] * FAULT_RING
+        radius = wide * pen.hairline
         pen.ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
     return names.draw(pen, moments, middles)
 
@@ -183,25 +222,30 @@ def _middle(scene: Scene, moment: Moment) -> Point:
 
 
 class Disc(NamedTuple):
-    """Where a robot is drawn, how large [units] and in which colour."""
+    """Where a robot is drawn, how large [units], in which colour, and whether that is its size."""
 
     middle: Point
     radius: float
     colour: str
+    has_size: bool
 
 
 def _robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
-    (middle, radius, colour), activity = disc, moment.activity
-    dial, dial_width = radius * 1.38, max(radius * 0.17, pen.hairline)
+    (middle, radius, colour, has_size), activity = disc, moment.activity
+    dial, dial_width = (
+        radius * DIAL["size" if has_size else "point"],
+        max(radius * 0.17, pen.hairline),
+    )
+    ink = scene.ground if has_size else colour
     pen.disc(middle, radius + 1.25 * pen.hairline, scene.ground)
     if activity is Activity.WAIT:
         pen.ring(middle, radius, WHOLE, colour, max(radius * 0.26, pen.hairline))
     else:
         pen.disc(middle, radius, scene.faint(colour, 0.45 if activity is Activity.DONE else 1))
     if activity is Activity.WORK:
-        pen.ring(middle, dial, WHOLE, scene.faint(colour, 0.25), dial_width)
-        pen.ring(middle, dial, (0, moment.share), colour, dial_width)
+        pen.ring(middle, dial, WHOLE, scene.faint(colour, 0.75 if has_size else 0.25), dial_width)
+        pen.ring(middle, dial, (0, moment.share), ink, dial_width)
     elif activity is Activity.TURN:
         for side in (0, 0.5):
             begin = side + moment.share / 2
-            pen.ring(middle, dial, (begin, begin + 0.14), colour, dial_width)
+            pen.ring(middle, dial, (begin, begin + 0.14), ink, dial_width)

@@ -58,10 +58,14 @@ class Names:
         written: list[Label] = []
         if len(moments) > MOST_NAMED:
             return written
-        scale, radius = self.scale, self.sizes.robot
+        scale = self.scale
         discs = [(x * scale, y * scale) for x, y in middles]
-        taken = [(x - radius, y - radius, x + radius, y + radius) for x, y in discs]
+        taken = [
+            (x - radius, y - radius, x + radius, y + radius)
+            for (x, y), radius in zip(discs, self.sizes.robots, strict=True)
+        ]
         for robot, (moment, (x, y)) in enumerate(zip(moments, discs, strict=True)):
+            radius = self.sizes.robots[robot]
             name = _cut(self.scene.plan.scenario.robots[robot].name)
             inside = min(radius * 0.78, 20)
             if radius >= LEAST_NAMED_INSIDE and pen.text_width(name, inside) * scale < radius * 1.7:
@@ -102,7 +106,7 @@ class Names:
         """Return the box of a name beside its disc: where it was if that is free."""
         home = self.scene.points[self.scene.trips[robot].vertices[0]]
         away = math.dist(disc, (home[0] * self.scale, home[1] * self.scale))
-        radius = self.sizes.home if away < AT_HOME else self.sizes.robot
+        radius = (self.sizes.homes if away < AT_HOME else self.sizes.robots)[robot]
         for step in range(len(SIDES)):
             side = (self._sides[robot] + step) % len(SIDES)
             box = _box_beside(disc, radius, width, ROBOT_TYPE + 2, SIDES[side])
@@ -115,9 +119,9 @@ class Names:
         """Yield the boxes of homes and stops on a roadmap; a cell has room for its name as well."""
         if self.scene.roadmap.grid is not None:
             return
-        for trip in self.scene.trips:
+        for trip, home in zip(self.scene.trips, self.sizes.homes, strict=True):
             for vertex in {trip.vertices[0], *(stage.vertex for stage in trip.stages)}:
-                half = self.sizes.home if vertex == trip.vertices[0] else self.sizes.stop
+                half = home if vertex == trip.vertices[0] else self.sizes.stop
                 x, y = (self.scale * part for part in self.scene.points[vertex])
                 yield x - half, y - half, x + half, y + half
 
@@ -127,7 +131,9 @@ class Names:
         is_grid = scene.roadmap.grid is not None
         if is_grid and scale < NAMED_CELL:
             return
-        homes = {trip.vertices[0] for trip in scene.trips}
+        homes = {
+            trip.vertices[0]: half for trip, half in zip(scene.trips, self.sizes.homes, strict=True)
+        }
         marks = {*homes, *(stage.vertex for trip in scene.trips for stage in trip.stages)}
         named = range(len(scene.points)) if scene.roadmap.sides is None else sorted(marks)
         for vertex in sorted(named, key=lambda vertex: vertex not in marks):
@@ -140,7 +146,9 @@ class Names:
                 if width < scale * 0.9:
                     yield name, [(left, top, left + width, top + high)], ink
                 continue
-            radius = self.sizes.home if vertex in marks else self.sizes.lane / 2
+            radius = (
+                homes.get(vertex, min(self.sizes.homes)) if vertex in marks else self.sizes.lane / 2
+            )
             boxes = [_box_beside((x, y), radius, width, high, side) for side in SIDES]
             beside_lanes = [box for box in boxes if not self._covers_lane(box)]
             yield name, beside_lanes + (boxes if vertex in marks else []), ink

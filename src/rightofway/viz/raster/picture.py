@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -75,8 +76,9 @@ def png_of(
     faults = FaultList(scene, width)
     height = map_height + diagram_height + round(faults.height)
     image = _blank(scene, (width, height), fineness)
-    left = (width - map_width) / 2 + MARGIN + scale / 2
-    pen = Pen(image, origin=(left, MARGIN + scale / 2), scale=scale, fineness=fineness)
+    margin = _margin(scene, scale)
+    left = (width - map_width) / 2 + margin + scale / 2
+    pen = Pen(image, origin=(left, margin + scale / 2), scale=scale, fineness=fineness)
     sizes = sizes_of(scene, scale)
     draw_ground(pen, scene, sizes, routes=True)
     bounds = _bounds(pen.origin, (width, map_height))
@@ -190,7 +192,8 @@ def write_gif(
 
 def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Image.Image]:
     """Yield a picture for each instant, all in one palette of 255 colours."""
-    origin = (MARGIN + scale / 2, MARGIN + scale / 2)
+    margin = _margin(scene, scale)
+    origin = (margin + scale / 2, margin + scale / 2)
     ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
     sizes = sizes_of(scene, scale)
@@ -216,8 +219,14 @@ def _fitting_scale(scene: Scene, width: int, largest: float) -> float:
 
 def _map_size(scene: Scene, scale: float) -> tuple[int, int]:
     """Return the size of the map with its margins [pixels]."""
-    plane = scene.plane
-    return round(plane.width * scale) + 2 * MARGIN, round(plane.height * scale) + 2 * MARGIN
+    plane, margins = scene.plane, 2 * _margin(scene, scale)
+    return round(plane.width * scale) + margins, round(plane.height * scale) + margins
+
+
+def _margin(scene: Scene, scale: float) -> int:
+    """Return the margin of a map: robots at its border may reach beyond it [pixels]."""
+    largest = max(float(robot.radius) for robot in scene.plan.scenario.robots)
+    return MARGIN + max(math.ceil((largest / scene.plane.unit - 0.5) * scale), 0)
 
 
 def _bounds(origin: Point, size: tuple[float, float]) -> Box:

@@ -13,8 +13,11 @@ READABLE_RADIUS = 10.0
 SMALLEST_CAP = {"many": 4.5, "few": 7.0}
 """Robots may be as large where cells are smaller [pixels]."""
 
+SMALLEST_RADIUS = 2.0
+"""Of a robot that is drawn at its true size [pixels]."""
+
 LARGEST_RADIUS = {"grid": 44.0, "network": 20.0}
-"""Of a robot [pixels]."""
+"""Of a robot that has no size [pixels]."""
 
 MOST_ROUTES = 5
 """Side by side on one way."""
@@ -26,23 +29,28 @@ class Sizes:
 
     Attributes
     ----------
-    robot
-        Radius of a robot.
-    home, stop
-        Half the side of a home's frame and of a stop's diamond.
+    robots
+        Radius of each robot: its own, if it has one.
+    homes
+        Half the side of the frame of each robot's home.
+    stop
+        Half the width of a stop's diamond.
     lane
         Width of a lane that is driven both ways.
     vertex
         Radius of a vertex of a roadmap.
+    zone
+        Width of the band of a zone.
     route, apart
         Width of a route, and how far two routes on one way are apart.
     """
 
-    robot: float
-    home: float
+    robots: tuple[float, ...]
+    homes: tuple[float, ...]
     stop: float
     lane: float
     vertex: float
+    zone: float
     route: float
     apart: float
 
@@ -57,16 +65,24 @@ def sizes_of(scene: Scene, scale: float) -> Sizes:
     cap = max(SMALLEST_CAP["many"], min(SMALLEST_CAP["few"], spacing * 0.1), scale * 0.95)
     least = min(spacing * 0.16, READABLE_RADIUS, cap)
     largest = LARGEST_RADIUS["grid" if is_grid else "network"]
-    robot = min(max(scale * 0.31, least, 1.8), largest)
+    point = min(max(scale * 0.31, least, 1.8), largest)
+    radii = [float(robot.radius) / plane.unit * scale for robot in scene.plan.scenario.robots]
+    robots = tuple(max(radius, SMALLEST_RADIUS) if radius else point for radius in radii)
+    in_cell = scale * 0.345 if is_grid else 0
+    homes = tuple(
+        in_cell if radius and is_grid else max(in_cell, robot + 1.5)
+        for radius, robot in zip(radii, robots, strict=True)
+    )
     lane = min(max(scale * 0.42, 7), max(scale * 0.8, 1.5), 18)
     route = min(max(scale * 0.04, 1.5), 4)
     beside = (scale * 0.45 if is_grid else lane * 0.6) / min(len(scene.trips), MOST_ROUTES)
     return Sizes(
-        robot=robot,
-        home=max(scale * 0.345 if is_grid else 0, robot + 1.5),
-        stop=max(min(robot * 0.75, 17), 3),
+        robots=robots,
+        homes=homes,
+        stop=max(min(max(robots) * 0.75, 17), 3),
         lane=lane,
         vertex=min(lane * 0.45, 5.5),
+        zone=scale if is_grid else lane * 1.5 + 8,
         route=route,
         apart=min(route + 1, beside),
     )

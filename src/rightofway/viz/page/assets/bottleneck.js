@@ -66,7 +66,7 @@ export class Bottleneck {
     return [...new Set(circuit.filter((step) => since(step) < step.ticks).map(({ robot }) => robot.index))];
   }
 
-  /** Light the visits of all periods; `rowOf` tells top and height of a visit's row, or nothing. */
+  /** Light the visits of all periods; `rowOf` returns top and height of a visit's row, or nothing. */
   paintDiagram(context, area, rowOf) {
     const { circuit } = this;
     if (!circuit.length || this.choice.mode !== "plan") return;

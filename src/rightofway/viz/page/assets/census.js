@@ -4,7 +4,7 @@ import { counted } from "./quantities.js";
 import { ACTIVITY_WORDS } from "./words.js";
 
 const MOST_SAMPLES = 1200;
-const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; who is done, is the empty space above
+const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; robots that are done are the empty space above
 
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
 export class Census {

@@ -9,7 +9,7 @@ export const RATES = [1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512
 const PLEASANT_SECONDS = 24;
 
 /**
- * The moment shown. Tells `tick` when it changes, `playing` when it starts, stops, or changes pace,
+ * The moment shown. Events: `tick` when it changes, `playing` when it starts, stops, or changes pace,
  * `loop` when it begins or ends to play a stretch of time again and again.
  */
 export class Clock extends Observable {

@@ -76,7 +76,7 @@ class InspectPage {
     const counts = Object.entries(this.raw.headings).map(([severity, heading]) =>
       [severity, heading, this.level.findings.filter((finding) => finding.severity === severity).length]);
     document.getElementById("figures").replaceChildren(...counts.map(([severity, heading, count]) =>
-      element("div", { title: heading }, severitySign(severity), element("dt", {}, heading.split(" (")[0]), element("dd", {}, String(count)))));
+      element("div", { title: heading }, element("dt", {}, severitySign(severity), heading.split(" (")[0]), element("dd", {}, String(count)))));
   }
 
   #fill(row, finding) {

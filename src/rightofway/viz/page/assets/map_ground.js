@@ -39,7 +39,9 @@ export class MapGround {
     if (!this.image.complete) return;
     const isDark = inkOn(this.theme.paper) === "#ffffff"; // a white floor plan would glare there
     context.save();
-    context.globalAlpha = opacity * (isDark ? 0.4 : 1);
+    const canInvert = context.filter !== undefined;
+    context.globalAlpha = opacity * (isDark ? (canInvert ? 0.8 : 0.4) : 1);
+    if (isDark && canInvert) context.filter = "invert(1) hue-rotate(180deg)"; // dark lines would not be seen
     context.translate(x, y);
     context.rotate(turn ?? 0);
     context.drawImage(this.image, 0, 0, width, height);

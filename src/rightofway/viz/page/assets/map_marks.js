@@ -1,4 +1,6 @@
-import { disc, dot, field, line, ring } from "./shapes.js";
+import { chevron, disc, dot, field, line, ring } from "./shapes.js";
+
+const AXIS = 34; // pixels, of the axes of the site's frame
 
 /** What is marked on a map: zones, closures, speed limits, stations, parking places, crossings. */
 export class MapMarks {
@@ -16,6 +18,26 @@ export class MapMarks {
       this.#crossings(context, close.crossings);
     }
     this.#signs(context);
+    if (this.site.isStill || this.site.roadmap.background) this.#frame(context);
+  }
+
+  /** The axes of the site's frame at its origin, x in red and y in blue. */
+  #frame(context) {
+    const { roadmap } = this.site;
+    const [x, y] = roadmap.toDrawing(0, 0);
+    const length = this.#pixels(AXIS);
+    context.lineWidth = this.#pixels(2);
+    for (const [colour, toX, toY] of [[this.theme.held, 1, 0], [this.theme.drive, 0, 1]]) {
+      const [endX, endY] = roadmap.toDrawing(toX, toY);
+      const [right, down] = [endX - x, endY - y];
+      const share = length / Math.hypot(right, down);
+      const [tipX, tipY] = [x + right * share, y + down * share];
+      context.strokeStyle = colour;
+      context.beginPath();
+      line(context, x, y, tipX, tipY);
+      chevron(context, tipX, tipY, Math.atan2(down, right), this.#pixels(4));
+      context.stroke();
+    }
   }
 
   #pixels(length) {

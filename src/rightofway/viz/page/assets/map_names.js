@@ -248,19 +248,22 @@ export class MapNames {
     }
   }
 
-  /** The speed limit of a lane, in a ring on its middle. */
+  /** The speed limit of a lane, in a ring on its middle or beside it. */
   #signLimits(context, spots) {
-    const { limits, usualLimit, x, y } = this.plan.roadmap;
+    const { limits, usualLimit, x: xs, y: ys } = this.plan.roadmap;
     const font = this.theme.font(11, 600);
     for (const { tail, head, limit } of limits ?? []) {
       if (limit === usualLimit) continue;
-      if (Math.hypot(x[head] - x[tail], y[head] - y[tail]) * this.viewport.scale < SIGNED_LANE) continue;
+      if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE) continue;
       const name = decimal(fraction(limit));
       const radius = Math.max(this.#width(context, name, font) / 2 + 4, 9);
       const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
-      const [middleX, middleY] = [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2];
-      const box = [middleX - radius, middleY - radius, middleX + radius, middleY + radius];
-      if (!this.#places.isFree(...box) || !this.#marks.isFree(...box)) continue;
+      const boxes = [0.5, 0.3, 0.7].map((share) => {
+        const [x, y] = [one[0] + (other[0] - one[0]) * share, one[1] + (other[1] - one[1]) * share];
+        return [x - radius, y - radius, x + radius, y + radius];
+      });
+      const box = boxes.find((each) => this.#places.isFree(...each) && this.#marks.isFree(...each));
+      if (!box) continue;
       this.#places.take(...box);
       spots.push({ name, box, font, ink: this.theme.ink, halo: this.theme.paper, isRinged: true });
       if (spots.length >= 2 * MOST_PLACES) break;

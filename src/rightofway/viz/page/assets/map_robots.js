@@ -43,7 +43,7 @@ export class MapRobots {
     }
   }
 
-  /** The robots shown with their ghosts: those chosen; all where none is and these can be told apart. */
+  /** The robots shown with their ghosts: those chosen; all of a small fleet where none is. */
   get #haunted() {
     if (this.choice.robot) return this.plan.robots.filter(({ index }) => this.choice.standsOut(index));
     return this.plan.robots.length <= FEW ? this.plan.robots : [];

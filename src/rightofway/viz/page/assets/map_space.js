@@ -1,6 +1,8 @@
 import { footOn } from "./map_marks.js";
 import { dot, haloed, line, ring } from "./shapes.js";
 
+const LEAST_GAP = 2; // pixels between a robot and the ring of the room that it needs, for both to be seen
+
 /**
  * Space on request: what each robot books as a band as wide as the robot and its share of the
  * clearance, so that bands of two robots that do not meet are safe; zones in the colour of their
@@ -14,11 +16,11 @@ export class MapSpace {
   /** Paint in map units, below the robots. */
   paint(context, scale) {
     this.#zones(context, scale);
+    if (this.choice.space) {
+      for (const each of this.plan.robots) this.#band(context, each, scale);
+      if (this.choice.robot) this.#excluded(context, this.choice.robot, scale);
+    }
     for (const closure of this.plan.closures) this.#closure(context, closure, scale);
-    if (!this.choice.space) return;
-    const { robot } = this.choice;
-    if (robot) this.#excluded(context, robot, scale);
-    for (const each of this.plan.robots) this.#band(context, each, scale);
   }
 
   /** Paint in map units, over the robots: the room that each needs, and the line to the nearest. */
@@ -27,7 +29,7 @@ export class MapSpace {
     const { x, y } = this.motion;
     context.lineWidth = 1.25 / scale;
     for (const robot of this.plan.robots) {
-      if (!robot.radius || !this.plan.clearance) continue;
+      if (!robot.radius || this.#half(robot) * scale - this.sizes.of(robot) < LEAST_GAP) continue;
       context.strokeStyle = robot.colour;
       context.setLineDash([4 / scale, 3 / scale]);
       ring(context, x[robot.index], y[robot.index], this.#half(robot));
@@ -143,13 +145,20 @@ export class MapSpace {
     const limit = this.plan.room(robot, least) / roadmap.unit - 1e-9;
     const { vertices, edges } = this.space.heldBy(robot);
     const shapes = [...vertices.map((vertex) => [vertex, vertex]), ...edges];
-    const isNear = (tail, head) => shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    const { x: xs, y: ys } = roadmap;
+    const corners = shapes.flat();
+    const [left, right] = [Math.min(...corners.map((at) => xs[at])) - limit, Math.max(...corners.map((at) => xs[at])) + limit];
+    const [top, bottom] = [Math.min(...corners.map((at) => ys[at])) - limit, Math.max(...corners.map((at) => ys[at])) + limit];
+    const isAround = (tail, head) => Math.max(xs[tail], xs[head]) > left && Math.min(xs[tail], xs[head]) < right &&
+      Math.max(ys[tail], ys[head]) > top && Math.min(ys[tail], ys[head]) < bottom;
+    const isNear = (tail, head) => isAround(tail, head) && shapes.some((shape) => lanesApart(roadmap, shape, [tail, head]) < limit);
+    const isOwn = (tail, head) => edges.some(([from, to]) => (from === tail && to === head) || (from === head && to === tail));
     context.strokeStyle = this.theme.held;
     context.lineWidth = 2 / scale;
     context.setLineDash([5 / scale, 4 / scale]);
     context.beginPath();
     for (const [tail, head] of roadmap.lanes ? [...roadmap.lanes.bothWays, ...roadmap.lanes.oneWay] : []) {
-      if (isNear(tail, head)) line(context, roadmap.x[tail], roadmap.y[tail], roadmap.x[head], roadmap.y[head]);
+      if (!isOwn(tail, head) && isNear(tail, head)) line(context, xs[tail], ys[tail], xs[head], ys[head]);
     }
     context.stroke();
     context.setLineDash([]);
@@ -157,7 +166,7 @@ export class MapSpace {
     const reach = Math.max(4 / scale, Math.min(0.12, 7 / scale));
     for (let vertex = 0; vertex < roadmap.size; vertex++) {
       if (vertices.includes(vertex) || !isNear(vertex, vertex)) continue;
-      const [x, y] = [roadmap.x[vertex], roadmap.y[vertex]];
+      const [x, y] = [xs[vertex], ys[vertex]];
       line(context, x - reach, y - reach, x + reach, y + reach);
       line(context, x - reach, y + reach, x + reach, y - reach);
     }

@@ -5,7 +5,7 @@ import { ACTIVITY_WORDS, several } from "./words.js";
 
 const TIP_GAP = 16; // pixels from the pointer
 
-/** What is under the pointer, beside it: a robot and what it does, a place and who is there, where that is. */
+/** What is under the pointer, beside it: a robot and what it does, a place and the robot there, coordinates. */
 export class MapTip {
   constructor(canvas, plan, motion, clock, choice, words, use, space) {
     Object.assign(this, { canvas, plan, motion, clock, choice, words, use, space });
@@ -78,7 +78,7 @@ export class MapTip {
     });
   }
 
-  /** Its name, who is there but the robot that was named, and who comes next. */
+  /** Its name, the robot there if it was not named yet, and the next robot. */
   #aboutPlace(vertex, named) {
     const now = this.clock.tick;
     const { words } = this;

@@ -2,12 +2,12 @@
 export class Observable {
   #listeners = {};
 
-  /** Call `listener` whenever `event` is told. */
+  /** Call `listener` at each `event`. */
   on(event, listener) {
     (this.#listeners[event] ??= []).push(listener);
   }
 
-  /** Tell everybody who listens. */
+  /** Call all listeners of an event. */
   tell(event) {
     for (const listener of this.#listeners[event] ?? []) listener();
   }

@@ -18,14 +18,14 @@ function halfUp([top, bottom]) {
   return top < 0n ? -magnitude : magnitude;
 }
 
-/** A whole number of units of the last of so many decimals, as text. */
+/** A whole number of units of the last decimal, as text with `digits` decimals. */
 function withPoint(number, digits) {
   const text = String(number < 0n ? -number : number).padStart(digits + 1, "0");
   const cut = text.length - digits;
   return `${number < 0n ? "-" : ""}${text.slice(0, cut)}${digits ? "." : ""}${text.slice(cut)}`;
 }
 
-/** A fraction with exactly so many decimals. */
+/** A fraction with exactly `digits` decimals. */
 function fixed([top, bottom], digits = 2) {
   return withPoint(halfUp([top * 10n ** BigInt(digits), bottom]), digits);
 }
@@ -75,7 +75,7 @@ export class Quantities {
     return this.seconds ? this.duration(ticks) : this.cell(ticks);
   }
 
-  /** The same while time runs: always with so many decimals, so that the text does not jump. */
+  /** The same while time runs: always with `digits` decimals, so that the text does not jump. */
   running(ticks, digits = 1) {
     const time = this.#time(ticks);
     return this.seconds ? this.#clock(times(time, this.seconds), (part) => fixed(part, digits)) : fixed(time, digits);

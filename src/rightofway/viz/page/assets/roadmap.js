@@ -61,6 +61,15 @@ export class Roadmap {
     return [frame.x + cos * u - sin * v, frame.y + sin * u + cos * v];
   }
 
+  /** Where a point of the site [length unit] is in the drawing. */
+  toDrawing(siteX, siteY) {
+    const { frame, unit } = this;
+    const [right, up, yaw] = [siteX - frame.x, siteY - frame.y, frame.yaw ?? 0];
+    const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
+    const [u, v] = [cos * right + sin * up, cos * up - sin * right];
+    return [u / unit, (frame.yUp ? -v : v) / unit];
+  }
+
   /** The named obstacle at a point of the drawing, or undefined. */
   obstacleAt(x, y) {
     return this.obstacles.find(({ left, top, width, height }) => x >= left && x <= left + width && y >= top && y <= top + height);

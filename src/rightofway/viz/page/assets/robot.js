@@ -34,7 +34,7 @@ export class Robot {
     return this.still.find(([, to]) => to === Infinity)?.[0] ?? Infinity;
   }
 
-  /** Ticks it stands still before so many ticks have been of use, from a tick on. */
+  /** Ticks that it stands still, from a tick on, until it has used a number of ticks. */
   stillIn(begin, ticks) {
     let lost = 0;
     for (const [from, to] of this.still) {
@@ -59,7 +59,7 @@ const WAITS = 0;
 export const FOLLOWS = 1;
 export const MAKES_ROOM = 2;
 
-/** One cause of lost time, as `Loss` of the model: who loses, to which robot or null, where, when, and how much. */
+/** One cause of lost time, as `Loss` of the model: the robot that loses, the robot that gains or null, where, when, and how much. */
 class Loss {
   constructor([kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks]) {
     Object.assign(this, { kind, robot, forRobot, vertex, until, towards, freed, tick, end, ticks });

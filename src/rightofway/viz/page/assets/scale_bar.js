@@ -3,7 +3,7 @@ import { haloed } from "./shapes.js";
 export const LONGEST_BAR = 130; // pixels
 const LIMIT_NOTED = 480; // pixels; a narrower map has no room for the usual speed limit
 
-/** The longest round length that a bar of so many pixels has room for [length unit]. */
+/** The longest round length that the longest bar has room for [length unit]. */
 function roundLength(perPixel) {
   const most = LONGEST_BAR * perPixel;
   const power = 10 ** Math.floor(Math.log10(most));

@@ -1,6 +1,6 @@
 import { Observable } from "./observable.js";
 
-/** The page's colours for drawing on a canvas. Tells `theme` when light turns dark. */
+/** The page's colours for drawing on a canvas. Event: `theme` when light turns dark. */
 export class Theme extends Observable {
   constructor() {
     super();

@@ -3,7 +3,7 @@ import { element } from "./dom.js";
 
 /** Play, step, slider, speed, and the moment in figures. */
 export class Transport {
-  #told = "";
+  #written = "";
 
   constructor(plan, clock, words) {
     Object.assign(this, { plan, clock, words });
@@ -26,8 +26,8 @@ export class Transport {
     this.slider.value = tick;
     this.slider.style.setProperty("--over", `${(100 * tick) / end}%`);
     const now = playing ? this.plan.quantities.running(tick, this.digits) : this.words.time(tick);
-    if (now === this.#told) return;
-    this.#told = now;
+    if (now === this.#written) return;
+    this.#written = now;
     const all = this.words.time(end);
     this.readout.replaceChildren(element("b", {}, now), element("span", {}, ` of ${all}`));
     if (!playing) this.slider.setAttribute("aria-valuetext", `${now} of ${all}`);

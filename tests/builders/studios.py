@@ -1,0 +1,152 @@
+"""Studios that run in this process or as the command, with real workers and a real address."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from http.client import HTTPConnection
+from pathlib import Path
+from typing import Any
+
+import httpx
+import uvicorn
+
+from rightofway.studio.app import create_app
+from rightofway.studio.guard import Access
+from rightofway.studio.serve import bound
+from rightofway.studio.session import Studio
+
+DOOR: dict[str, Any] = {
+    "format": "rightofway-scenario/1",
+    "map": {"grid": ["...", "@.@", "..."]},
+    "robots": [
+        {"name": "R1", "home": "N0", "target": "N6"},
+        {"name": "R2", "home": "N2", "target": "N8", "work": 1},
+    ],
+}
+"""Two robots that meet at a door."""
+
+PATIENCE = 30.0
+"""How long a run may take in a test [s]."""
+
+
+@contextmanager
+def running(folder: Path, access: Access | None = None, **settings: Any) -> Iterator[httpx.Client]:
+    """Serve a folder, and yield a client of version 1 of the API."""
+    with closing(bound("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+        app = create_app(Studio(folder, **settings), access or Access.on("127.0.0.1", port))
+        server = uvicorn.Server(uvicorn.Config(app, log_level="critical", access_log=False))
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread.start()
+        try:
+            base = f"http://127.0.0.1:{port}/api/v1"
+            with httpx.Client(base_url=base, timeout=PATIENCE) as client:
+                yield client
+        finally:
+            server.should_exit = True
+            thread.join()
+
+
+class Command:
+    """The command ``rightofway studio``, as a process.
+
+    Attributes
+    ----------
+    process
+        The process.
+    client
+        A client of version 1 of its API.
+    """
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        words = ["-m", "rightofway", "studio", str(folder), "--no-browser", *options]
+        self.process = subprocess.Popen(
+            [sys.executable, *words], stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+        assert self.process.stderr is not None, "it is a pipe"
+        self.first_line = self.process.stderr.readline()
+        address = re.search(r"http://\S+?/", self.first_line)
+        assert address, self.first_line + self.process.stderr.read()
+        self.client = httpx.Client(base_url=f"{address[0]}api/v1", timeout=PATIENCE)
+
+    def end(self, by: signal.Signals = signal.SIGINT) -> str:
+        """End it by a signal, and return what it has written since its first line."""
+        self.client.close()
+        self.process.send_signal(by)
+        return self.process.communicate(timeout=PATIENCE)[1]
+
+    def workers(self) -> list[int]:
+        """Return the processes of its workers."""
+        found = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                parent = int((process / "stat").read_text().rpartition(")")[2].split()[1])
+                words = (process / "cmdline").read_text()
+            except (OSError, ValueError):
+                continue  # it has just ended
+            if parent == self.process.pid and "rightofway.studio.worker" in words:
+                found.append(int(process.name))
+        return found
+
+    def memory(self) -> int:
+        """Return the memory of the server itself [bytes]."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        line = re.search(r"^VmRSS:\s+(\d+) kB", status, re.MULTILINE)
+        assert line, status
+        return int(line[1]) * 1024
+
+
+@contextmanager
+def command(folder: Path, *options: str) -> Iterator[Command]:
+    """Run the command, and end it by Ctrl-C where the test has not."""
+    started = Command(folder, *options)
+    try:
+        yield started
+    finally:
+        if started.process.poll() is None:
+            started.end()
+
+
+def sent(
+    client: httpx.Client, method: str, target: str, body: bytes = b"", kind: str = ""
+) -> tuple[int, str]:
+    """Send a request whose target no client library has tidied up; return status and text."""
+    connection = HTTPConnection(client.base_url.host, client.base_url.port, timeout=PATIENCE)
+    with closing(connection):
+        connection.putrequest(method, target)
+        if body:
+            connection.putheader("Content-Type", kind)
+            connection.putheader("Content-Length", str(len(body)))
+        connection.endheaders(body or None)
+        answer = connection.getresponse()
+        return answer.status, answer.read().decode()
+
+
+def over(client: httpx.Client, number: int) -> dict[str, Any]:
+    """Wait until a run is over, and return it."""
+    return until(client, number, lambda run: run["state"] not in {"queued", "running"})
+
+
+def until(client: httpx.Client, number: int, holds: Any) -> dict[str, Any]:
+    """Wait until something holds for a run, and return the run."""
+    ends = time.monotonic() + PATIENCE
+    while time.monotonic() < ends:
+        run: dict[str, Any] = client.get(f"/runs/{number}").json()
+        if holds(run):
+            return run
+        time.sleep(0.02)
+    raise AssertionError(f"run {number} is still {run['state']}")
+
+
+def planned(client: httpx.Client, document: Any = DOOR, **request: Any) -> dict[str, Any]:
+    """Plan a document, and return the run that is over."""
+    started = client.post("/runs", json={"document": document, **request})
+    assert started.status_code == 202, started.text
+    return over(client, started.json()["number"])

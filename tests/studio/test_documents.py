@@ -1,0 +1,151 @@
+"""Files of the folder and documents in them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from rightofway import load, load_plan, solve, write_plan
+from rightofway.io import dump_scenario
+from tests.builders.studios import DOOR
+
+
+def test_a_scenario_opens_as_the_document_that_stands_in_the_file(client: httpx.Client) -> None:
+    opened = client.get("/documents/floor.yaml").json()
+    assert opened["kind"] == "scenario"
+    assert "floor" in opened["document"]["map"]
+
+
+def test_a_scenario_with_faults_opens_so_that_it_can_be_mended(
+    client: httpx.Client, folder: Path
+) -> None:
+    (folder / "faulty.yaml").write_text(
+        "format: rightofway-scenario/1\nmap: {grid: ['...']}\nrobots: [{name: R1, home: N9}]\n"
+    )
+    opened = client.get("/documents/faulty.yaml").json()
+    verdict = client.post("/validate", json={"document": opened["document"]}).json()
+    assert not verdict["ok"]
+    assert {fault["named"] for fault in verdict["faults"]} >= {"robots[0] (R1): home"}
+
+
+def test_a_layout_opens_as_the_map_of_a_new_scenario(client: httpx.Client, folder: Path) -> None:
+    (folder / "hall.map").write_text("type octile\nheight 2\nwidth 3\nmap\n...\n.@.\n")
+    opened = client.get("/documents/hall.map").json()
+    assert opened["kind"] == "layout"
+    assert opened["document"]["map"]["layout"] == "hall.map"
+
+
+def test_a_plan_opens_as_a_run_that_is_done(client: httpx.Client, folder: Path) -> None:
+    plan = solve(load(folder / "door.yaml"), planner="two-level")
+    write_plan(plan, folder / "plan.json")
+    opened = client.get("/documents/plan.json").json()
+    assert opened["run"]["state"] == "done"
+    assert opened["run"]["figures"]["flowtime"] == plan.flowtime
+
+
+def test_a_file_that_is_no_document_is_refused_in_the_words_of_its_reader(
+    client: httpx.Client, folder: Path
+) -> None:
+    (folder / "broken.yaml").write_text("a: [1\n")
+    refused = client.get("/documents/broken.yaml")
+    assert refused.status_code == 422
+    assert refused.json()["error"]["faults"][0]["line"] == 2
+
+
+@pytest.mark.parametrize("name", ["saved.yaml", "saved.json", "saved.xlsx"])
+def test_what_is_saved_is_read_again(client: httpx.Client, folder: Path, name: str) -> None:
+    saved = client.put(f"/documents/{name}", json={"document": DOOR})
+    assert saved.status_code == 200
+    assert [robot.name for robot in load(folder / name).robots] == ["R1", "R2"]
+    assert client.get(f"/documents/{name}").json()["revision"] == saved.json()["revision"]
+
+
+def test_a_document_that_was_changed_elsewhere_is_not_overwritten(client: httpx.Client) -> None:
+    first = client.put("/documents/shared.yaml", json={"document": DOOR}).json()["revision"]
+    other = {**DOOR, "rules": {"headway": 1}}
+    body = {"document": other, "revision": first}
+    second = client.put("/documents/shared.yaml", json=body)
+    assert second.status_code == 200
+    assert client.put("/documents/shared.yaml", json=body).status_code == 412
+
+
+def test_a_scenario_in_a_folder_names_files_beside_it(client: httpx.Client, folder: Path) -> None:
+    (folder / "maps").mkdir()
+    (folder / "maps" / "small.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    robots = [{"name": "R1", "home": "N0", "target": "N2"}]
+    document = {**DOOR, "map": {"file": "small.map"}, "robots": robots}
+    beside = client.post("/validate", json={"document": document, "folder": "maps"}).json()
+    above = client.post("/validate", json={"document": document}).json()
+    assert (beside["ok"], above["ok"]) == (True, False)
+
+
+def test_faults_are_the_words_of_the_library(client: httpx.Client) -> None:
+    document = {**DOOR, "robots": [{"name": "R1", "home": "N0", "target": "N6", "sped": 2}]}
+    verdict = client.post("/validate", json={"document": document}).json()
+    assert verdict["faults"] == [
+        {
+            "place": "robots[0].sped",
+            "message": "unknown key (did you mean speed?)",
+            "line": None,
+            "named": "robots[0] (R1): sped",
+        }
+    ]
+
+
+def test_a_body_that_does_not_fit_is_refused_in_the_same_words(client: httpx.Client) -> None:
+    refused = client.post("/validate", json={"dokument": DOOR})
+    assert refused.status_code == 422
+    assert {fault["place"]: fault["message"] for fault in refused.json()["error"]["faults"]} == {
+        "document": "is missing (give a scenario, as in a YAML or JSON file)",
+        "dokument": "unknown key (did you mean document?)",
+    }
+
+
+def test_a_document_is_inspected_drawn_and_converted(client: httpx.Client) -> None:
+    body = {"document": DOOR}
+    assert client.post("/inspect", json=body).json()["places"] == 4
+    drawn = client.post("/draw", json=body).json()
+    assert drawn["map"]["rows"] == ["...", "@.@", "..."]
+    assert [robot["name"] for robot in drawn["robots"]] == ["R1", "R2"]
+    written = client.post("/convert", json={**body, "name": "door.yaml"}).text
+    assert written.startswith("format: rightofway-scenario/1")
+
+
+def test_a_draft_is_kept_until_it_is_deleted(client: httpx.Client) -> None:
+    unfinished: dict[str, Any] = {"map": {"grid": ["."]}}
+    assert client.put("/drafts/new floor", json={"document": unfinished}).status_code == 200
+    assert client.get("/drafts/new floor").json()["document"] == unfinished
+    assert [each["name"] for each in client.get("/drafts").json()["drafts"]] == ["new floor"]
+    assert client.delete("/drafts/new floor").status_code == 200
+    assert client.get("/drafts/new floor").status_code == 404
+
+
+def test_a_file_is_uploaded_once_unless_it_is_to_be_replaced(
+    client: httpx.Client, folder: Path
+) -> None:
+    kind = {"content-type": "application/octet-stream"}
+    path = "/files/dropped.map"
+    assert client.put(path, content=b"one", headers=kind).status_code == 200
+    assert client.put(path, content=b"two", headers=kind).status_code == 412
+    replaced = client.put(path, content=b"two", headers=kind, params={"replace": True})
+    assert replaced.status_code == 200
+    assert client.get(path).content == (folder / "dropped.map").read_bytes() == b"two"
+
+
+def test_the_list_of_files_has_no_hidden_file_and_no_link(client: httpx.Client) -> None:
+    listed = {each["path"] for each in client.get("/files").json()["files"]}
+    assert "door.yaml" in listed
+    assert not listed & {".hidden.yaml", "link.yaml", "out/secret.yaml"}
+
+
+def test_an_exported_plan_is_the_plan(client: httpx.Client, folder: Path, tmp_path: Path) -> None:
+    del folder
+    from tests.builders.studios import planned
+
+    run = planned(client, planner="two-level")
+    file = tmp_path / "plan.json"
+    file.write_bytes(client.get(f"/runs/{run['number']}/export/json").content)
+    assert dump_scenario(load_plan(file).scenario)["robots"][1]["work"] == 1

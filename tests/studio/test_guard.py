@@ -1,0 +1,225 @@
+"""What is refused before any route sees it, and by routes that see paths."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from PIL import Image
+
+from rightofway.studio.guard import Access
+from tests.builders.studios import DOOR, running, sent
+
+
+def refused(answer: httpx.Response) -> str:
+    """Return the message of an error, after checking its form."""
+    error = answer.json()["error"]
+    assert error["status"] == answer.status_code
+    assert {"status", "kind", "message", "faults"} <= set(error)
+    assert "Traceback" not in answer.text
+    return str(error["message"])
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:80", "127.0.0.1", "", "127.0.0.1:1"]
+)
+def test_a_foreign_name_of_the_server_is_refused(client: httpx.Client, host: str) -> None:
+    """A page whose name was made to lead to this address (DNS rebinding) names itself."""
+    answer = client.get("/files", headers={"host": host})
+    assert answer.status_code == 421
+    assert "is no name of this studio" in refused(answer)
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1", "file://"])
+@pytest.mark.parametrize("method", ["GET", "POST", "PUT", "DELETE"])
+def test_a_page_of_another_origin_is_refused(
+    client: httpx.Client, origin: str, method: str
+) -> None:
+    answer = client.request(method, "/files", headers={"origin": origin})
+    assert answer.status_code == 403
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+def test_a_request_of_another_site_is_refused_also_without_its_origin(
+    client: httpx.Client, site: str
+) -> None:
+    headers = {"sec-fetch-site": site, "sec-fetch-mode": "no-cors"}
+    assert client.get("/files", headers=headers).status_code == 403
+
+
+def test_its_own_page_may_ask(client: httpx.Client) -> None:
+    origin = str(client.base_url).removesuffix("/api/v1/")
+    headers = {"origin": origin, "sec-fetch-site": "same-origin"}
+    assert client.post("/validate", json={"document": DOOR}, headers=headers).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""]
+)
+def test_a_body_that_a_form_can_send_is_refused(client: httpx.Client, kind: str) -> None:
+    answer = client.post("/validate", content=b'{"document": {}}', headers={"content-type": kind})
+    assert answer.status_code == 415
+
+
+def test_no_answer_invites_other_origins(client: httpx.Client) -> None:
+    asked = {"origin": "http://evil.example", "access-control-request-method": "PUT"}
+    for answer in (client.get("/files"), client.options("/files", headers=asked)):
+        assert not [name for name in answer.headers if name.startswith("access-control")]
+
+
+def test_every_answer_has_the_headers_of_the_guard(client: httpx.Client) -> None:
+    root = str(client.base_url).removesuffix("api/v1/")
+    for path in ("", "assets/main.js", "assets/viewer.js", "api/v1/files", "api/v1/nothing"):
+        headers = client.get(f"{root}{path}").headers
+        assert headers["x-content-type-options"] == "nosniff"
+        assert "unsafe" not in headers["content-security-policy"]
+        assert headers["content-security-policy"].startswith("default-src 'none'")
+
+
+ESCAPES = [
+    "../secret.yaml",
+    "..%2fsecret.yaml",
+    "%2e%2e/secret.yaml",
+    "a/../../secret.yaml",
+    "..%5csecret.yaml",
+    "%2fetc%2fpasswd",
+    "/etc/passwd",
+    "//etc/passwd",
+    "door.yaml%00.png",
+    "link.yaml",
+    "out/secret.yaml",
+    ".hidden.yaml",
+    ".rightofway-studio.sqlite",
+    "C:%5csecret.yaml",
+    "a" * 300,
+    "a%0ab",
+]
+
+
+@pytest.mark.parametrize("path", ESCAPES)
+@pytest.mark.parametrize("resource", ["files", "documents", "drafts/../files"])
+def test_no_path_climbs_out_of_the_folder(client: httpx.Client, resource: str, path: str) -> None:
+    status, text = sent(client, "GET", f"/api/v1/{resource}/{path}")
+    assert status in {400, 404}
+    assert json.loads(text)["error"]["status"] == status
+    body, kind = json.dumps({"document": DOOR}).encode(), "application/json"
+    if resource == "files":
+        body, kind = b"overwritten", "application/octet-stream"
+    status, text = sent(client, "PUT", f"/api/v1/{resource}/{path}", body, kind)
+    assert status in {400, 404, 422}
+    assert json.loads(text)["error"]["status"] == status
+
+
+@pytest.mark.parametrize("path", [*ESCAPES, "../__init__.py", "vendor/../../app.py", "index.py"])
+def test_no_asset_is_outside_of_the_assets(client: httpx.Client, path: str) -> None:
+    status, text = sent(client, "GET", f"/assets/{path}")
+    assert status in {400, 404}
+    assert json.loads(text)["error"]["status"] == status
+
+
+OUTSIDE = ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
+@pytest.mark.parametrize(
+    "part",
+    [
+        lambda name: {"map": {"file": name}},
+        lambda name: {"map": {"layout": name}},
+        lambda name: {"robots": {"table": name}},
+        lambda name: {"robots": {"scen": name}},
+    ],
+    ids=["file", "layout", "table", "scen"],
+)
+def test_a_document_cannot_name_a_file_outside_of_the_folder(
+    client: httpx.Client, part: Callable[[str], dict[str, Any]], name: str
+) -> None:
+    verdict = client.post("/validate", json={"document": {**DOOR, **part(name)}}).json()
+    assert not verdict["ok"]
+    assert "outside of the folder" in verdict["faults"][0]["message"]
+
+
+def test_a_layout_cannot_name_a_picture_outside_of_the_folder(
+    client: httpx.Client, folder: Path
+) -> None:
+    Image.new("L", (4, 4), 255).save(folder.parent / "secret.png")
+    lines = "resolution: 0.5", "origin: [0, 0, 0]", "negate: 0"
+    limits = "occupied_thresh: 0.65", "free_thresh: 0.25"
+    for name, is_there in (("../secret.png", False), ("inside.png", True)):
+        Image.new("L", (4, 4), 255).save(folder / "inside.png")
+        (folder / "ros.yaml").write_text("\n".join((f"image: {name}", *lines, *limits)))
+        opened = client.get("/documents/ros.yaml")
+        assert opened.is_success == is_there, opened.text
+        assert is_there or "outside of the folder" in opened.text
+
+
+@pytest.mark.parametrize("place", ["..", "/", "../floor", "a/../..", ".", "out"])
+def test_a_document_cannot_stand_outside_of_the_folder(client: httpx.Client, place: str) -> None:
+    answer = client.post("/validate", json={"document": DOOR, "folder": place})
+    assert answer.status_code == 400
+
+
+def test_a_body_that_is_too_long_is_refused_before_it_is_read(client: httpx.Client) -> None:
+    with socket.create_connection((client.base_url.host, client.base_url.port)) as connection:
+        host = f"{client.base_url.host}:{client.base_url.port}"
+        head = ("POST /api/v1/validate HTTP/1.1", f"Host: {host}", f"Content-Length: {10**8}")
+        connection.sendall("\r\n".join((*head, "Content-Type: application/json", "", "")).encode())
+        assert connection.recv(1000).startswith(b"HTTP/1.1 413 ")
+
+
+def test_a_body_without_a_length_is_cut_off(client: httpx.Client) -> None:
+    parts = (b" " * 10**6 for _ in range(25))
+    kind = {"content-type": "application/json"}
+    answer = client.post("/validate", content=parts, headers=kind)
+    assert answer.status_code == 413
+    refused(answer)
+
+
+MALFORMED = [
+    b"",
+    b"{",
+    b"[]",
+    b"null",
+    b"1",
+    b'"text"',
+    b"\xff\xfe",
+    b'{"document": NaN}',
+    b'{"document": {"a": NaN}}',
+    b'{"document": {"a": 1e999}}',
+    b'{"document": {"a": "\\ud800"}}',
+    b'{"document": ' + b"[" * 100_000,
+    b'{"document": {"a": ' + b"[" * 900 + b"]" * 900 + b"}}",
+    b'{"document": {"map": "..."}}',
+    b'{"document": {"format": "rightofway-scenario/1", "map": {"grid": 3}, "robots": "all"}}',
+]
+
+
+@pytest.mark.parametrize("body", MALFORMED)
+@pytest.mark.parametrize("path", ["/validate", "/runs", "/convert"])
+def test_a_malformed_body_has_an_answer_in_the_one_form(
+    client: httpx.Client, path: str, body: bytes
+) -> None:
+    answer = client.post(path, content=body, headers={"content-type": "application/json"})
+    assert answer.status_code < 500
+    if answer.status_code >= 400:
+        refused(answer)
+
+
+def test_elsewhere_each_request_needs_the_token(folder: Path) -> None:
+    access = Access.on("0.0.0.0", 0)  # noqa: S104 (the access to it, not the address)
+    with running(folder, access, keeps=False) as client:
+        assert client.get("/files").status_code == 401
+        wrong = {"authorization": "Bearer wrong"}
+        assert client.get("/files", headers=wrong).status_code == 401
+        right = {"authorization": f"Bearer {access.token}"}
+        assert client.get("/files", headers=right).status_code == 200
+        root = str(client.base_url).removesuffix("api/v1/")
+        signed = client.get(root, params={"token": access.token})
+        assert (signed.status_code, signed.headers["location"]) == (303, "/")
+        assert {"HttpOnly", "SameSite=Strict"} <= set(signed.headers["set-cookie"].split("; "))
+        assert client.get("/files").status_code == 200  # by the cookie

@@ -1,0 +1,198 @@
+"""Runs: queued, watched, stopped, compared, asked."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.builders.crowds import CROWD
+from tests.builders.studios import DOOR, over, planned, until
+
+
+def events(client: httpx.Client, number: int) -> list[tuple[str, Any]]:
+    text = client.get(f"/runs/{number}/events").text
+    pairs = [block.split("\n") for block in text.split("\n\n") if block.startswith("event:")]
+    return [(name[7:], json.loads(data[6:])) for name, data in pairs]
+
+
+def begun(client: httpx.Client, **request: Any) -> int:
+    """Begin a long run, and return its number when it has a plan."""
+    body = {"document": CROWD, "planner": "lns", "time_limit": 60, **request}
+    number: int = client.post("/runs", json=body).json()["number"]
+    until(client, number, lambda run: run["has_plan"])
+    return number
+
+
+def test_a_plan_is_made_kept_and_played(client: httpx.Client) -> None:
+    run = planned(client, planner="two-level", name="door")
+    assert (run["state"], run["name"], run["kind"]) == ("done", "door", "plan")
+    payload = client.get(f"/runs/{run['number']}/payload").json()
+    assert payload["title"] == "door"
+    assert payload["metrics"]["flowtime"] == run["figures"]["flowtime"]
+    page = client.get(f"/runs/{run['number']}/page")
+    assert "sandbox allow-scripts" in page.headers["content-security-policy"]
+
+
+def test_events_tell_the_flowtime_as_it_falls_and_end_with_the_run(client: httpx.Client) -> None:
+    body = {"document": CROWD, "planner": "lns", "time_limit": 0.8}
+    number = client.post("/runs", json=body).json()["number"]
+    heard = events(client, number)
+    flowtimes = [data["flowtime"] for _, data in heard if "flowtime" in data]
+    assert flowtimes
+    assert flowtimes == sorted(flowtimes, reverse=True)
+    revisions = [data["revision"] for name, data in heard if name == "plan"]
+    assert revisions == sorted(set(revisions))
+    assert (heard[-1][0], heard[-1][1]["state"]) == ("run", "done")
+    assert events(client, number) == heard[-1:]
+
+
+def test_stop_keeps_the_best_plan(client: httpx.Client) -> None:
+    number = begun(client)
+    client.post(f"/runs/{number}/stop")
+    run = over(client, number)
+    assert run["state"] == "stopped"
+    assert run["status"].startswith("interrupted")
+    assert client.get(f"/runs/{number}/payload").json()["faults"]["count"] == 0
+
+
+def test_a_cancelled_run_leaves_room_for_the_next(client: httpx.Client) -> None:
+    number = begun(client)
+    waiting = client.post("/runs", json={"document": DOOR}).json()
+    assert waiting["state"] == "queued"
+    client.post(f"/runs/{number}/cancel")
+    assert over(client, number)["state"] == "cancelled"
+    assert over(client, waiting["number"])["state"] == "done"
+
+
+def test_a_run_that_waits_is_cancelled_without_being_begun(client: httpx.Client) -> None:
+    number = begun(client)
+    waiting = client.post("/runs", json={"document": DOOR}).json()["number"]
+    client.post(f"/runs/{waiting}/cancel")
+    client.post(f"/runs/{number}/cancel")
+    assert over(client, waiting)["started"] is None
+
+
+def test_a_run_fails_with_the_faults_of_its_document(client: httpx.Client) -> None:
+    document = {**DOOR, "robots": [{"name": "R1", "home": "N3", "target": "N6"}]}
+    run = planned(client, document)
+    assert run["state"] == "failed"
+    assert run["error"]["faults"][0]["named"] == "robots[0] (R1): home"
+
+
+def test_a_fleet_without_a_plan_is_told_apart_from_giving_up(client: httpx.Client) -> None:
+    robots = [
+        {"name": "R1", "home": "N0", "target": "N2"},
+        {"name": "R2", "home": "N2", "target": "N0"},
+    ]
+    document = {**DOOR, "map": {"grid": ["..."]}, "robots": robots}
+    run = planned(client, document)
+    assert run["error"]["kind"] == "no_plan"
+    assert run["error"]["robots"] == ["R1", "R2"]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "place"),
+    [
+        ({"planner": "lnss"}, "planner"),
+        ({"options": {"iteration": 3}}, "option iteration"),
+        ({"time_limit": 0}, "time_limit"),
+        ({"seed": -1}, "seed"),
+        ({"kind": "plans"}, ""),
+    ],
+)
+def test_a_wrong_setting_is_refused_before_it_is_queued(
+    client: httpx.Client, wrong: dict[str, Any], place: str
+) -> None:
+    before = len(client.get("/runs").json()["runs"])
+    refused = client.post("/runs", json={"document": DOOR, **wrong})
+    assert refused.status_code == 422
+    assert [fault["place"] for fault in refused.json()["error"]["faults"][:1]] in ([place], [])
+    assert len(client.get("/runs").json()["runs"]) == before
+
+
+def test_plans_are_improved_and_executed(client: httpx.Client) -> None:
+    number = planned(client, planner="two-level")["number"]
+    better = client.post("/runs", json={"kind": "improve", "based_on": number, "time_limit": 0.3})
+    assert over(client, better.json()["number"])["state"] == "done"
+    late = client.post("/runs", json={"kind": "simulate", "based_on": number, "runs": 20})
+    done = over(client, late.json()["number"])
+    assert done["state"] == "done"
+    assert client.get(f"/runs/{done['number']}/report").json()["runs"] == 20
+    assert "floor" in client.get(f"/runs/{done['number']}/payload").json()
+
+
+def test_laps_have_a_period(client: httpx.Client) -> None:
+    started = client.post("/runs", json={"kind": "laps", "document": DOOR})
+    run = over(client, started.json()["number"])
+    assert run["state"] == "done"
+    report = client.get(f"/runs/{run['number']}/report").json()
+    assert report["groups"][0]["period"]
+    assert client.get(f"/runs/{run['number']}/payload").json()["steady"]
+
+
+def test_a_wait_is_explained_and_its_right_of_way_flipped(client: httpx.Client) -> None:
+    """R1 and R2 meet at the door; whoever waits, the other one waits after the flip."""
+    number = planned(client, planner="two-level")["number"]
+    (loss, *_) = client.get(f"/runs/{number}/losses").json()["losses"]
+    assert f"{loss['robot']} waits" in loss["sentence"]
+    assert loss["because"]["decision"]
+    body = {"waits": loss["robot"], "goes_first": loss["for"], "tick": loss["end"]}
+    flipped = client.post(f"/runs/{number}/flip", json=body).json()["run"]
+    after = client.get(f"/runs/{flipped['number']}/losses").json()["losses"]
+    assert loss["for"] in {each["robot"] for each in after}
+    compared = client.get("/compare", params={"run": [number, flipped["number"]]}).json()
+    assert [each["flowtime"] for each in compared["plans"]][1] == flipped["figures"]["flowtime"]
+    assert [robot["name"] for robot in compared["robots"]] == ["R1", "R2"]
+
+
+def test_a_flip_of_an_unknown_robot_is_refused(client: httpx.Client) -> None:
+    number = planned(client, planner="two-level")["number"]
+    body = {"waits": "R1", "goes_first": "R3", "tick": 0}
+    refused = client.post(f"/runs/{number}/flip", json=body).json()["error"]
+    assert refused["faults"][0]["place"] == "goes_first"
+
+
+def test_the_command_line_of_a_run_gives_the_same(client: httpx.Client, folder: Path) -> None:
+    import shlex
+
+    from click.testing import CliRunner
+
+    from rightofway.cli.main import commands
+
+    run = planned(client, planner="two-level", options={"routes": "shortest"}, source="door.yaml")
+    command = client.get(f"/runs/{run['number']}/command").json()["command"]
+    words = shlex.split(command.replace("door.yaml", str(folder / "door.yaml")))
+    assert words[:2] == ["rightofway", "plan"]
+    told = CliRunner().invoke(commands, [*words[1:], "--json"], catch_exceptions=False)
+    assert json.loads(told.stdout)["planner"]["options"]["routes"] == "shortest"
+
+
+@pytest.mark.parametrize("form", ["json", "xlsx", "html", "png", "gif", "lns2"])
+def test_a_plan_is_exported(client: httpx.Client, form: str) -> None:
+    number = planned(client, planner="two-level")["number"]
+    exported = client.get(f"/runs/{number}/export/{form}")
+    assert exported.status_code == 200
+    assert exported.content
+
+
+def test_a_run_is_named_and_deleted(client: httpx.Client) -> None:
+    number = planned(client, planner="two-level")["number"]
+    assert client.patch(f"/runs/{number}", json={"name": "mine"}).json()["name"] == "mine"
+    assert client.delete(f"/runs/{number}").status_code == 200
+    assert client.get(f"/runs/{number}").status_code == 404
+
+
+def test_a_changed_document_is_planned_at_once_beside_a_long_plan(client: httpx.Client) -> None:
+    first = planned(client, planner="two-level")
+    long = begun(client)
+    document = client.get(f"/runs/{first['number']}/document").json()["document"]
+    document["robots"][1]["speed"] = "1/2"
+    changed = planned(client, document, time_limit=0.5, based_on=first["number"])
+    assert client.get(f"/runs/{long}").json()["state"] == "running"
+    assert changed["based_on"] == first["number"]
+    client.post(f"/runs/{long}/cancel")
+    assert changed["figures"]["makespan"] > first["figures"]["makespan"]

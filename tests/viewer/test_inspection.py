@@ -1,0 +1,139 @@
+"""The page of an inspection: the site drawn, findings as a list, a click lights the place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from rightofway.io.sites import Choice, read_sites
+from rightofway.metrics import inspect, sentences
+from rightofway.viz import write_inspection
+from tests.viewer.conftest import Viewer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
+
+Open = Callable[..., Viewer]
+
+
+@pytest.fixture
+def inspected(browser: Browser, tmp_path: Path) -> Iterator[Open]:
+    contexts = []
+
+    def open_page(source: Path, **context: Any) -> Viewer:
+        found = read_sites(source, Choice())
+        levels = [(name, site, inspect(site)) for name, site in found.sites]
+        path = tmp_path / "site.html"
+        write_inspection(levels, path, title=source.name, what=found.what, notes=found.notes)
+        contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
+        viewer = Viewer(contexts[-1].new_page())
+        viewer.page.goto(path.as_uri())
+        viewer.wait_for("inspectPage.frames > 0")
+        return viewer
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+@pytest.fixture
+def crossing(tmp_path: Path) -> Path:
+    """Return a layout of two lanes that cross without a vertex; no lane leads to E."""
+    (tmp_path / "nodes.csv").write_text("name,x,y\nA,0,0\nB,8,0\nC,4,-4\nD,4,4\nE,6,4\n")
+    (tmp_path / "edges.csv").write_text(
+        "from,to,both_ways\nA,B,true\nC,D,true\nB,D,true\nE,D,false\n"
+    )
+    return tmp_path / "nodes.csv"
+
+
+@pytest.mark.parametrize("name", ["hall.lif.json", "plant.xml", "room.yaml", "hall.building.yaml",
+                                  "route.geojson", "two-rooms.map", "hall.graphml"])  # fmt: skip
+def test_every_format_has_a_page(inspected: Open, name: str) -> None:
+    viewer = inspected(LAYOUTS / name)
+    assert viewer.complaints == []
+    assert viewer.text("#headline").startswith(name)
+
+
+def test_the_page_has_the_words_of_the_command(inspected: Open, crossing: Path) -> None:
+    (_, site), *_ = read_sites(crossing, Choice()).sites
+    result = inspect(site)
+    viewer = inspected(crossing)
+    assert viewer.text("#size") == " ".join(sentences(site, result))
+    titles = viewer.ask(
+        "[...document.querySelectorAll('#finding-list .row:not([hidden])')].map((row) => row.title)"
+    )
+    assert titles == [str(finding) for finding in result.findings]
+
+
+def test_a_click_on_a_finding_lights_its_place(inspected: Open, crossing: Path) -> None:
+    viewer = inspected(crossing)
+    viewer.page.click("#finding-list .row:has-text('cross without a vertex')")
+    lit = "inspectPage.view.choice.lit.map((it) => inspectPage.site.roadmap.name(it))"
+    assert viewer.ask(lit) == ["A", "B", "C", "D"]
+    assert "The lanes A to B and C to D cross without a vertex." in viewer.text("#card")
+    viewer.page.keyboard.press("Escape")
+    assert viewer.ask("inspectPage.view.choice.lit") == []
+    assert not viewer.page.is_visible("#card")
+
+
+def test_a_click_on_a_place_chooses_its_findings_in_turn(inspected: Open, crossing: Path) -> None:
+    viewer = inspected(crossing)
+    x, y = viewer.ask(
+        "(({ left, top, scale }, { x, y }) => [left + x[4] * scale, top + y[4] * scale])"
+        "(inspectPage.view.viewport, inspectPage.site.roadmap)"
+    )
+    viewer.page.click("#map", position={"x": x, "y": y})
+    assert viewer.ask("inspectPage.chosen.kind") == "unreachable"
+
+
+def test_findings_are_found_by_words(inspected: Open, crossing: Path) -> None:
+    viewer = inspected(crossing)
+    viewer.page.keyboard.press("/")
+    viewer.page.keyboard.type("crossing")
+    assert viewer.ask("inspectPage.list.items.map(({ kind }) => kind)") == ["crossing"]
+    viewer.page.keyboard.press("Enter")
+    assert viewer.ask("inspectPage.chosen.kind") == "crossing"
+
+
+def test_levels_are_chosen_in_the_head(inspected: Open) -> None:
+    viewer = inspected(LAYOUTS / "hall.building.yaml")
+    assert viewer.ask("inspectPage.site.roadmap.names") == ["dock", "v1", "shelf"]
+    viewer.page.select_option("#level", label="L2")
+    assert viewer.ask("inspectPage.site.roadmap.names") == ["stairs", "top"]
+    viewer.wait_for("inspectPage.frames > 2")
+    assert viewer.complaints == []
+
+
+def test_a_fleet_stands_at_its_homes_in_its_true_size(inspected: Open, tmp_path: Path) -> None:
+    (tmp_path / "hall.yaml").write_text(
+        "format: rightofway-scenario/1\n"
+        "map: {roadmap: {vertices: {A: [0, 0], B: [2, 0]}, edges: [[A, B]]}}\n"
+        "robots:\n- {name: R1, home: A, target: B, radius: 0.5}\n"
+        "- {name: R2, home: B, target: A, radius: 0.75}\n"
+    )
+    viewer = inspected(tmp_path / "hall.yaml")
+    assert viewer.ask("Array.from(inspectPage.view.motion.x)") == [0, 1]
+    ratio = viewer.ask(
+        "inspectPage.view.sizes.of(inspectPage.site.robots[1]) / inspectPage.view.viewport.scale"
+    )
+    assert ratio == pytest.approx(0.75 / 2)  # a unit of the drawing is the edge of 2
+    assert viewer.complaints == []
+
+
+@pytest.mark.parametrize("size", [(390, 844), (844, 390), (1280, 720), (3840, 2160)], ids=str)
+def test_the_page_fits_every_screen(inspected: Open, size: tuple[int, int]) -> None:
+    viewer = inspected(LAYOUTS / "plant.xml", viewport={"width": size[0], "height": size[1]})
+    assert viewer.ask("document.documentElement.scrollWidth") == size[0]
+    assert viewer.page.is_visible("#map")
+
+
+def test_the_paper_has_all_findings(inspected: Open, crossing: Path) -> None:
+    viewer = inspected(crossing)
+    viewer.page.emulate_media(media="print")
+    viewer.ask("window.dispatchEvent(new Event('beforeprint'))")
+    assert "cross without a vertex" in viewer.text("#paper-findings")

@@ -1,0 +1,112 @@
+"""Pictures below a map: pixel, site and page agree to the millimetre."""
+
+from __future__ import annotations
+
+from math import cos, sin
+from pathlib import Path
+from shutil import copy
+from typing import Any
+
+import pytest
+from PIL import Image
+
+from rightofway.io import scenario_of
+from rightofway.model import Plan
+from rightofway.solve import solve
+from rightofway.viz import Background
+from tests.viewer.conftest import Opener, Viewer
+
+LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
+
+SITE_OF_PIXEL = """([column, row, columns]) => {
+  const { x, y, width, turn = 0 } = plan.roadmap.background;
+  const [right, down] = [(column * width) / columns, (row * width) / columns];
+  return plan.roadmap.toSite(
+    x + right * Math.cos(turn) - down * Math.sin(turn),
+    y + right * Math.sin(turn) + down * Math.cos(turn));
+}"""
+
+MILLIMETRE = 0.001
+
+
+def plan_on(shape: dict[str, Any], home: Any, target: Any, base: Path | None) -> Plan:
+    robots = [{"name": "R1", "home": home, "target": target}]
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
+    return solve(scenario_of(document, base))
+
+
+def site_of_pixel(viewer: Viewer, column: float, row: float, columns: int) -> list[float]:
+    found: list[float] = viewer.page.evaluate(SITE_OF_PIXEL, [column, row, columns])
+    return found
+
+
+@pytest.mark.parametrize("origin", [(0, 0, 0), (-12.34, 5.678, 0), (-3.21, -7.5, 0.3), (4, -1, -2)])
+def test_pixels_of_a_ros_map_lie_where_its_frame_says(
+    show: Opener, tmp_path: Path, origin: tuple[float, float, float]
+) -> None:
+    """The origin is the lower left corner of the picture; it turns the picture about itself."""
+    Image.new("L", (60, 40), 255).save(tmp_path / "hall.pgm")
+    (tmp_path / "hall.yaml").write_text(
+        f"image: hall.pgm\nresolution: 0.05\norigin: {list(origin)}\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.2\n"
+    )
+    shape = {"layout": "hall.yaml", "cell_size": 0.5}
+    viewer = show(plan_on(shape, [0, 0], [3, 5], tmp_path))
+    x, y, yaw = origin
+    for column, row in [(0, 40), (60, 40), (0, 0), (37, 11)]:
+        right, up = 0.05 * column, 0.05 * (40 - row)
+        assert site_of_pixel(viewer, column, row, 60) == pytest.approx(
+            [x + cos(yaw) * right - sin(yaw) * up, y + sin(yaw) * right + cos(yaw) * up],
+            abs=MILLIMETRE,
+        )
+
+
+@pytest.mark.parametrize(
+    ("level", "pixels"),
+    [
+        ("L1", {(100, 40): (5, -2), (200, 100): (10, -5)}),
+        ("L2", {(50, 10): (0, 0), (40, 10): (0, -1)}),
+    ],
+)
+def test_pixels_of_a_building_lie_where_its_measurements_and_fiducials_say(
+    show: Opener, tmp_path: Path, level: str, pixels: dict[tuple[int, int], tuple[float, float]]
+) -> None:
+    """The second level is turned by 90 degrees and half as large."""
+    text = (LAYOUTS / "hall.building.yaml").read_text(encoding="utf-8")
+    text = text.replace("  L2:\n", "  L2:\n    drawing: {filename: hall.png}\n")
+    (tmp_path / "hall.building.yaml").write_text(text, encoding="utf-8")
+    Image.new("L", (220, 120), 200).save(tmp_path / "hall.png")
+    home, target = ("dock", "v1") if level == "L1" else ("stairs", "top")
+    shape = {"layout": "hall.building.yaml", "level": level}
+    viewer = show(plan_on(shape, home, target, tmp_path))
+    for pixel, site in pixels.items():
+        assert site_of_pixel(viewer, *pixel, 220) == pytest.approx(site, abs=MILLIMETRE)
+    assert viewer.complaints == []
+
+
+def test_a_turned_picture_lies_below_a_roadmap_that_is_not_turned(
+    show: Opener, tmp_path: Path
+) -> None:
+    Image.new("L", (60, 40), 200).save(tmp_path / "hall.png")
+    vertices = {"A": [-1.2345, 2.5], "B": [17.001, 2.5]}
+    shape = {"roadmap": {"vertices": vertices, "edges": [["A", "B"]]}, "y": "up"}
+    background = Background(picture=tmp_path / "hall.png", scale=0.1, origin=(-3.0, -1.5), yaw=0.25)
+    viewer = show(plan_on(shape, "A", "B", None), background=background)
+    at = site_of_pixel(viewer, 30, 10, 60)
+    right, up = 3.0, 3.0  # 30 pixels from the left, 30 from the lower border
+    assert at == pytest.approx(
+        [-3 + cos(0.25) * right - sin(0.25) * up, -1.5 + sin(0.25) * right + cos(0.25) * up],
+        abs=MILLIMETRE,
+    )
+    points = viewer.ask(
+        "[0, 1].map((at) => plan.roadmap.toSite(plan.roadmap.x[at], plan.roadmap.y[at]))"
+    )
+    assert points == [pytest.approx(at, abs=MILLIMETRE) for at in vertices.values()]
+
+
+def test_the_picture_of_a_layout_is_painted(show: Opener, tmp_path: Path) -> None:
+    for name in ("room.yaml", "room.pgm"):
+        copy(LAYOUTS / name, tmp_path)
+    viewer = show(plan_on({"layout": "room.yaml"}, "N3", "N3", tmp_path))
+    viewer.wait_for("mapView.base.paintings > 1")  # again, once the picture is there
+    assert viewer.complaints == []
