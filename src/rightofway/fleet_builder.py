@@ -138,6 +138,7 @@ class FleetBuilder:
         self._roadmap: Roadmap | None = None
         self._lanes: Callable[..., LevelRoadmap] | None = None
         self._stations: dict[str, VertexId] = {}
+        self._is_drawn = True
         self._rules = _rules(rules)
         self._units = _units(units)
         self._y_up = y == "up"
@@ -413,8 +414,13 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            With every fault, as `Scenario`; or where there is no map.
+            With every fault, as `Scenario`; where there is no map; or for a turn rate on a graph
+            without positions.
         """
+        rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
+        if not self._is_drawn and any(rates):
+            remedy = "give each node a pos, or x and y; or leave it out"
+            raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.roadmap(), self._rules
         if self._lanes and any(robot.radius for robot in self._robots):
             cut = self._lanes(cuts_curves=True)
@@ -524,7 +530,7 @@ class FleetBuilder:
             raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
         nodes = dict(graph.nodes(data=True))
         at = {node: _position(node, data) for node, data in nodes.items()}
-        is_drawn = all(at.values())
+        self._is_drawn = is_drawn = all(at.values())
         for index, (node, position) in enumerate(at.items()):
             self.add_vertex(str(node), *(position if position and is_drawn else (index, 0)))
         for tail, head, data in graph.edges(data=True):

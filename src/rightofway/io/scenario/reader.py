@@ -25,7 +25,6 @@ from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
-from rightofway.model.turning import longest_turn
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -405,7 +404,6 @@ def _check_ticks(scenario: Scenario) -> None:
         problem.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
         *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
-        *(longest_turn(itinerary.turning) for itinerary in problem.itineraries),
     )
     if longest > MAX_TICKS:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"
