@@ -82,7 +82,8 @@ def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> P
     if not isinstance(name, str) or not name:
         return None
     try:
-        is_there = (folder / name).is_file()
+        inside = (folder / name).resolve().is_relative_to(folder.resolve())
+        is_there = inside and (folder / name).is_file()
     except (OSError, ValueError):
         is_there = False
     if not is_there:
