@@ -21,7 +21,8 @@ from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
-from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.maps import file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
