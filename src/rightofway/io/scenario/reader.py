@@ -288,7 +288,15 @@ def _housed(
 ) -> tuple[list[_Placed], list[str]]:
     """Return the robots, those without a home at parking places, and notes of who starts where."""
     homeless = [it.robot for it in placed if it.robot.home == HOMELESS]
-    wanted = [Wanted(name=it.name, first_stop=it.stops[0].at, radius=it.radius) for it in homeless]
+    wanted = [
+        Wanted(
+            name=it.name,
+            first_stop=it.stops[0].at,
+            last_stop=it.stops[-1].at if (it.ends or rules.ends) == "home" else None,
+            radius=it.radius,
+        )
+        for it in homeless
+    ]
     fixed = Fixed(
         homes=tuple((it.robot.home, it.robot.radius) for it in placed if it.robot.home != HOMELESS),
         stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
