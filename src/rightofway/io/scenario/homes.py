@@ -14,15 +14,26 @@ NAMED = 6
 """The most robots whose dealt homes a note names."""
 
 FAR = 2**31 - 1
-"""Distance to a stop that cannot be reached."""
+"""No way is longer [steps]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wanted:
-    """A robot that needs a home: its name, its first stop, and its radius [length unit]."""
+    """A robot that needs a home.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    first_stop, last_stop
+        Where it goes from home, and where it comes home from; None if it does not.
+    radius
+        Its radius [length unit].
+    """
 
     name: str
     first_stop: VertexId
+    last_stop: VertexId | None
     radius: Fraction
 
 
@@ -67,7 +78,7 @@ def dealt_homes(
     InputError
         If there are too few places, with their numbers and what to do.
     """
-    if not parking:
+    if robots and not parking:
         message = "the map has no parking or charging place (give each robot a home)"
         raise InputError.at("homes", message)
     distances = Distances(roadmap)
@@ -75,16 +86,19 @@ def dealt_homes(
     free = [place for place in parking if place not in fixed.stops]
     taken, found = list(fixed.homes), list[VertexId]()
     for robot in robots:
-        table = distances.to(robot.first_stop, steps)
         fitting = [
             place
             for place in free
             if all(_apart(roadmap, (place, robot.radius), at, fixed.clearance) for at in taken)
         ]
-        ways = [int(table[place]) if table[place] >= 0 else FAR for place in fitting]
-        if not fitting or min(ways) == FAR:
+        out, back = distances.to(robot.first_stop, steps), robot.last_stop
+        reaching = sorted((place for place in fitting if out[place] >= 0), key=lambda at: out[at])
+        home = next(
+            (place for place in reaching if back is None or distances.to(place, steps)[back] >= 0),
+            None,
+        )
+        if home is None:
             raise InputError.at("homes", _too_few(robots, robot, parking, fixed, bool(fitting)))
-        home = fitting[ways.index(min(ways))]
         found.append(home)
         taken.append((home, robot.radius))
     return found
@@ -119,7 +133,7 @@ def _too_few(
 ) -> str:
     if are_left:
         return (
-            f"no free parking or charging place has a way to the first stop of {robot.name}"
+            f"no free parking or charging place has a way to the stops of {robot.name} and back"
             " (give that robot a home, or join the parts of the map)"
         )
     places = "1 parking or charging place" if len(parking) == 1 else (

@@ -21,7 +21,8 @@ from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
 from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
-from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.maps import file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
@@ -286,7 +287,15 @@ def _housed(
 ) -> tuple[list[_Placed], list[str]]:
     """Return the robots, those without a home at parking places, and notes of who starts where."""
     homeless = [it.robot for it in placed if it.robot.home == HOMELESS]
-    wanted = [Wanted(name=it.name, first_stop=it.stops[0].at, radius=it.radius) for it in homeless]
+    wanted = [
+        Wanted(
+            name=it.name,
+            first_stop=it.stops[0].at,
+            last_stop=it.stops[-1].at if (it.ends or rules.ends) == "home" else None,
+            radius=it.radius,
+        )
+        for it in homeless
+    ]
     fixed = Fixed(
         homes=tuple((it.robot.home, it.robot.radius) for it in placed if it.robot.home != HOMELESS),
         stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
