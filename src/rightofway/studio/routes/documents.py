@@ -110,6 +110,22 @@ async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
     return dict(result)
 
 
+@router.post("/survey", tags=["documents"], response_class=Response)
+async def survey(studio: InStudio, placed: Placed) -> Response:
+    """Return what an editor shows at each change: faults, notes, map, robots, findings."""
+    folder = studio.place(placed.folder)
+    _, blobs = await studio.ask("survey", document=placed.document, folder=folder)
+    return Response(blobs[0], media_type="application/json")
+
+
+@router.post("/inline", tags=["documents"])
+async def inline(studio: InStudio, placed: Placed) -> dict[str, Any]:
+    """Return a document whose map and robots are in it, not in other files."""
+    folder = studio.place(placed.folder)
+    result, _ = await studio.ask("inline", document=placed.document, folder=folder)
+    return dict(result)
+
+
 @router.post("/draw", tags=["documents"], response_class=Response)
 async def draw(studio: InStudio, placed: Placed) -> Response:
     """Return what the viewer needs to draw the map and the robots of a document."""
