@@ -42,7 +42,8 @@ class Save(Placed):
     """A document that is to be saved."""
 
     revision: str | None = Field(
-        None, description="revision that the file must have; empty if there must be none"
+        "",
+        description="revision that the file must have; empty if there must be none; null for any",
     )
 
 
