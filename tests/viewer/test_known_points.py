@@ -130,7 +130,7 @@ def test_a_point_drives_along_the_curve_of_its_lane(show: Opener, tmp_path: Path
     }
     graph = {"type": "FeatureCollection", "features": [*features, edge]}
     (tmp_path / "route.geojson").write_text(json.dumps(graph), encoding="utf-8")
-    document = {
+    document: dict[str, Any] = {
         "format": "rightofway-scenario/1",
         "map": {"layout": "route.geojson"},
         "robots": [{"name": "R1", "home": "0", "target": "1", "return": "none"}],
@@ -140,3 +140,6 @@ def test_a_point_drives_along_the_curve_of_its_lane(show: Opener, tmp_path: Path
     at = viewer.ask("plan.roadmap.toSite(motion.x[0], motion.y[0])")
     assert at == pytest.approx([0, 2], abs=MILLIMETRE)
     assert viewer.complaints == []
+    document["robots"][0]["radius"] = 1  # judged, and so drawn, on the straight line
+    viewer = show(solve(scenario_of(document, tmp_path)))
+    assert viewer.ask("plan.roadmap.curves.size") == 0

@@ -92,8 +92,14 @@ def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> P
     far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
     (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
     right, up = to_x - x, to_y - y
-    pixel = right / far if up == 0 < right else Fraction(repr(hypot(right, up) / float(far)))
-    yaw = Fraction(repr(atan2(up, right)))
+    try:
+        pixel = right / far if up == 0 < right else Fraction(repr(hypot(right, up) / float(far)))
+        yaw = Fraction(repr(atan2(up, right)))
+    except (OverflowError, ValueError):
+        pixel, yaw = Fraction(0), Fraction(0)
+    if pixel <= 0:
+        draft.repair(f"the picture {shown(name)} has no size, and is not drawn")
+        return None
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 

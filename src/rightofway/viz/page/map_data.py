@@ -74,6 +74,7 @@ def map_data(
         "curves": [
             [tail, head, *np.round(_drawn(plane, roadmap, points), decimals).ravel().tolist()]
             for tail, head, points in drawing.curves
+            if not room  # robots with a size are judged on straight lanes
         ],
         "stations": [list(station) for station in drawing.stations],
         "parking": list(drawing.parking),
