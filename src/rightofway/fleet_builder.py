@@ -284,7 +284,7 @@ class FleetBuilder:
         self,
         name: str,
         *,
-        home: Any,
+        home: Any = None,
         target: Any = None,
         work: Number = 0,
         stops: Iterable[Any] | None = None,
@@ -305,7 +305,8 @@ class FleetBuilder:
             A name of its own.
         home
             The place that it starts from: ``"N8"`` or (row, column) on a grid, the name of a
-            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit].
+            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit]. Without one it
+            gets a parking or charging place of the layout, near to its first stop.
         target, work
             The place to work at, and how long [time unit]; short for one stop.
         stops
@@ -338,10 +339,12 @@ class FleetBuilder:
             trip = [("target", target, work)]
         else:
             trip = [(f"stops[{k}]", *_place_and_work(stop)) for k, stop in enumerate(stops)]
+        from rightofway.io.scenario.homes import HOMELESS
+
         try:
             robot = Robot(
                 name=name,
-                home=self._vertex("home", home),
+                home=HOMELESS if home is None else self._vertex("home", home),
                 stops=tuple(
                     Stop(at=self._vertex(place, at), work=time)  # type: ignore[arg-type]
                     for place, at, time in trip
@@ -417,6 +420,8 @@ class FleetBuilder:
             With every fault, as `Scenario`; where there is no map; or for a turn rate on a graph
             without positions.
         """
+        from rightofway.io.scenario.homes import housed
+
         rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
         if not self._is_drawn and any(rates):
             remedy = "give each node a pos, or x and y; or leave it out"
@@ -426,9 +431,10 @@ class FleetBuilder:
             cut = self._lanes(cuts_curves=True)
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
+        robots, _ = housed(self._robots, roadmap, rules)
         return Scenario(
             roadmap=roadmap,
-            robots=tuple(self._robots),
+            robots=tuple(robots),
             rules=rules,
             units=self._units,
             closures=tuple(self._closures),
