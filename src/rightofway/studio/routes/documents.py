@@ -11,8 +11,9 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Response
 
+from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
-from rightofway.studio.routes.models import Draft, FilePath, InStudio, Placed, Save, ToText
+from rightofway.studio.routes.models import Deal, Draft, FilePath, InStudio, Placed, Save, ToText
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
 from rightofway.studio.workspace import revision_of
@@ -148,6 +149,18 @@ async def draw(studio: InStudio, placed: Placed) -> Response:
         "draw", document=placed.document, folder=studio.place(placed.folder)
     )
     return Response(blobs[0], media_type="application/json")
+
+
+@router.post("/deal", tags=["documents"])
+async def deal(studio: InStudio, deal: Deal) -> dict[str, Any]:
+    """Return robots at random places that reach each other; the same seed gives the same."""
+    least, most = deal.work
+    if not 0 <= least <= most:
+        message = f"{least} to {most} is no range of work (give the least first, from 0 on)"
+        raise InputError.at("work", message)
+    arguments = deal.model_dump() | {"folder": studio.place(deal.folder)}
+    result, _ = await studio.ask("deal", **arguments)
+    return dict(result)
 
 
 @router.post("/convert", tags=["documents"], response_class=Response)
