@@ -13,7 +13,7 @@ from rightofway.model import Closure, Plan, PlannerRun, Scenario, Track
 
 
 def corridor(occupancy: str = "one", headway: int = 0) -> Scenario:
-    """Return a robot that goes from A to D at speed 1; heavy robots may not drive by E."""
+    """Return a robot from A to D at speed 1; heavy ones are barred from the way by E."""
     fleet = FleetBuilder(occupancy=occupancy, headway=headway, ends="none")
     for name, x, y in [("A", 0, 0), ("B", 2, 0), ("C", 4, 0), ("D", 6, 0), ("E", 2, 2)]:
         fleet.add_vertex(name, x, y)

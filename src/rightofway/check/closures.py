@@ -6,8 +6,10 @@ how near it is, in fractions.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from math import ceil, floor
 
 import numpy as np
@@ -94,26 +96,28 @@ class _Shut:
 
     def __init__(self, closure: Closure, roadmap: Roadmap) -> None:
         self.closure, self.roadmap = closure, roadmap
-        self.way = self._way()
+        self.ends = frozenset(closure.edge or ())
+        self.ways = list(self._ways())
 
-    def _way(self) -> list[int]:
-        """Return the vertices along the closed lane, or the closed vertex."""
+    def _ways(self) -> Iterator[list[int]]:
+        """Yield the vertices along each drawing of the closed lane, or the closed vertex."""
         if self.closure.edge is None:
             assert self.closure.at is not None, "the scenario has refused this"
-            return [self.closure.at]
+            yield [self.closure.at]
+            return
         one, other = self.closure.edge
         if self._is_edge(one, other):
-            return [one, other]
+            yield [one, other]
         labels = self.roadmap.labels or ()
-        for begin, end in ((one, other), (other, one)):
+        for begin, end in ((one, other), (other, one)) if labels else ():
             pieces: dict[int, int] = {}
             prefix = f"{labels[begin]}-{labels[end]}/"
             for vertex, label in enumerate(labels):
                 if label.startswith(prefix) and label[len(prefix) :].isdecimal():
                     pieces[int(label[len(prefix) :])] = vertex
-            if pieces:
-                return [begin, *(pieces[k] for k in sorted(pieces)), end]
-        raise AssertionError("the scenario has refused this")
+            way = [begin, *(pieces[k] for k in sorted(pieces)), end]
+            if pieces and all(self._is_edge(*ends) for ends in pairwise(way)):
+                yield way
 
     def _is_edge(self, one: int, other: int) -> bool:
         indptr, heads = self.roadmap.indptr, self.roadmap.heads
@@ -125,12 +129,11 @@ class _Shut:
     @cached_property
     def _inside(self) -> set[Place]:
         """The closure's own places: the vertex; or the pieces of the lane, and what joins them."""
-        if len(self.way) == 1:
-            return {(self.way[0], self.way[0])}
-        joints = {(vertex, vertex) for vertex in self.way[1:-1]}
-        return joints | {
-            (min(ends), max(ends)) for ends in zip(self.way[:-1], self.way[1:], strict=True)
-        }
+        if self.closure.at is not None:
+            return {(self.closure.at, self.closure.at)}
+        joints = {(vertex, vertex) for way in self.ways for vertex in way[1:-1]}
+        lanes = (ends for way in self.ways for ends in pairwise(way))
+        return joints | {(min(ends), max(ends)) for ends in lanes}
 
     def holds(self, place: Place, reach: Fraction) -> bool:
         """Return whether a robot of a radius, clearance included, may not book a place."""
@@ -138,11 +141,13 @@ class _Shut:
             return True
         if self.closure.radius is None:
             return False
-        if len(self.way) > 1 and not {self.way[0], self.way[-1]}.isdisjoint(place):
+        if not self.ends.isdisjoint(place):
             return False
         limit = (self.closure.radius + reach) ** 2
         one, other = (self._at(vertex) for vertex in place)
-        lines = list(zip(self.way[:-1], self.way[1:], strict=True)) or [(self.way[0], self.way[0])]
+        lines = (
+            ends for way in self.ways for ends in (pairwise(way) if len(way) > 1 else [way * 2])
+        )
         return any(
             _square_between(one, other, self._at(begin), self._at(end)) < limit
             for begin, end in lines
