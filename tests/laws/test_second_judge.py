@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from functools import cache
+from typing import Any
 
 import pytest
 
@@ -27,7 +28,7 @@ BETWEEN_ROBOTS = {
 }
 """What the second judge says instead; every other fault is one of a trip."""
 
-PLANNERS: tuple[tuple[str, dict[str, int]], ...] = (
+PLANNERS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("prioritized", {}),
     ("two-level", {}),
     ("lacam", {}),
