@@ -3,8 +3,8 @@
 ``python -m benchmarks.sizes FOLDER [SCENARIO]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
 writes it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread,
-medians of runs that take turns; only the time of the first plan and the ratio are of the default planner,
-as users see them.
+medians of runs that take turns; only the time of the first plan and the ratio are of the default
+planner, as users see them.
 """
 
 from __future__ import annotations
