@@ -178,8 +178,13 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
 
 
 def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track]:
-    """Return the tracks with the headway of planning, where that is more than the scenario's."""
-    headway = planning_headway(task.scenario)
-    if headway == task.scenario.problem.headway:
+    """Return the tracks with the headway of planning, where that is more than the scenario's.
+
+    First plans of zones that do not list all their vertices have that headway already; retimed by
+    the visits that pass the zones, they would be too early for the search.
+    """
+    headway, resources = planning_headway(task.scenario), task.scenario.problem.resources
+    is_passed = resources is not None and not resources.is_exact
+    if headway == task.scenario.problem.headway or (is_passed and task.start is None):
         return tracks
     return graph_of(task.scenario, tracks, headway=headway).tracks()
