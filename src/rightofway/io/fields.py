@@ -161,6 +161,7 @@ POSITION = _list_of(2, "[x, y]", coordinate)
 
 Position = Annotated[_Pair, POSITION]
 Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
+RobotSize = Annotated[_Pair, _list_of(2, "[length, width]", exact)]
 Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 
 

@@ -155,7 +155,9 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault("rules.occupancy", message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
-            message = f"{rules.clearance} is for robots with a size (give a robot a radius)"
+            message = (
+                f"{decimal(rules.clearance)} is for robots with a size (give a robot a radius)"
+            )
             yield InputFault("rules.clearance", message)
         return
     if rules.occupancy == "one":

@@ -310,9 +310,10 @@ def _closed_in(
     closed = [_closed_text(scenario, closure) for closure in left[:MAX_REASONS]]
     itinerary = scenario.problem.itineraries[robot]
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
+    which = "it" if len(left) == 1 else "one of them"
     return Blockage(
         f"{name} cannot make its trip, even alone: {listed(closed)}"
-        " (open one of them earlier, or give the robot other places)",
+        f" (open {which} earlier, or give the robot other places)",
         (name,),
         tuple(map(scenario.roadmap.name, places)),
     )

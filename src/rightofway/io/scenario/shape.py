@@ -22,6 +22,7 @@ from rightofway.io.fields import (
     Position,
     Positive,
     Rectangle,
+    RobotSize,
     Size,
     Turning,
     Words,
@@ -306,7 +307,9 @@ class RobotDocument(TripDocument):
     stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
     speed: Positive = optional("length units per time unit, above 0; 1 by default")
     radius: NotNegative = optional("radius of the circle that it needs [length unit]")
-    size: Size = optional("[length, width] instead of a radius: the circle around it [length unit]")
+    size: RobotSize = optional(
+        "[length, width] instead of a radius: the circle around it [length unit]"
+    )
     type: Name = optional("the name of its type, for edges and vertices that are barred for types")
     turn_rate: Positive = optional(TURN_RATE)
 
