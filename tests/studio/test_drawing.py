@@ -111,7 +111,7 @@ def test_an_adaptive_floor_is_drawn_on_in_steps_of_its_smallest_cell(studio: Stu
 def test_walls_and_robots_are_made_with_the_keyboard_alone(floor: StudioPage) -> None:
     page = floor.page
     page.locator("canvas#map").focus()
-    for key in ("ArrowDown", "Enter", "ArrowRight", "ArrowRight", "Enter"):
+    for key in ("ArrowDown", "ArrowDown", "Enter", "ArrowRight", "ArrowRight", "Enter"):
         page.keyboard.press(key)
     floor.settle()
     assert obstacles(floor) == [[0, 0.5, 1.5, 0.5]]
