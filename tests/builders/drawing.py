@@ -16,7 +16,8 @@ WHERE = """([x, y]) => {
   const { left, top } = studio.stage.holder.getBoundingClientRect();
   const { frame, unit } = roadmap;
   const [right, down] = [(x - frame.x) / unit, (frame.yUp ? frame.y - y : y - frame.y) / unit];
-  return [left + viewport.left + right * viewport.scale, top + viewport.top + down * viewport.scale];
+  const { scale } = viewport;
+  return [left + viewport.left + right * scale, top + viewport.top + down * scale];
 }"""
 
 
