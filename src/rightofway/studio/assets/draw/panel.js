@@ -19,7 +19,9 @@ export function MapPanel({ studio }) {
       ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} />`}
       <${Faults} studio=${studio} />
       ${[...notes, ...store.survey.notes].length > 0 && html`<details class="notes"><summary>${words.notes}</summary><ul>${[...new Set([...notes, ...store.survey.notes])].map((note) => html`<li>${note}</li>`)}</ul></details>`}
-    </div>`;
+    </div>
+    ${Array.isArray(store.document.robots) && !store.document.robots.length && html`<div class="next">
+      <button type="button" class="framed strong" onClick=${() => studio.showTab("robots")}>${words.nextRobots}</button></div>`}`;
 }
 
 /** Faults, then findings, the worst first; pressing one lights its places. */
