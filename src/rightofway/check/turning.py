@@ -40,7 +40,10 @@ def turns_of(
     """
     rules, clock = plan.scenario.rules, plan.scenario.problem.clock
     rates = [rules.turn_rate if r.turn_rate is None else r.turn_rate for r in plan.scenario.robots]
-    angle, ticks = np.zeros(len(vertex), np.int64), np.zeros(len(vertex), object)
+    angle = np.zeros(len(vertex), np.int64)
+    if not any(rates):
+        return angle, angle
+    ticks = np.zeros(len(vertex), object)
     turns = np.array([rate is not None for rate in rates])[robot]
     is_corner = turns[1:] & (edge[:-1] >= 0) & (edge[1:] >= 0) & (robot[:-1] == robot[1:])
     visit = np.flatnonzero(is_corner) + 1
