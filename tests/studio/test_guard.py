@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import socket
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -223,3 +225,20 @@ def test_elsewhere_each_request_needs_the_token(folder: Path) -> None:
         assert (signed.status_code, signed.headers["location"]) == (303, "/")
         assert {"HttpOnly", "SameSite=Strict"} <= set(signed.headers["set-cookie"].split("; "))
         assert client.get("/files").status_code == 200  # by the cookie
+
+
+@pytest.mark.parametrize("name", ["numpy.py", "door", "run.sh", "page.html", "lib.so"])
+def test_only_files_that_can_be_opened_are_put_into_the_folder(
+    client: httpx.Client, name: str
+) -> None:
+    kind = {"content-type": "application/octet-stream"}
+    assert client.put(f"/files/{name}", content=b"x", headers=kind).status_code == 400
+
+
+def test_many_large_bodies_at_once_wait_for_each_other(client: httpx.Client) -> None:
+    body = json.dumps({"document": {**DOOR, "note": "x" * 2_000_000}}).encode()
+    kind = {"content-type": "application/json"}
+    with ThreadPoolExecutor(20) as pool:
+        send = partial(client.post, "/validate", content=body, headers=kind)
+        answers = list(pool.map(lambda _: send().status_code, range(20)))
+    assert set(answers) == {200}
