@@ -189,6 +189,10 @@ class CyclicSimulator:
         (1), or (2) the one that would lose more by waiting.
     loss : int64[R]
         The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
+    vertex_row, edge_row : int32[N] or None
+        Where robots have sizes: the rows of each place's vertex and of the edge driven out of it.
+    first, excluded : int32[M + 1], int32[K], or None
+        A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``.
 
     Raises
     ------
@@ -200,7 +204,7 @@ class CyclicSimulator:
     Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.
     """
 
-    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     def advance(self, time_limit: float | None = None) -> int:
         """

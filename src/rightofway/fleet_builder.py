@@ -138,6 +138,7 @@ class FleetBuilder:
         self._roadmap: Roadmap | None = None
         self._lanes: Callable[..., LevelRoadmap] | None = None
         self._stations: dict[str, VertexId] = {}
+        self._is_drawn = True
         self._rules = _rules(rules)
         self._units = _units(units)
         self._y_up = y == "up"
@@ -283,7 +284,7 @@ class FleetBuilder:
         self,
         name: str,
         *,
-        home: Any,
+        home: Any = None,
         target: Any = None,
         work: Number = 0,
         stops: Iterable[Any] | None = None,
@@ -304,7 +305,8 @@ class FleetBuilder:
             A name of its own.
         home
             The place that it starts from: ``"N8"`` or (row, column) on a grid, the name of a
-            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit].
+            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit]. Without one it
+            gets a parking or charging place of the layout, near to its first stop.
         target, work
             The place to work at, and how long [time unit]; short for one stop.
         stops
@@ -337,10 +339,12 @@ class FleetBuilder:
             trip = [("target", target, work)]
         else:
             trip = [(f"stops[{k}]", *_place_and_work(stop)) for k, stop in enumerate(stops)]
+        from rightofway.io.scenario.homes import HOMELESS
+
         try:
             robot = Robot(
                 name=name,
-                home=self._vertex("home", home),
+                home=HOMELESS if home is None else self._vertex("home", home),
                 stops=tuple(
                     Stop(at=self._vertex(place, at), work=time)  # type: ignore[arg-type]
                     for place, at, time in trip
@@ -413,16 +417,24 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            With every fault, as `Scenario`; or where there is no map.
+            With every fault, as `Scenario`; where there is no map; or for a turn rate on a graph
+            without positions.
         """
+        from rightofway.io.scenario.homes import housed
+
+        rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
+        if not self._is_drawn and any(rates):
+            remedy = "give each node a pos, or x and y; or leave it out"
+            raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.roadmap(), self._rules
         if self._lanes and any(robot.radius for robot in self._robots):
             cut = self._lanes(cuts_curves=True)
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
+        robots, _ = housed(self._robots, roadmap, rules)
         return Scenario(
             roadmap=roadmap,
-            robots=tuple(self._robots),
+            robots=tuple(robots),
             rules=rules,
             units=self._units,
             closures=tuple(self._closures),
@@ -524,7 +536,7 @@ class FleetBuilder:
             raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
         nodes = dict(graph.nodes(data=True))
         at = {node: _position(node, data) for node, data in nodes.items()}
-        is_drawn = all(at.values())
+        self._is_drawn = is_drawn = all(at.values())
         for index, (node, position) in enumerate(at.items()):
             self.add_vertex(str(node), *(position if position and is_drawn else (index, 0)))
         for tail, head, data in graph.edges(data=True):

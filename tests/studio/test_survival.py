@@ -70,7 +70,7 @@ def test_a_file_is_whole_whenever_the_server_is_killed(tmp_path: Path) -> None:
     with command(tmp_path) as studio:
 
         def save(document: Any) -> None:
-            studio.client.put("/documents/door.yaml", json={"document": document})
+            studio.client.put("/documents/door.yaml", json={"document": document, "revision": None})
 
         def save_for_ever() -> None:
             with suppress(httpx.TransportError, RuntimeError):

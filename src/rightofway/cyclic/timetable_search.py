@@ -248,8 +248,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
         alone = Candidate.as_it_is(problem.timetable([RobotCycle(lap, 1, enter)], lap.duration))
         return _started(problem, alone, "repeats", problem.value(alone))
-    has_sizes = problem.context.scenario.problem.resources is not None  # the simulator has points
-    if len(problem) > params.large and not has_sizes and (closed := _closed_run(problem)):
+    if len(problem) > params.large and (closed := _closed_run(problem)):
         return closed
     problem.deadline.check("closing a stretch of a simulation")
     baseline = _simulated(problem, "first-come", params.baseline_share)

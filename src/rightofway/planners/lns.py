@@ -102,6 +102,7 @@ def _together(task: Task) -> Draft | None:
         draft = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
     except GaveUp:
         return None
+    task.better(lambda: draft.tracks)
     return replace(draft, status="all together")
 
 

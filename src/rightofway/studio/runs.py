@@ -140,6 +140,7 @@ class Runs:
         self._quick: asyncio.Queue[int] = asyncio.Queue()
         self._listeners: dict[int, set[asyncio.Queue[Event | None]]] = {}
         self._consumers: list[asyncio.Task[None]] = []
+        self._saving = asyncio.Lock()
 
     async def start(self) -> None:
         """Take up what was left when the server went down, and begin to work."""
@@ -212,7 +213,7 @@ class Runs:
 
     async def add_done(self, run: Run, plan: bytes) -> Run:
         """Keep a plan that was made elsewhere as a run that is done."""
-        run.state, run.revision = "done", 1
+        run.state = "done"
         run.started = run.ended = run.created
         await self._add(run, {"plan": plan})
         return run
@@ -327,7 +328,6 @@ class Runs:
             run.has_payload = True
         if left:
             kept["plan"] = left.pop(0)
-            run.revision += 1
         run.figures = result.get("figures", run.figures)
         run.status = result.get("status") or run.status
         if run.kind in {"plan", "improve"} and run.figures and run.started:
@@ -350,13 +350,16 @@ class Runs:
             plan, work.plan = work.plan, None
             if plan is None:
                 return  # a later one is saved already
-            run.revision += 1
             await self._save(run, {"plan": plan})
         self._tell(run, "plan", {"revision": run.revision, "figures": run.figures})
 
     async def _save(self, run: Run, blobs: Mapping[str, bytes] | None = None) -> None:
-        listed = list((blobs or {}).items())
-        await asyncio.to_thread(self._store.put_run, run.number, asdict(run), listed)
+        """Keep a run, one after the other; with a plan it has a new revision from then on."""
+        async with self._saving:
+            revision = run.revision + ("plan" in (blobs or {}))
+            data, listed = {**asdict(run), "revision": revision}, list((blobs or {}).items())
+            await asyncio.to_thread(self._store.put_run, run.number, data, listed)
+            run.revision = revision
 
     def _tell(self, run: Run, event: str, data: dict[str, Any]) -> None:
         for listener in self._listeners.get(run.number, ()):

@@ -14,6 +14,7 @@ import pytest
 
 from rightofway import FleetBuilder, check, solve
 from rightofway.io import read_layout
+from rightofway.io.layouts import layout_text
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.metrics import Site, inspect
@@ -193,3 +194,18 @@ def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_
     near = [each.fact for each in inspect(site).findings if each.kind == "too near"]
     assert any("is too near to the lane C to D" in fact for fact in near)
     assert not any(fact.count("A-B/") > 1 for fact in near)
+
+
+def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
+    found = read_layout(hall(tmp_path, 4))
+    assert isinstance(found, Layout)
+    text, losses = layout_text(found, "lif")
+    (tmp_path / "again.lif.json").write_text(text, encoding="utf-8")
+    again = read_layout(tmp_path / "again.lif.json")
+    assert isinstance(again, Layout)
+    assert losses == ()
+    assert [edge.shape for edge in again.levels[0].edges] == [
+        edge.shape for edge in found.levels[0].edges
+    ]
+    _, losses = layout_text(found, "graphml")
+    assert "curves that robots drive along (2)" in losses[0]

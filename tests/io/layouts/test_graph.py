@@ -98,6 +98,15 @@ def test_a_fleet_is_built_on_a_file_with_stations_and_other_units() -> None:
     assert max(at.lengths) >= 1000
 
 
+def test_a_fleet_gets_homes_from_the_parking_places_of_a_layout() -> None:
+    fleet = FleetBuilder(layout=layout_of_graph(graph())).add_robot("R1", target=7)
+    assert fleet.roadmap().name(fleet.scenario().robots[0].home) == "dock"
+    with pytest.raises(InputError, match="2 robots need a home, and the map has 1 parking"):
+        fleet.add_robot("R2", target=7).scenario()
+    with pytest.raises(InputError, match="the map has no parking or charging place"):
+        FleetBuilder(grid=[".."]).add_robot("R1", target="N0").scenario()
+
+
 def test_a_layout_of_pixels_is_refused_with_the_remedy() -> None:
     with pytest.raises(InputError, match="is a map in pixels or cells"):
         FleetBuilder(layout=HALL.with_name("room.yaml"))

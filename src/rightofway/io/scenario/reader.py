@@ -20,12 +20,12 @@ from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
-from rightofway.io.scenario.homes import Fixed, Wanted, dealt_homes, note_of_homes
-from rightofway.io.scenario.maps import LoadedMap, file_beside, map_of
+from rightofway.io.scenario.homes import HOMELESS, housed
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.maps import file_beside, map_of
 from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
 from rightofway.model.closures import Closure, closure_faults
 from rightofway.model.places import kinds_of_places
-from rightofway.model.turning import longest_turn
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
@@ -40,9 +40,6 @@ MAX_TICKS = 2**40
 DEFAULT_SPEED = Fraction(1)
 
 HOME = f"the place it starts from: {kinds_of_places(None)}"
-
-HOMELESS = VertexId(-1)
-"""The home of a robot to which none is dealt out yet."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -284,27 +281,13 @@ def _listed(
 
 def _housed(
     placed: Sequence[_Placed], on: LoadedMap, rules: Rules, faults: Faults
-) -> tuple[list[_Placed], list[str]]:
-    """Return the robots, those without a home at parking places, and notes of who starts where."""
-    homeless = [it.robot for it in placed if it.robot.home == HOMELESS]
-    wanted = [Wanted(name=it.name, first_stop=it.stops[0].at, radius=it.radius) for it in homeless]
-    fixed = Fixed(
-        homes=tuple((it.robot.home, it.robot.radius) for it in placed if it.robot.home != HOMELESS),
-        stops=frozenset(stop.at for it in placed for stop in it.robot.stops),
-        clearance=rules.clearance,
-    )
-    drawing = on.roadmap.drawing
-    parking = [VertexId(at) for at in sorted({*drawing.parking, *drawing.charging})]
-    homes = faults.attempt("", dealt_homes, wanted, on.roadmap, parking, fixed)
-    if homes is None:
-        return [], []
-    names = [on.roadmap.name(home) for home in homes]
-    left = iter(homes)
-    housed = [
-        replace(it, robot=replace(it.robot, home=next(left))) if it.robot.home == HOMELESS else it
-        for it in placed
-    ]
-    return housed, list(note_of_homes(wanted, names, len(parking)))
+) -> tuple[Sequence[_Placed], Sequence[str]]:
+    """Return the robots, those without a home at parking places, and a note of who starts where."""
+    found = faults.attempt("", housed, [it.robot for it in placed], on.roadmap, rules)
+    if found is None:
+        return (), ()
+    robots, notes = found
+    return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)], notes
 
 
 def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
@@ -405,7 +388,6 @@ def _check_ticks(scenario: Scenario) -> None:
         problem.headway,
         *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
         *(stage.work + stage.turn for it in problem.itineraries for stage in it.stages),
-        *(longest_turn(itinerary.turning) for itinerary in problem.itineraries),
     )
     if longest > MAX_TICKS:
         ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"

@@ -191,13 +191,17 @@ async def run_page(
 
 
 async def _played(studio: Studio, task: str, run: Run, other: int | None) -> bytes:
-    plans = [await studio.runs.blob(run.number, "plan")]
-    titles = {"title": title_of(run)}
-    if other is not None:
-        plans.append(await studio.runs.blob(other, "plan"))
-        titles["other"] = title_of(studio.runs.get(other))
-    _, blobs = await studio.ask(task, *plans, **titles)
-    return blobs[0]
+    """Return the payload or the page of the plan that a run has now, perhaps beside another one."""
+    shown = [run] if other is None else [run, studio.runs.get(other)]
+    titles = dict(zip(("title", "other"), map(title_of, shown), strict=False))
+
+    async def make() -> bytes:
+        plans = [await studio.runs.blob(each.number, "plan") for each in shown]
+        _, blobs = await studio.ask(task, *plans, **titles)
+        return blobs[0]
+
+    key = (task, *((each.number, each.revision, title_of(each)) for each in shown))
+    return await studio.played.get(key, make)
 
 
 def title_of(run: Run) -> str:

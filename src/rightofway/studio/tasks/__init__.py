@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rightofway.studio.tasks import asking, documents, planning, views
+from rightofway.studio.tasks import asking, dealing, documents, editing, planning, views
 
 Task = Callable[..., tuple[Any, ...]]
 
@@ -18,7 +18,10 @@ TASKS: dict[str, Task] = {
     "validate": documents.validated,
     "inspect": documents.inspected,
     "draw": documents.drawn,
+    "survey": editing.surveyed,
+    "inline": editing.inlined,
     "write": documents.written,
+    "deal": dealing.dealt,
     "plan": planning.plan,
     "improve": planning.improve,
     "laps": planning.laps,

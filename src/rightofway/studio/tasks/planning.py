@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from rightofway.check import check
 from rightofway.cli.laps_report import laps_data
 from rightofway.cli.terminal import measures
 from rightofway.errors import GaveUp
@@ -48,6 +49,8 @@ class Progress:
 
     def on_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
+        if not check(plan).ok:
+            return  # only plans that the judge has passed are shown
         self.best, seconds = plan, self._seconds()
         event = {
             "seconds": seconds,

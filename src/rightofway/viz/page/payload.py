@@ -103,7 +103,7 @@ def payload_of(
     if steady and actual is None:
         payload["end"] = _last_tick_of_all(trips, payload["steady"])
     if scenario.closures:
-        payload["closures"] = [_closure(closure, scenario) for closure in scenario.closures]
+        payload["closures"] = [closure_data(closure, scenario) for closure in scenario.closures]
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
@@ -156,7 +156,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
     }
 
 
-def _closure(closure: Closure, scenario: Scenario) -> dict[str, Any]:
+def closure_data(closure: Closure, scenario: Scenario) -> dict[str, Any]:
     """Return the vertices of a closure, along a lane in order, and when it is."""
     tick = scenario.problem.clock.tick
     places = [closure.at] if closure.edge is None else ways_along(scenario.roadmap, closure.edge)[0]

@@ -1,0 +1,112 @@
+"""What an editor shows of a document at each change, faults or not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import asdict
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError, InputFault
+from rightofway.io import dump_scenario
+from rightofway.io.faults import checked
+from rightofway.io.scenario.maps import map_of
+from rightofway.io.sites import sites_of
+from rightofway.metrics import Site, inspect, sentences
+from rightofway.model import Units
+from rightofway.studio.tasks.documents import loaded_of, plain
+from rightofway.studio.worker import Blobs, Emit, fault_data
+from rightofway.viz import site_data
+from rightofway.viz.page.document import compact_json
+from rightofway.viz.page.payload import closure_data
+from rightofway.viz.palette import robot_colours
+
+Result = tuple[Any, ...]
+
+ROBOT = re.compile(r"robots\[(\d+)\]")
+
+
+def surveyed(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
+    """Return faults, notes, the map with all robots that have no fault, and what will hurt on it.
+
+    A robot of the site has the `index` that it has in the document. The site is null where the map
+    itself has faults.
+    """
+    faults: Sequence[InputFault] = ()
+    kept, notes = list(_robots(document)), tuple[str, ...]()
+    site, closures = None, list[dict[str, Any]]()
+    try:
+        loaded = loaded_of(document, folder)
+    except InputError as error:
+        faults = error.faults
+        loaded, kept = _without(document, folder, faults)
+    if loaded is not None:
+        scenario, notes = loaded.scenario, loaded.notes
+        ((_, site),) = sites_of(scenario, notes).sites
+        closures = [closure_data(closure, scenario) for closure in scenario.closures]
+    else:
+        site = _map_alone(document, folder)
+    answer: dict[str, Any] = {
+        "ok": not faults,
+        "faults": [fault_data(each) for each in faults],
+        "notes": list(notes),
+        "site": None,
+        "findings": [],
+        "sentences": [],
+    }
+    if site is not None:
+        found = inspect(site)
+        drawn = site_data(site)
+        colours = robot_colours(1 + max(kept, default=0))
+        for robot, index in zip(drawn["robots"], kept, strict=False):
+            robot |= {"index": index, "colour": colours[index]}
+        answer |= {
+            "site": {**drawn, "closures": closures},
+            "findings": [{**asdict(each), "sentence": str(each)} for each in found.findings],
+            "sentences": list(sentences(site, found)),
+        }
+    return (None, compact_json(answer).encode())
+
+
+def _robots(document: dict[str, Any]) -> range:
+    robots = document.get("robots")
+    return range(len(robots) if isinstance(robots, list) else 0)
+
+
+def _without(document: dict[str, Any], folder: str, faults: Sequence[InputFault]) -> Any:
+    """Return the scenario without what has faults, and which robots it has; or None, and none."""
+    wrong = {int(found[1]) for each in faults if (found := ROBOT.match(each.place))}
+    kept = [index for index in _robots(document) if index not in wrong]
+    if not kept:
+        return None, []
+    rest = {**document, "robots": [document["robots"][index] for index in kept]}
+    for key in ("closures", "rules"):
+        if any(each.place.startswith(key) for each in faults):
+            rest.pop(key, None)
+    try:
+        return loaded_of(rest, folder), kept
+    except InputError:
+        return None, []
+
+
+def _map_alone(document: dict[str, Any], folder: str) -> Site | None:
+    """Return the map of a document whose robots cannot be read; None if it cannot either."""
+    from rightofway.io.scenario.shape import MapDocument, UnitsDocument
+
+    try:
+        given = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
+        drawn = checked(MapDocument, document.get("map"))
+        loaded = map_of(drawn, [Fraction(1)], Path(folder), Units(**given), lambda: Fraction(0))
+    except InputError:
+        return None
+    if loaded is None:
+        return None
+    units = loaded.units if loaded.units.length else Units(**given)
+    return Site(roadmap=loaded.roadmap, units=units)
+
+
+def inlined(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
+    """Return a document whose map and robots are in it, not in other files."""
+    return ({"document": plain(dump_scenario(loaded_of(document, folder).scenario))},)
