@@ -30,9 +30,9 @@ from rightofway.planners import planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
 
 MAP, ROBOTS, RADIUS = "warehouse-10-20-10-2-1", 1000, Fraction("0.45")
-RUNS, NEIGHBOURHOODS, EFFORT = 2, 1000, 10**12
+RUNS, NEIGHBOURHOODS, EFFORT = 3, 1000, 10**12
 
-LAYOUT_ROBOTS, SECONDS = (50, 100, 200), 10
+LAYOUT_ROBOTS, SECONDS = (100, 200), 10
 RADII = [Fraction(2, 10), Fraction(3, 10), Fraction(4, 10)]
 SPEEDS = [Fraction(1), Fraction(3, 2), Fraction(1, 2)]
 
