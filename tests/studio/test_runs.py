@@ -191,6 +191,15 @@ def test_a_plan_is_exported(client: httpx.Client, form: str) -> None:
     assert exported.content
 
 
+def test_a_run_is_repeated_with_the_same_result(client: httpx.Client) -> None:
+    run = planned(client, planner="two-level", options={"routes": "shortest"}, name="door")
+    again = over(client, client.post(f"/runs/{run['number']}/again").json()["number"])
+    assert again["number"] != run["number"]
+    assert (again["name"], again["request"]) == (run["name"], run["request"])
+    exports = [client.get(f"/runs/{each['number']}/export/json").text for each in (run, again)]
+    assert exports[0] == exports[1]
+
+
 def test_a_run_is_named_and_deleted(client: httpx.Client) -> None:
     number = planned(client, planner="two-level")["number"]
     assert client.patch(f"/runs/{number}", json={"name": "mine"}).json()["name"] == "mine"

@@ -211,6 +211,30 @@ class Runs:
         self._queue_of(run).put_nowait(run.number)
         return run
 
+    async def again(self, number: int) -> Run:
+        """Queue the same as a new run.
+
+        Raises
+        ------
+        Refused
+            For a plan that was opened, or made by a question.
+        Busy
+            As `submit`.
+        """
+        old = self.get(number)
+        if old.kind in {"opened", "flip"}:
+            raise Refused(f"run {number} was not planned here (improve it instead)", 409)
+        arguments = json.loads(await self.blob(number, "arguments"))
+        given = await asyncio.to_thread(self._store.blob, number, "given")
+        run = Run(
+            name=old.name,
+            kind=old.kind,
+            request=old.request,
+            source=old.source,
+            based_on=old.based_on,
+        )
+        return await self.submit(run, arguments, None if given is None else {"given": given})
+
     async def add_done(self, run: Run, plan: bytes) -> Run:
         """Keep a plan that was made elsewhere as a run that is done."""
         run.state = "done"

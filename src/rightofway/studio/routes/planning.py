@@ -139,6 +139,12 @@ async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     return Runs.data(await studio.runs.cancel(number))
 
 
+@router.post("/runs/{number}/again", tags=["runs"], status_code=202)
+async def repeat_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Queue the same as a new run, for example after the studio went down."""
+    return Runs.data(await studio.runs.again(number))
+
+
 @router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
 async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     """Send the events of a run as they come, as server-sent events.
