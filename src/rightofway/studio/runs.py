@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import json
 import time
 from collections.abc import AsyncGenerator, Mapping
@@ -12,6 +11,7 @@ from typing import Any, Literal
 
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.errors import Busy, Refused, StudioError
+from rightofway.studio.events import Event, Listeners
 from rightofway.studio.store import Store
 from rightofway.studio.worker import as_error
 
@@ -21,14 +21,8 @@ MAX_QUEUED = 100
 MAX_KEPT = 1000
 """Runs that are kept."""
 
-MAX_LISTENERS = 64
-"""Browsers that may watch at once."""
-
 MAX_POINTS = 500
 """Points of the curve of flowtime over time; of more, every second one is left out."""
-
-MAX_BEHIND = 1000
-"""Events that a slow listener may be behind before it is hung up on."""
 
 GRACE = 10.0
 """A worker that was asked to stop is killed after that time [s]."""
@@ -39,16 +33,11 @@ QUICK = 2.0
 SPARE = 30.0
 """A worker is killed that long after half as much again as its time limit [s]."""
 
-HEARTBEAT = 15.0
-"""So often a listener hears something [s]."""
-
 State = Literal["queued", "running", "done", "stopped", "cancelled", "failed", "interrupted"]
 Kind = Literal["plan", "improve", "laps", "simulate", "flip", "opened"]
 
 OVER = {"done", "stopped", "cancelled", "failed", "interrupted"}
 """States that are not left any more."""
-
-Event = tuple[str, dict[str, Any]]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -138,7 +127,7 @@ class Runs:
         self._work: dict[int, _Work] = {}
         self._queue: asyncio.Queue[int] = asyncio.Queue()
         self._quick: asyncio.Queue[int] = asyncio.Queue()
-        self._listeners: dict[int, set[asyncio.Queue[Event | None]]] = {}
+        self._listeners = Listeners()
         self._consumers: list[asyncio.Task[None]] = []
         self._saving = asyncio.Lock()
 
@@ -172,9 +161,7 @@ class Runs:
 
     def hang_up(self) -> None:
         """End all streams of events."""
-        for listeners in self._listeners.values():
-            for listener in listeners:
-                listener.put_nowait(None)
+        self._listeners.hang_up()
 
     def all(self) -> list[Run]:
         """Return all runs, the latest first."""
@@ -248,12 +235,14 @@ class Runs:
         run.number = await asyncio.to_thread(self._store.add_run, asdict(run))
         self._runs[run.number] = run
         await self._save(run, blobs)
+        self._listeners.tell(run.number, "run", self.data(run))
 
     async def rename(self, number: int, name: str) -> Run:
         """Give a run a name."""
         run = self.get(number)
         run.name = name
         await self._save(run)
+        self._listeners.tell(number, "run", self.data(run))
         return run
 
     async def stop(self, number: int) -> Run:
@@ -283,6 +272,7 @@ class Runs:
         await self.cancel(number)
         self._runs.pop(number, None)
         await asyncio.to_thread(self._store.delete_run, number)
+        self._listeners.tell(number, "deleted", {})
 
     @staticmethod
     def data(run: Run) -> dict[str, Any]:
@@ -300,7 +290,7 @@ class Runs:
         try:
             run.state, run.started = "running", time.time()
             await self._save(run)
-            self._tell(run, "run", self.data(run))
+            self._listeners.tell(run.number, "run", self.data(run))
             await self._finish(run, work, crew)
         except StudioError as failed:
             await asyncio.gather(*work.tasks)
@@ -317,9 +307,8 @@ class Runs:
         """Keep how a run ended, and hang up."""
         run.ended = time.time()
         await self._save(run)
-        self._tell(run, "run", self.data(run))
-        for listener in self._listeners.get(run.number, ()):
-            listener.put_nowait(None)
+        self._listeners.tell(run.number, "run", self.data(run))
+        self._listeners.end(run.number)
 
     async def _finish(self, run: Run, work: _Work, crew: Crew) -> None:
         """Have the task of a run done, and note how it ended."""
@@ -362,7 +351,8 @@ class Runs:
         """Note progress, and tell listeners."""
         if "flowtime" in event:
             run.add_point(event["seconds"], event["flowtime"])
-        self._tell(run, "progress", {key: event[key] for key in event if key != "figures"})
+        progress = {key: event[key] for key in event if key != "figures"}
+        self._listeners.tell(run.number, "progress", progress)
         if blobs:
             work.plan, run.figures = blobs[0], event["figures"]
             saving = asyncio.create_task(self._save_plan(run, work))
@@ -375,7 +365,8 @@ class Runs:
             if plan is None:
                 return  # a later one is saved already
             await self._save(run, {"plan": plan})
-        self._tell(run, "plan", {"revision": run.revision, "figures": run.figures})
+        found = {"revision": run.revision, "figures": run.figures}
+        self._listeners.tell(run.number, "plan", found)
 
     async def _save(self, run: Run, blobs: Mapping[str, bytes] | None = None) -> None:
         """Keep a run, one after the other; with a plan it has a new revision from then on."""
@@ -385,38 +376,20 @@ class Runs:
             await asyncio.to_thread(self._store.put_run, run.number, data, listed)
             run.revision = revision
 
-    def _tell(self, run: Run, event: str, data: dict[str, Any]) -> None:
-        for listener in self._listeners.get(run.number, ()):
-            if listener.qsize() < MAX_BEHIND:
-                listener.put_nowait((event, data))
-            else:
-                listener.put_nowait(None)
-
-    async def listen(self, number: int) -> AsyncGenerator[Event | None]:
-        """Yield the events of a run: first all that is known; None from time to time.
-
-        It ends when the run is over, or the server closes.
+    def listen(self, number: int) -> AsyncGenerator[Event | None]:
+        """Yield the events of a run until it is over: first all that is known.
 
         Raises
         ------
+        Refused
+            If there is none of that number.
         Busy
             If too many listen already.
         """
         run = self.get(number)
-        if sum(map(len, self._listeners.values())) >= MAX_LISTENERS:
-            raise Busy(f"{MAX_LISTENERS} browsers watch already (close some)")
-        listener: asyncio.Queue[Event | None] = asyncio.Queue()
-        self._listeners.setdefault(number, set()).add(listener)
-        try:
-            yield "run", self.data(run)
-            while run.state not in OVER or number in self._work:
-                event: Event | None = None
-                with contextlib.suppress(TimeoutError):
-                    event = await asyncio.wait_for(listener.get(), HEARTBEAT)
-                    if event is None:
-                        return
-                yield event
-        finally:
-            self._listeners[number].discard(listener)
-            if not self._listeners[number]:
-                del self._listeners[number]
+        is_over = run.state in OVER and number not in self._work
+        return self._listeners.listen(number, ("run", self.data(run)), is_over=is_over)
+
+    def listen_to_all(self) -> AsyncGenerator[Event | None]:
+        """Yield the events of all runs for ever: first the list of runs."""
+        return self._listeners.listen(None, ("runs", {"runs": list(map(self.data, self.all()))}))
