@@ -102,7 +102,7 @@ class _Work:
     job: Job | None = None
     wants: Literal["", "stopped", "cancelled"] = ""  # how the user has it end
     is_saving: asyncio.Lock = field(default_factory=asyncio.Lock)
-    plan: bytes | None = None  # that waits to be saved
+    plan: tuple[bytes, dict[str, Any]] | None = None  # that waits to be saved, with its figures
     tasks: set[asyncio.Task[None]] = field(default_factory=set)
 
 
@@ -129,6 +129,7 @@ class Runs:
         self._quick: asyncio.Queue[int] = asyncio.Queue()
         self._listeners = Listeners()
         self._consumers: list[asyncio.Task[None]] = []
+        self._adding = asyncio.Lock()
         self._saving = asyncio.Lock()
 
     async def start(self) -> None:
@@ -191,10 +192,11 @@ class Runs:
         Busy
             If too many runs wait, or are kept.
         """
-        waiting = sum(each.state == "queued" for each in self._runs.values())
-        if waiting >= MAX_QUEUED:
-            raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
-        await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
+        async with self._adding:
+            waiting = sum(each.state == "queued" for each in self._runs.values())
+            if waiting >= MAX_QUEUED:
+                raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
+            await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
         self._queue_of(run).put_nowait(run.number)
         return run
 
@@ -226,7 +228,8 @@ class Runs:
         """Keep a plan that was made elsewhere as a run that is done."""
         run.state = "done"
         run.started = run.ended = run.created
-        await self._add(run, {"plan": plan})
+        async with self._adding:
+            await self._add(run, {"plan": plan})
         return run
 
     async def _add(self, run: Run, blobs: Mapping[str, bytes]) -> None:
@@ -282,8 +285,14 @@ class Runs:
     async def _consume(self, queue: asyncio.Queue[int], crew: Crew) -> None:
         while True:
             run = self._runs.get(await queue.get())
-            if run is not None and run.state == "queued":
+            if run is None or run.state != "queued":
+                continue
+            try:
                 await self._execute(run, crew)
+            except Exception as error:  # noqa: BLE001 (not even its end can be kept: go on)
+                run.state, run.error = "failed", as_error(error)
+                self._listeners.tell(run.number, "run", self.data(run))
+                self._listeners.end(run.number)
 
     async def _execute(self, run: Run, crew: Crew) -> None:
         work = self._work[run.number] = _Work()
@@ -341,11 +350,11 @@ class Runs:
             run.has_payload = True
         if left:
             kept["plan"] = left.pop(0)
-        run.figures = result.get("figures", run.figures)
+        figures = result.get("figures")
         run.status = result.get("status") or run.status
-        if run.kind in {"plan", "improve"} and run.figures and run.started:
-            run.add_point(round(time.time() - run.started, 3), run.figures["flowtime"])
-        await self._save(run, kept)
+        if run.kind in {"plan", "improve"} and figures and run.started:
+            run.add_point(round(time.time() - run.started, 3), figures["flowtime"])
+        await self._save(run, kept, figures)
 
     def _note(self, run: Run, work: _Work, event: dict[str, Any], blobs: list[bytes]) -> None:
         """Note progress, and tell listeners."""
@@ -354,23 +363,33 @@ class Runs:
         progress = {key: event[key] for key in event if key != "figures"}
         self._listeners.tell(run.number, "progress", progress)
         if blobs:
-            work.plan, run.figures = blobs[0], event["figures"]
+            work.plan = blobs[0], event["figures"]
             saving = asyncio.create_task(self._save_plan(run, work))
             work.tasks.add(saving)
             saving.add_done_callback(work.tasks.discard)
 
     async def _save_plan(self, run: Run, work: _Work) -> None:
         async with work.is_saving:
-            plan, work.plan = work.plan, None
-            if plan is None:
+            found, work.plan = work.plan, None
+            if found is None:
                 return  # a later one is saved already
-            await self._save(run, {"plan": plan})
-        found = {"revision": run.revision, "figures": run.figures}
-        self._listeners.tell(run.number, "plan", found)
+            plan, figures = found
+            try:
+                await self._save(run, {"plan": plan}, figures)
+            except StudioError:
+                return  # a later one may find room; the last one says why there is none
+        made = {"revision": run.revision, "figures": figures}
+        self._listeners.tell(run.number, "plan", made)
 
-    async def _save(self, run: Run, blobs: Mapping[str, bytes] | None = None) -> None:
+    async def _save(
+        self,
+        run: Run,
+        blobs: Mapping[str, bytes] | None = None,
+        figures: dict[str, Any] | None = None,
+    ) -> None:
         """Keep a run, one after the other; with a plan it has a new revision from then on."""
         async with self._saving:
+            run.figures = figures or run.figures
             revision = run.revision + ("plan" in (blobs or {}))
             data, listed = {**asdict(run), "revision": revision}, list((blobs or {}).items())
             await asyncio.to_thread(self._store.put_run, run.number, data, listed)
