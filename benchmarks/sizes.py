@@ -1,10 +1,10 @@
 """What robots with a size cost, against points that book ahead, on the same trips.
 
 ``python -m benchmarks.sizes FOLDER [SCENARIO]`` wants a folder of the MovingAI benchmark, with
-``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert`` writes
-it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread, medians
-of runs that take turns; only the time of the first plan and the ratio are of the default planner,
-as users see them.
+``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
+writes it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread,
+medians of runs that take turns; only the time of the first plan and the ratio are of the default
+planner, as users see them.
 """
 
 from __future__ import annotations

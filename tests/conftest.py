@@ -36,6 +36,7 @@ SLOW = (
     "studio/test_page.py",  # a browser
     "studio/test_runs.py",  # plans
     "studio/test_survival.py",  # starts the command as a process, and kills it
+    "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )

@@ -27,6 +27,12 @@ def begun(client: httpx.Client, **request: Any) -> int:
     return number
 
 
+def flowtime(client: httpx.Client, run: dict[str, Any]) -> int:
+    """Return the sum of completion times of the execution that a run plays."""
+    floor = client.get(f"/runs/{run['number']}/payload").json()["floor"]
+    return sum(robot["completion"] for robot in floor["robots"])
+
+
 def test_a_plan_is_made_kept_and_played(client: httpx.Client) -> None:
     run = planned(client, planner="two-level", name="door")
     assert (run["state"], run["name"], run["kind"]) == ("done", "door", "plan")
@@ -123,6 +129,12 @@ def test_plans_are_improved_and_executed(client: httpx.Client) -> None:
     assert done["state"] == "done"
     assert client.get(f"/runs/{done['number']}/report").json()["runs"] == 20
     assert "floor" in client.get(f"/runs/{done['number']}/payload").json()
+    body = {"kind": "simulate", "based_on": number, "runs": 20, "run": "worst"}
+    worst = over(client, client.post("/runs", json=body).json()["number"])
+    played = client.get(f"/runs/{worst['number']}/report").json()["played"]
+    typical = client.get(f"/runs/{done['number']}/report").json()["played"]
+    assert 0 <= played < 20
+    assert flowtime(client, worst) > flowtime(client, done) or played == typical
 
 
 def test_laps_have_a_period(client: httpx.Client) -> None:

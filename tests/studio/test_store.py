@@ -90,3 +90,15 @@ def test_a_file_in_a_folder_that_is_not_there_is_refused_in_the_words_of_the_lib
 ) -> None:
     with pytest.raises(InputError, match="there is no directory"):
         Workspace(tmp_path).write("a/b.yaml", b"")
+
+
+def test_a_list_of_a_large_folder_has_what_is_near_and_says_that_it_is_cut(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rightofway.studio.workspace.MAX_FOLDERS", 3)
+    for name in ("a/deep/far.yaml", "b/near.yaml", "top.yaml"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    entries, is_whole = Workspace(tmp_path).files()
+    assert ([entry.path for entry in entries], is_whole) == (["b/near.yaml", "top.yaml"], False)

@@ -16,7 +16,7 @@ from rightofway.studio.errors import Busy, Refused
 from rightofway.studio.routes.models import Deal, Draft, FilePath, InStudio, Placed, Save, ToText
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
-from rightofway.studio.workspace import revision_of
+from rightofway.studio.workspace import KINDS, revision_of
 
 MAX_DRAFTS = 200
 """Drafts that are kept."""
@@ -47,7 +47,8 @@ def folder_of(path: str) -> str:
 @router.get("/files", tags=["files"])
 def list_files(studio: InStudio) -> dict[str, Any]:
     """List the files that may be opened."""
-    return {"files": [asdict(entry) for entry in studio.workspace.files()]}
+    entries, is_whole = studio.workspace.files()
+    return {"files": [asdict(entry) for entry in entries], "is_whole": is_whole}
 
 
 @router.get("/files/{path:path}", tags=["files"], response_class=Response)
@@ -67,6 +68,10 @@ def upload(
     replace: Annotated[bool, Query(description="whether a file of that name is replaced")] = False,
 ) -> dict[str, Any]:
     """Put a file into the folder, as drag and drop does; the body is its content."""
+    if PurePosixPath(path).suffix.lower() not in KINDS:
+        raise Refused(
+            f"{path[:100]!r} is no file to open (give one that ends in {', '.join(KINDS)})"
+        )
     revision = studio.workspace.write(path, content, revision=None if replace else "")
     return {"path": path, "revision": revision}
 

@@ -265,7 +265,7 @@ def command_of(run: Run) -> str:
         for name, value in request["options"].items():
             words += ["--option", f"{name}={value}"]
     for key in ("rule", "routes", "runs", "run", "seed"):
-        if request.get(key) is not None:
+        if request.get(key) not in {None, "typical", "worst"}:
             words += [f"--{key}", str(request[key])]
     for delay in request.get("delays", ()):
         words += ["--delays", delay]
