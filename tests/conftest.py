@@ -38,6 +38,7 @@ SLOW = (
     "studio/test_runs.py",  # plans
     "studio/test_stories.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
+    "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )

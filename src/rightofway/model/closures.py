@@ -106,13 +106,15 @@ def closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
     for key, place in unknown:
         last = roadmap.n_vertices - 1
         yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
-    if closure.edge is not None and not unknown and not pieces_of(roadmap, closure.edge):
+    if closure.edge is not None and not unknown and not ways_along(roadmap, closure.edge):
         one, other = map(roadmap.name, closure.edge)
         yield InputFault("edge", f"no edge joins {one} and {other} (name the ends of an edge)")
 
 
-def pieces_of(roadmap: Roadmap, lane: Lane) -> tuple[VertexId, ...]:
-    """Return the vertices along a lane, both ends included; empty if there is no such lane.
+def ways_along(roadmap: Roadmap, lane: Lane) -> list[tuple[VertexId, ...]]:
+    """Return the vertices along a lane, both ends included; nothing if there is no such lane.
+
+    One way for each drawing of the lane: its directions may be driven along different curves.
 
     Parameters
     ----------
@@ -121,26 +123,22 @@ def pieces_of(roadmap: Roadmap, lane: Lane) -> tuple[VertexId, ...]:
     lane
         Both ends of an edge, or of a lane that `split_lanes` has split.
     """
-    tail, head = lane
-    if any(roadmap.edge(*ends) is not None for ends in (lane, lane[::-1])):
-        return lane
-    if roadmap.labels is None:
-        return ()
-    for begin, end in ((tail, head), (head, tail)):
+
+    def joined(one: int, other: int) -> bool:
+        return roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
+
+    ways: list[tuple[VertexId, ...]] = [lane] if joined(*lane) else []
+    for begin, end in (lane, lane[::-1]) if roadmap.labels is not None else ():
         inside: list[VertexId] = []
         try:
             while True:
                 name = f"{roadmap.name(begin)}-{roadmap.name(end)}/{len(inside) + 1}"
                 inside.append(roadmap.vertex(name))
         except KeyError:
-            pass
-        way = (begin, *inside, end)
-        if inside and all(
-            roadmap.edge(*ends) is not None or roadmap.edge(*ends[::-1]) is not None
-            for ends in pairwise(way)
-        ):
-            return way
-    return ()
+            way = (begin, *inside, end)
+        if inside and all(joined(*ends) for ends in pairwise(way)):
+            ways.append(way)
+    return ways
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -254,19 +252,20 @@ def _closed_resources(roadmap: Roadmap, closure: Closure, reach: Fraction | None
 
     ``reach`` is the distance below which what is near is closed, too; None for nothing.
     """
-    way = (closure.at,) if closure.edge is None else pieces_of(roadmap, closure.edge)
-    way = tuple(place for place in way if place is not None)
+    ways = [] if closure.edge is None else ways_along(roadmap, closure.edge)
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     edges = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
-    own = {ends for pair in pairwise(way) for ends in (pair, pair[::-1])}
+    own = {ends for way in ways for pair in pairwise(way) for ends in (pair, pair[::-1])}
     closed = {roadmap.n_vertices + edge for edge, ends in enumerate(edges) if ends in own}
-    closed.update(way if closure.edge is None else way[1:-1])
+    closed.update(place for way in ways for place in way[1:-1])
+    if closure.at is not None:
+        closed.add(closure.at)
     if not reach:
         return closed
-    kept = set() if closure.edge is None else {way[0], way[-1]}
-    at = exact_positions(roadmap)
-    shape = [at[place] for place in way]
-    segments = list(pairwise(shape)) or [(shape[0], shape[0])]
+    kept, at = set(closure.edge or ()), exact_positions(roadmap)
+    segments = [(at[one], at[other]) for way in ways for one, other in pairwise(way)]
+    if closure.at is not None:
+        segments.append((at[closure.at], at[closure.at]))
     drawn = _drawn(roadmap)
     for place in _boxed(drawn, drawn, segments, reach):
         if place not in kept and _nearer((at[place], at[place]), segments, reach):

@@ -47,6 +47,9 @@ BETWEEN_REPORTS = 0.5
 RETIMING = 0.9e-6
 """The time that the last step takes for each visit of the plan, `FleetSearch.retime` [s]."""
 
+RETIMING_AMONG_CLOSURES = 15e-6
+"""The same with closures, where a precedence graph does it [s]."""
+
 UNLIMITED = 2**62
 
 
@@ -102,6 +105,7 @@ def _together(task: Task) -> Draft | None:
         draft = plan_fleet(replace(task, deadline=task.deadline.sooner(share)))
     except GaveUp:
         return None
+    task.better(lambda: draft.tracks)
     return replace(draft, status="all together")
 
 
@@ -120,7 +124,9 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
-    deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
+    is_open = task.scenario.problem.closures is None
+    retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
+    deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
     bound, before = int(search.alone().sum()), search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rightofway.studio.tasks import asking, documents, editing, planning, views
+from rightofway.studio.tasks import asking, dealing, documents, editing, planning, views
 
 Task = Callable[..., tuple[Any, ...]]
 
@@ -21,6 +21,7 @@ TASKS: dict[str, Task] = {
     "survey": editing.surveyed,
     "inline": editing.inlined,
     "write": documents.written,
+    "deal": dealing.dealt,
     "plan": planning.plan,
     "improve": planning.improve,
     "laps": planning.laps,
