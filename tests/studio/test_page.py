@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.builders.studios import DOOR, running
+from tests.builders.studios import running
 from tests.viewer.conftest import ARGUMENTS, CHROMIUM, Viewer
 
 if TYPE_CHECKING:
@@ -49,23 +49,6 @@ def test_a_file_is_opened_planned_and_played(studio: Viewer) -> None:
     page.get_by_role("button", name="Play or pause").click()
     studio.wait_for("stage.clock.tick > 0")
     assert studio.complaints == []
-
-
-def test_ten_runs_at_once_are_heard_by_one_connection(studio: Viewer) -> None:
-    """A browser has six connections to a server; an eleventh request would wait for ever."""
-    begin = """async (document) => {
-      const { listen, post } = await import("/assets/api.js");
-      window.states = {};
-      for (let i = 0; i < 10; i++) {
-        const run = await post("/runs", { document, planner: "two-level", name: `${i}` });
-        listen(run.number, { run: ({ name, state }) => (window.states[name] = state) });
-      }
-    }"""
-    studio.page.evaluate(begin, DOOR)
-    studio.wait_for("Object.values(states).filter((state) => state === 'done').length === 10")
-    streams = [url for url in studio.requests if url.endswith("/events")]
-    assert len(streams) <= 10
-    assert all(url.endswith("/api/v1/events") for url in streams)
 
 
 def test_another_file_is_opened_from_the_list(studio: Viewer) -> None:
