@@ -35,6 +35,7 @@ SLOW = (
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_page.py",  # a browser
     "studio/test_runs.py",  # plans
+    "studio/test_streams.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser

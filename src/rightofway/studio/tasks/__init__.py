@@ -17,7 +17,6 @@ TASKS: dict[str, Task] = {
     "open": documents.opened,
     "validate": documents.validated,
     "inspect": documents.inspected,
-    "draw": documents.drawn,
     "survey": editing.surveyed,
     "inline": editing.inlined,
     "write": documents.written,
