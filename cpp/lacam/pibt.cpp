@@ -22,6 +22,16 @@ struct Pibt::Choosing {
     const Graph& graph() const { return pibt.problem_.graph(); }
     VertexId at(RobotId robot) const { return now.at(robot); }
     RobotId here(VertexId vertex) const { return now.here(vertex); }
+    RobotId keeps_off(RobotId robot, VertexId vertex) const {
+        RobotId found = now.here(vertex);
+        if (found == nobody && pibt.problem_.has_sizes()) {
+            pibt.any_ahead(now, robot, vertex, [&](RobotId other) {
+                found = other;
+                return true;
+            });
+        }
+        return found;
+    }
     VertexId target(RobotId robot) const { return now.target(robot); }
     std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
     bool is_free(RobotId robot) const { return !now.is_busy(robot); }

@@ -56,6 +56,24 @@ def test_events_tell_the_flowtime_as_it_falls_and_end_with_the_run(client: httpx
     assert events(client, number) == heard[-1:]
 
 
+def test_one_stream_tells_of_all_runs(client: httpx.Client) -> None:
+    heard: list[tuple[str, Any]] = []
+    with client.stream("GET", "/events") as stream:
+        lines = stream.iter_lines()
+        heard.append((next(lines)[7:], json.loads(next(lines)[6:])))
+        run = planned(client, planner="two-level")
+        client.delete(f"/runs/{run['number']}")
+        for line in lines:
+            if line.startswith("event: "):
+                heard.append((line[7:], json.loads(next(lines)[6:])))
+            if heard[-1][0] == "deleted":
+                break
+    assert heard[0][0] == "runs"
+    states = [data["state"] for name, data in heard if name == "run"]
+    assert states == ["queued", "running", "done"]
+    assert {data["number"] for _, data in heard[1:]} == {run["number"]}
+
+
 def test_stop_keeps_the_best_plan(client: httpx.Client) -> None:
     number = begun(client)
     client.post(f"/runs/{number}/stop")
@@ -189,6 +207,15 @@ def test_a_plan_is_exported(client: httpx.Client, form: str) -> None:
     exported = client.get(f"/runs/{number}/export/{form}")
     assert exported.status_code == 200
     assert exported.content
+
+
+def test_a_run_is_repeated_with_the_same_result(client: httpx.Client) -> None:
+    run = planned(client, planner="two-level", options={"routes": "shortest"}, name="door")
+    again = over(client, client.post(f"/runs/{run['number']}/again").json()["number"])
+    assert again["number"] != run["number"]
+    assert (again["name"], again["request"]) == (run["name"], run["request"])
+    exports = [client.get(f"/runs/{each['number']}/export/json").text for each in (run, again)]
+    assert exports[0] == exports[1]
 
 
 def test_a_run_is_named_and_deleted(client: httpx.Client) -> None:

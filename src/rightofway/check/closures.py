@@ -27,13 +27,15 @@ Vector = tuple[Fraction, Fraction]
 
 
 def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> None:
-    """Find drives along edges that are barred for the robot's type."""
+    """Find drives along edges that are barred for the robot's type, or too near to a wall."""
     following = np.roll(visits.vertex, -1)
     for visit in np.flatnonzero(visits.barred).tolist():
         robot, tail, head = (
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
-        kind = names.scenario.robots[robot].type
+        why = f"is barred for type {names.scenario.robots[robot].type}"
+        if names.scenario.roadmap.widest:
+            why = "is nearer to a wall than the robot's radius"
         collector.add(
             Fault(
                 kind="barred",
@@ -41,7 +43,7 @@ def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> Non
                 vertices=(VertexId(tail), VertexId(head)),
                 tick=Tick(int(visits.leave[visit])),
                 message=f"{names.robot(robot)} drives from {names.vertex(tail)} to"
-                f" {names.vertex(head)}, which is barred for type {kind} (choose another way)",
+                f" {names.vertex(head)}, which {why} (choose another way)",
             )
         )
 

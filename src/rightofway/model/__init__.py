@@ -11,7 +11,7 @@ from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import Resources
 from rightofway.model.roadmap import Grid, Roadmap
-from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
+from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (
     Lap,
     Route,
@@ -77,6 +77,7 @@ __all__ = [
     "Units",
     "VertexId",
     "Wait",
+    "Walls",
     "checked_time_limit",
     "choose_clock",
     "cluster",

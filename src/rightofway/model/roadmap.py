@@ -83,6 +83,9 @@ class Roadmap:
     surcharges
         What makes an edge of each length class less liked, not slower [time unit]; empty where
         nothing does. Classes of one length may differ in it.
+    widest
+        The largest radius of robots that may drive along edges of each length class [length unit],
+        None for any; empty where that is so for all.
     barred_vertices
         Vertices with the types of robots that may not be there; every edge into such a vertex is
         barred for these types.
@@ -109,6 +112,7 @@ class Roadmap:
     speed_limits: tuple[Fraction | None, ...] = ()
     barred: tuple[frozenset[str], ...] = ()
     surcharges: tuple[Fraction, ...] = ()
+    widest: tuple[Fraction | None, ...] = ()
     barred_vertices: Mapping[VertexId, frozenset[str]] = field(default_factory=dict)
     zones: tuple[Zone, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
@@ -130,6 +134,7 @@ class Roadmap:
             and self.speed_limits == other.speed_limits
             and self.barred == other.barred
             and self.surcharges == other.surcharges
+            and self.widest == other.widest
             and self.barred_vertices == other.barred_vertices
             and self.zones == other.zones
             and self.labels == other.labels
@@ -159,8 +164,11 @@ class Roadmap:
             for length, limit in zip(self.lengths, self.speed_limits, strict=True)
         ]
 
-    def is_barred(self, length_class: int, robot_type: str | None) -> bool:
-        """Return whether edges of a length class are barred for robots of a type."""
+    def is_barred(self, length_class: int, robot_type: str | None, radius: Fraction) -> bool:
+        """Return whether edges of a length class are barred for robots of a type and radius."""
+        widest = self.widest[length_class] if self.widest else None
+        if widest is not None and radius > widest:
+            return True
         return bool(self.barred) and robot_type in self.barred[length_class]
 
     @property

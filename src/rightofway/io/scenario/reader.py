@@ -100,7 +100,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-        return Rules(**given(*keys, "turn_rate"))
+        return Rules(**given(*keys, "turn_rate", "walls"))
 
     def units_of(data: Any) -> Units:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
@@ -131,6 +131,9 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     loaded = faults.part(document, "map", loaded_map_of)
     if loaded:
         rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)
+    if loaded and loaded.keeps_clear and rules.walls == "strict":
+        remedy = "robots keep clear of what a map in pixels shows; take it out"
+        faults.note("rules.walls", f"'strict' is for grids and floors ({remedy})")
     deals = document.get("homes") == "parking"
     placed, more = placed_robots(robots, loaded, rules, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []

@@ -1,7 +1,7 @@
 /** How the flowtime of a run came down over time, above the lower bound. */
 
-import { html } from "./vendor/htm-preact.js";
-import { words } from "./words.js";
+import { html } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
 
 const [WIDTH, HEIGHT] = [300, 90];
 
