@@ -34,7 +34,9 @@ SLOW = (
     "laws/test_workbook_fuzz.py",
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_page.py",  # a browser
+    "studio/test_drawing.py",  # a browser
     "studio/test_runs.py",  # plans
+    "studio/test_stories.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice

@@ -105,6 +105,7 @@ export class Stage extends Observable {
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
     this.last = clock.playing ? now : 0;
+    if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
     view.paint();
     this.#paintOver();

@@ -7,7 +7,7 @@ import { words } from "./words.js";
 export function Status({ studio }) {
   const { editor, store, complaints } = studio;
   const name = [...editor.tools].find(([, tool]) => tool === editor.tool)[0];
-  const hint = editor.isOn ? editor.message || words.tools[name][1] : "";
+  const hint = editor.isOn ? editor.message || words.tools[name][1] : words.watching;
   return html`
     <div class="status">
       ${complaints.length ? html`<span class="wrong" role="alert">${complaints.map(({ named, place, message }) => html`${named || place ? html`<b>${named || place}</b>: ` : ""}${message} `)}</span>`

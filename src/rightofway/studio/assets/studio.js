@@ -89,7 +89,7 @@ export class Studio extends Observable {
   /** Show a document, from the start. */
   open(found) {
     Object.assign(this, { isStarting: false, notes: found.notes ?? [], isFresh: true, tab: "map" });
-    Object.assign(this.runs, { shown: null, payload: null, beside: null, comparison: null, losses: [] });
+    Object.assign(this.runs, { shown: null, payload: null, beside: null, comparison: null, losses: null });
     this.store.open(found);
     this.editor.select([]);
     this.editor.isOn = true;

@@ -52,7 +52,7 @@ function Size({ studio }) {
   const setMap = (change) => store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
   const place = map.floor ? "map.floor" : "map";
-  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value)}
+  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value, "")}
     onChange=${({ target }) => target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
   const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
   return html`

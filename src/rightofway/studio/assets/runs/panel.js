@@ -19,7 +19,8 @@ export function PlanPanel({ studio }) {
       ${current && html`<${Curve} run=${current} />`}
       ${run && !runs.isOf(store.document) && html`<p class="note">${words.changedSince}</p>`}
       <${Change} studio=${studio} />
-      ${runs.payload && html`<${Waits} studio=${studio} /><${Exports} studio=${studio} />`}
+      ${runs.losses && html`<${Waits} studio=${studio} />`}
+      ${runs.payload && html`<${Exports} studio=${studio} />`}
       <${RunList} studio=${studio} />
     </div>`;
 }

@@ -13,7 +13,7 @@ export class RunStore extends Observable {
   payload = null;
   beside = null; // number of the run that it is compared with
   comparison = null;
-  losses = [];
+  losses = null; // of the plan that is shown, once they are known
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
   #live = 0; // the last run that was made by a change
@@ -72,7 +72,7 @@ export class RunStore extends Observable {
     if (turn !== this.#wanted) return;
     const isOther = this.shown !== number;
     Object.assign(this, { shown: number, payload });
-    if (isOther) Object.assign(this, { losses: [], comparison: null });
+    if (isOther) Object.assign(this, { losses: null, comparison: null });
     this.tell("payload");
     const run = this.find(number);
     if (!run || !isOver(run)) return;

@@ -21,6 +21,7 @@ export function Settings({ studio }) {
       event.preventDefault();
       studio.plan();
     }}>
+      <details open=${!runs.payload}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
       <div class="fields">
         <label>${words.planner}<select value=${chosen} title=${spec?.summary} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
           ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary}>${name}</option>`)}</select></label>
@@ -30,6 +31,7 @@ export function Settings({ studio }) {
       ${spec?.options.length > 0 && html`<details><summary>${words.options}</summary><div class="fields">${spec.options.map(({ name, summary, choices, ...rest }) => html`
         <label title=${summary}>${name}${choices.length ? html`<select value=${settings.options[name] ?? rest.default} onChange=${({ target }) => option(name, target.value)}>${choices.map((each) => html`<option>${each}</option>`)}</select>`
           : html`<input value=${settings.options[name] ?? ""} placeholder=${String(rest.default ?? "")} inputmode=${rest.least === null ? "text" : "numeric"} onChange=${({ target }) => option(name, target.value)} />`}</label>`)}</div></details>`}
+      </details>
       <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({ target }) => {
         studio.isLive = target.checked;
         studio.tell("change");
