@@ -10,7 +10,7 @@ export function Studies({ studio }) {
   const [delays, setDelays] = useState("");
   const [count, setCount] = useState(1000);
   const { seed, time_limit } = studio.settings;
-  const simulate = (played) => studio.begin({
+  const simulate = (played) => studio.study({
     kind: "simulate", based_on: run.kind === "simulate" ? run.based_on : run.number, seed: Number(seed), ...(played ?? { runs: Number(count), delays: delays.trim() ? [delays.trim()] : [] }),
   });
   const worst = () => {
@@ -24,7 +24,7 @@ export function Studies({ studio }) {
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
           const { document, folder, path } = store;
-          studio.begin({ kind: "laps", document, folder, source: path, rule, seed: Number(seed), time_limit: Number(time_limit) }, document);
+          studio.study({ kind: "laps", document, folder, source: path, rule, seed: Number(seed), time_limit: Number(time_limit) }, document);
         }}>
           <label>${words.rule}<select id="rule" aria-describedby="rule-summary" value=${rule} onChange=${({ target }) => setRule(target.value)}>${Object.keys(choices.rules).map((name) => html`<option>${name}</option>`)}</select></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running) || !store.survey.ok}>${words.runLaps}</button>
