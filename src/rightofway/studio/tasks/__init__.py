@@ -25,6 +25,7 @@ TASKS: dict[str, Task] = {
     "improve": planning.improve,
     "laps": planning.laps,
     "simulate": planning.simulate,
+    "choices": planning.choices,
     "payload": views.payload,
     "page": views.page,
     "export": views.exported,

@@ -147,4 +147,5 @@ def figures(plan: Plan) -> dict[str, Any]:
         "makespan": metrics.makespan,
         "lower_bound": metrics.lower_bound,
     }
-    return {**costs, "text": {key: duration(ticks) for key, ticks in costs.items()}}
+    text = {key: duration(ticks) for key, ticks in costs.items()}
+    return {**costs, "text": {**text, "gap": f"{metrics.gap:.1%}" if metrics.lower_bound else ""}}
