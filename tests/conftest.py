@@ -36,6 +36,7 @@ SLOW = (
     "studio/test_page.py",  # a browser
     "studio/test_drawing.py",  # a browser
     "studio/test_runs.py",  # plans
+    "studio/test_streams.py",  # a browser
     "studio/test_stories.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
     "studio/test_worker.py",  # starts processes

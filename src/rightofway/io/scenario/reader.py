@@ -13,7 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
 from rightofway.io.scenario.crossings import crossing_note
@@ -232,6 +232,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
+    yield from _type_notes(scenario)
     yield from crossing_note(scenario)
     if not scenario.problem.clock.exact:
         yield (
@@ -240,3 +241,15 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
             f" {MAX_TICKS_OF_SHORTEST}); simpler speeds and lengths stay exact,"
             " for example 1/3 instead of 0.3333"
         )
+
+
+def _type_notes(scenario: Scenario) -> Iterator[str]:
+    """Yield a note on each type of robots that nothing is barred for, where one was nearly meant.
+
+    Types that edges and vertices are barred for are known; any other type is allowed.
+    """
+    known = scenario.roadmap.types
+    for name in dict.fromkeys(robot.type for robot in scenario.robots):
+        near = None if name is None or name in known else nearest(name, sorted(known))
+        if near:
+            yield f"nothing is barred for robots of type {shown(name)} (did you mean {near!r}?)"
