@@ -71,4 +71,6 @@ class StudioPage(Viewer):
 
     def planned(self) -> None:
         """Wait until the run that was begun last is over, and its plan shown with all waits."""
-        self.wait_for("studio.runs.runs.length && !studio.runs.running && studio.runs.losses !== null")
+        self.wait_for(
+            "studio.runs.runs.length && !studio.runs.running && studio.runs.losses !== null"
+        )

@@ -40,6 +40,7 @@ export class Stage extends Observable {
   /** Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old } = this;
+    const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
@@ -62,6 +63,7 @@ export class Stage extends Observable {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
     }
+    if (keeps && chosen !== undefined) choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
     this.tell("show");
     this.repaint();
   }
