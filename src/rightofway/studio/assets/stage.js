@@ -44,6 +44,7 @@ export class Stage extends Observable {
    */
   show(raw, { keeps = false } = {}) {
     const { clock: before, view: old, isPlan: wasPlan } = this;
+    const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
@@ -70,6 +71,7 @@ export class Stage extends Observable {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
     }
+    if (keeps && chosen !== undefined) choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
     this.tell("show");
     this.repaint();
   }
