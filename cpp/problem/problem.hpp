@@ -95,8 +95,8 @@ struct Itinerary {
     std::size_t n_stages() const { return stage_vertex.size(); }
 
     // The first stage not served after a visit, where `stage` is the first not served before it.
-    // `spare` is the duration of the visit without the turn and the drive that follow. A visit serves as many
-    // stages as fit into `spare`; only the last visit serves the last stage.
+    // `spare` is the duration of the visit without the turn and the drive that follow. A visit
+    // serves as many stages as fit into `spare`; only the last visit serves the last stage.
     std::size_t stage_after(std::size_t stage, VertexId vertex, Tick spare) const {
         while (stage + 1 < n_stages() && stage_vertex[stage] == vertex &&
                spare >= stage_work[stage] + stage_turn[stage]) {
