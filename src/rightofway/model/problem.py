@@ -15,7 +15,6 @@ from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import Turning, turnings_of
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
-
 LARGEST_SURCHARGE = 2**27
 """Routes are chosen as if no edge had a larger surcharge [ticks]."""
 
