@@ -182,6 +182,9 @@ class Problem {
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
+    // Whether a drive along some edge excludes robots from more than its ends do. If not, no list
+    // of excluded rows has a row of an edge.
+    bool edges_exclude() const { return edges_exclude_; }
     // Vertices, and edges after them. Only where robots have sizes, edges are booked.
     std::int32_t n_resources() const {
         return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
@@ -213,7 +216,7 @@ class Problem {
 
   private:
     void check_robots() const;
-    void check_resources() const;
+    void check_resources();
     void check_turns() const;
     void check_closures();
 
@@ -224,6 +227,7 @@ class Problem {
     TurnArrays turns_;
     Closures closures_;
     bool closes_edges_ = false;
+    bool edges_exclude_ = false;
     bool is_barred_ = false;
 };
 

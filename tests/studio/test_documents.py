@@ -112,9 +112,9 @@ def test_a_body_that_does_not_fit_is_refused_in_the_same_words(client: httpx.Cli
 def test_a_document_is_inspected_drawn_and_converted(client: httpx.Client) -> None:
     body = {"document": DOOR}
     assert client.post("/inspect", json=body).json()["places"] == 4
-    drawn = client.post("/draw", json=body).json()
-    assert drawn["map"]["rows"] == ["...", "@.@", "..."]
-    assert [robot["name"] for robot in drawn["robots"]] == ["R1", "R2"]
+    site = client.post("/survey", json=body).json()["site"]
+    assert site["map"]["rows"] == ["...", "@.@", "..."]
+    assert [robot["name"] for robot in site["robots"]] == ["R1", "R2"]
     written = client.post("/convert", json={**body, "name": "door.yaml"}).text
     assert written.startswith("format: rightofway-scenario/1")
 

@@ -78,7 +78,9 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     elif problem.resources is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     else:
-        found = (first, _quickly_together(task), plan_in_turn(task, search, "shortest"))
+        together = _quickly_together(task)
+        has_plan = first is not None or together is not None
+        found = (first, together, plan_in_turn(task, search, "shortest", has_plan=has_plan))
     plans = [plan for plan in found if plan is not None]
     if not plans and (problem.resources is not None or not problem.is_open):
         plans = [plan_fleet(task)]

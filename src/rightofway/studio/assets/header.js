@@ -10,7 +10,7 @@ export function Header({ studio }) {
     <header class="summary bar-of-studio">
       <h1><b>rightofway</b> <span>studio</span></h1>
       ${!isStarting && html`
-        <input class="file-name" aria-label=${words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" size=${Math.max(store.path.length, 16)}
+        <input class="file-name" aria-label=${words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" size=${Math.max(store.path.length, 20)}
           onChange=${(event) => store.rename(event.target.value.trim())} />
         <span class="state" role="status">${store.isSaved ? words.saved : words.keptAsDraft}</span>
         <div class="actions">

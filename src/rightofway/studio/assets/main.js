@@ -32,11 +32,13 @@ function App() {
   const tab = studio?.tab ?? "map";
   return html`
     ${studio && html`<${Header} studio=${studio} />`}
+    <main hidden=${isStarting}>
     ${studio && !isStarting && html`<${Rail} studio=${studio} />`}
-    <section class="map" aria-label=${words.map} hidden=${isStarting}><div class="holder" ref=${holder}></div></section>
-    <div class="below" ref=${below} hidden=${isStarting || !studio.stage.isPlan}></div>
-    <section class="time" aria-label=${words.time} ref=${time} hidden=${isStarting || !studio.stage.isPlan}></section>
+    <section class="map" aria-label=${words.map}><div class="holder" ref=${holder}></div></section>
+    <div class="below" ref=${below} hidden=${!studio?.stage.isPlan}></div>
+    <section class="time" aria-label=${words.time} ref=${time} hidden=${!studio?.stage.isPlan}></section>
     ${studio && !isStarting && html`<${Status} studio=${studio} />`}
+    </main>
     <aside class="side" aria-label=${words.side} hidden=${isStarting}>
       ${studio && html`<${Tabs} studio=${studio} />`}
       <section id="card" class="card" aria-live="polite" ref=${card} hidden></section>

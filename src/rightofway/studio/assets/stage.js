@@ -28,6 +28,7 @@ export class Stage extends Observable {
     this.theme = new Theme();
     this.asked = false;
     this.frames = 0;
+    this.isMoved = false; // whether somebody has zoomed or moved the map
     this.theme.on("theme", () => this.repaint());
     new ResizeObserver(() => this.ask()).observe(holder);
   }
@@ -37,9 +38,12 @@ export class Stage extends Observable {
     return this.plan instanceof Plan;
   }
 
-  /** Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. */
+  /**
+   * Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. Between a
+   * map and a plan, which has less room, the view stays only where somebody has chosen it.
+   */
   show(raw, { keeps = false } = {}) {
-    const { clock: before, view: old } = this;
+    const { clock: before, view: old, isPlan: wasPlan } = this;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
@@ -53,11 +57,15 @@ export class Stage extends Observable {
     this.view = view;
     this.player?.begin(view);
     view.viewport.fit();
-    if (keeps && old) keepView(old, view);
+    if (!keeps) this.isMoved = false;
+    if (keeps && old && (this.isMoved || wasPlan === this.isPlan)) keepView(old, view);
     for (const event of ["tick", "playing"]) clock.on(event, () => this.ask());
     for (const event of ["choice", "heat", "space", "corridor", "bottleneck"]) choice.on(event, () => this.repaint());
     choice.on("choice", () => this.tell("choice"));
-    view.viewport.on("view", () => this.repaint());
+    view.viewport.on("view", () => {
+      this.isMoved = !view.viewport.fitted;
+      this.repaint();
+    });
     if (keeps && before && this.isPlan) {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
@@ -105,6 +113,7 @@ export class Stage extends Observable {
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
     this.last = clock.playing ? now : 0;
+    if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
     view.paint();
     this.#paintOver();

@@ -35,7 +35,10 @@ export class Studio extends Observable {
     this.store.on("survey", () => this.#surveyed());
     this.store.on("trouble", () => this.complain(this.store.trouble));
     this.runs.on("payload", () => this.#planned());
-    this.runs.on("refusal", () => this.complain(this.runs.refusal));
+    this.runs.on("refusal", () => {
+      this.complain(this.runs.refusal);
+      this.light(this.runs.refusal.vertices ?? []);
+    });
   }
 
   /** Find out what there is; open the file that the studio was started with. */
@@ -89,7 +92,7 @@ export class Studio extends Observable {
   /** Show a document, from the start. */
   open(found) {
     Object.assign(this, { isStarting: false, notes: found.notes ?? [], isFresh: true, tab: "map" });
-    Object.assign(this.runs, { shown: null, payload: null, beside: null, comparison: null, losses: [] });
+    this.runs.hide();
     this.store.open(found);
     this.editor.select([]);
     this.editor.isOn = true;
@@ -184,19 +187,60 @@ export class Studio extends Observable {
     });
   }
 
+  /** Show the plan of a run. */
+  showRun(number) {
+    return this.attempt(async () => {
+      this.showTab("plan");
+      await this.runs.show(number);
+    });
+  }
+
+  /** Queue laps or a simulation, and show what comes of it. */
+  study(request, document) {
+    return this.attempt(async () => {
+      this.#isPlaying = true;
+      await this.runs.begin(request, document);
+      this.showTab("plan");
+    });
+  }
+
+  /** Change the document, and plan it at once: who gains, who loses. */
+  whatIf(edit) {
+    this.#isAsked = true;
+    this.store.change(edit);
+  }
+
+  /** Edit again what the plan that is shown was made from. */
+  takeBack() {
+    return this.attempt(async () => {
+      const document = await this.runs.documentOf(this.runs.shown);
+      this.#replanned = document;
+      this.store.change(() => document);
+    });
+  }
+
+  /** Light vertices by their names on the map that is shown. */
+  light(names) {
+    const { plan, choice } = this.stage;
+    choice?.light(names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0));
+  }
+
   #search() {
     const { planner, options, time_limit, seed } = this.settings;
     return { planner: planner || this.runs.planners.default, options, time_limit: Number(time_limit), seed: Number(seed) };
   }
 
   #isPlaying = false; // whether the next plan is to be played from its start
+  #isAsked = false; // whether the document that is looked at is to be planned, too
   #replanned = null; // the document that was planned by itself last
 
   #surveyed() {
     const { store, stage } = this;
     if (store.site && (this.tab !== "plan" || !this.runs.payload)) stage.show(store.site, { keeps: !this.isFresh });
     this.isFresh = false;
-    if (!this.isLive || !store.survey.ok || this.#replanned === store.document || this.runs.isOf(store.document)) return;
+    const isWanted = this.isLive || this.#isAsked;
+    this.#isAsked = false;
+    if (!isWanted || !store.survey.ok || this.#replanned === store.document || this.runs.isOf(store.document)) return;
     this.#replanned = store.document;
     this.attempt(() => this.runs.replan(store, this.#search()));
   }

@@ -147,15 +147,6 @@ async def inline(studio: InStudio, placed: Placed) -> dict[str, Any]:
     return dict(result)
 
 
-@router.post("/draw", tags=["documents"], response_class=Response)
-async def draw(studio: InStudio, placed: Placed) -> Response:
-    """Return what the viewer needs to draw the map and the robots of a document."""
-    _, blobs = await studio.ask(
-        "draw", document=placed.document, folder=studio.place(placed.folder)
-    )
-    return Response(blobs[0], media_type="application/json")
-
-
 @router.post("/deal", tags=["documents"])
 async def deal(studio: InStudio, deal: Deal) -> dict[str, Any]:
     """Return robots at random places that reach each other; the same seed gives the same."""

@@ -76,6 +76,13 @@ def list_planners() -> dict[str, Any]:
     }
 
 
+@router.get("/choices", tags=["planners"])
+async def list_choices(studio: InStudio) -> dict[str, Any]:
+    """List rules of laps, notations of delays, and formats of other programs for exports."""
+    result, _ = await studio.ask("choices")
+    return dict(result)
+
+
 @router.get("/runs", tags=["runs"])
 async def list_runs(studio: InStudio) -> dict[str, Any]:
     """List the runs, the latest first."""

@@ -152,7 +152,7 @@ export class Editor extends Observable {
     if (this.#touches.size > 1) return this.#pinch(before, this.#span());
     if (event.pointerId !== this.#held) return;
     this.tool.drag(this.#point(event));
-    this.changed();
+    this.stage.ask();
   }
 
   #hover(event) {

@@ -19,7 +19,9 @@ export function MapPanel({ studio }) {
       ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} />`}
       <${Faults} studio=${studio} />
       ${[...notes, ...store.survey.notes].length > 0 && html`<details class="notes"><summary>${words.notes}</summary><ul>${[...new Set([...notes, ...store.survey.notes])].map((note) => html`<li>${note}</li>`)}</ul></details>`}
-    </div>`;
+    </div>
+    ${Array.isArray(store.document.robots) && !store.document.robots.length && html`<div class="next">
+      <button type="button" class="framed strong" onClick=${() => studio.showTab("robots")}>${words.nextRobots}</button></div>`}`;
 }
 
 /** Faults, then findings, the worst first; pressing one lights its places. */
@@ -52,7 +54,7 @@ function Size({ studio }) {
   const setMap = (change) => store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
   const place = map.floor ? "map.floor" : "map";
-  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value)}
+  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value, "")}
     onChange=${({ target }) => target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
   const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
   return html`

@@ -55,7 +55,7 @@ export function RobotPanel({ studio }) {
       </div>
       ${faults.length > 0 && html`<p class="wrong" role="alert">${faults[0].named || faults[0].place}: ${faults[0].message}</p>`}
       ${robots.length > 0 ? html`
-        <table class="robots">
+        <div class="sheet"><table class="robots">
           <thead><tr>${COLUMNS.map((column) => html`<th scope="col" aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
             <button type="button" title=${words.columns[column.key][1]} onClick=${() => sort(column)}>${words.columns[column.key][0]}</button></th>`)}<th><span class="unseen">${words.remove}</span></th></tr></thead>
           <tbody onKeyDown=${moveInTable}>${robots.slice(0, shown).map((robot, row) => html`
@@ -70,12 +70,13 @@ export function RobotPanel({ studio }) {
               })}
               <td><button type="button" class="quiet" aria-label=${`${words.remove} ${robot.name}`} onClick=${() => store.change((document) => removeRobots(document, [row]))}>✕</button></td>
             </tr>`)}</tbody>
-        </table>
+        </table></div>
         ${robots.length > shown && html`<button type="button" class="framed" onClick=${() => setShown(shown + MOST_ROWS)}>${words.moreRows(robots.length - shown)}</button>`}`
         : html`<p class="hint">${words.noRobots}</p>`}
       <label class="wide paste">${words.pasteTable}<textarea rows="1" aria-label=${words.pasteTable} onPaste=${(event) => paste(event, robots.length, 0)}></textarea></label>
       <${RandomFleet} studio=${studio} />
-    </div>`;
+    </div>
+    ${robots.length > 0 && html`<div class="next"><button type="button" class="framed strong" disabled=${!store.survey.ok} onClick=${() => studio.plan()}>${words.nextPlan}</button></div>`}`;
 }
 
 /** Rows of a spreadsheet, from a cell on; rows that are not there yet are added; headings are left out. */

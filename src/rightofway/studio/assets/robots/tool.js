@@ -6,6 +6,9 @@ import { ring } from "../viewer/shapes.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf, withStops } from "./fleet.js";
 
+/** How long the first robot works [time unit]; the next ones as long as the one before. */
+const USUAL_WORK = 5;
+
 export class RobotTool {
   static called = "robot";
   isDrawn = false;
@@ -49,7 +52,7 @@ export class RobotTool {
     const { editor, home, stops } = this;
     const place = (vertex) => placeOf(vertex, editor.roadmap, editor.document);
     const at = robotsOf(editor.document).length;
-    const { work = editor.usualWork } = robotsOf(editor.document).at(-1) ?? {};
+    const { work } = robotsOf(editor.document).at(-1) ?? { work: USUAL_WORK };
     const trip = stops.map((stop) => (work === undefined ? { at: place(stop) } : { at: place(stop), work }));
     this.cancel();
     editor.store.change((document) => addRobots(document, [withStops({ home: place(home) }, trip)]));

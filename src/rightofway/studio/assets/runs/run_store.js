@@ -4,27 +4,35 @@ import { Observable } from "../viewer/observable.js";
 import { get, listen, post, remove, request } from "../api.js";
 
 export const isOver = (run) => !["queued", "running"].includes(run.state);
+export const canBeShown = (run) => run.has_plan || run.has_payload;
+
+const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
+const NOTHING_SHOWN = { shown: null, payload: null, losses: null, report: null, command: "", beside: null, comparison: null };
 
 /** Events: `runs` when any has changed, `payload` when another plan is to be shown, `refusal`. */
 export class RunStore extends Observable {
   runs = [];
   planners = { default: "auto", planners: [] };
+  choices = NO_CHOICES;
   shown = null; // number of the run that is shown
   payload = null;
   beside = null; // number of the run that it is compared with
   comparison = null;
-  losses = [];
+  losses = null; // of the plan that is shown, once they are known
+  report = null; // of laps or a simulation that is shown
+  command = ""; // that gives the same as the run that is shown; empty where none does
   #documents = new Map(); // that each run of this page was made from
   #wanted = 0;
   #live = 0; // the last run that was made by a change
 
   async load() {
-    const [planners, { runs }] = await Promise.all([get("/planners"), get("/runs")]);
-    Object.assign(this, { planners, runs });
+    const [planners, { runs }, choices] = await Promise.all([get("/planners"), get("/runs"), get("/choices")]);
+    Object.assign(this, { planners, runs, choices });
     for (const run of runs) if (!isOver(run)) this.#hear(run.number);
     this.tell("runs");
   }
 
+  /** The latest run that is queued or running. */
   get running() {
     return this.runs.find((run) => !isOver(run));
   }
@@ -43,20 +51,31 @@ export class RunStore extends Observable {
     return made === undefined || made === document;
   }
 
-  /** Plan a document; the plan is shown as soon as there is one. */
-  async plan({ document, folder, path }, settings) {
-    const run = await post("/runs", { kind: "plan", document, folder, source: path, ...settings });
-    this.#documents.set(run.number, document);
+  /** The document that a run was made from. */
+  async documentOf(number) {
+    if (!this.#documents.has(number)) this.#documents.set(number, (await get(`/runs/${number}/document`)).document);
+    return this.#documents.get(number);
+  }
+
+  /** Queue a run of a document or of another run; it is shown as soon as there is a plan. */
+  async begin(request, document) {
+    const run = await post("/runs", request);
+    if (document) this.#documents.set(run.number, document);
     this.#keep(run);
     this.#hear(run.number);
     return run.number;
   }
 
+  plan({ document, folder, path }, settings) {
+    return this.begin({ kind: "plan", document, folder, source: path, ...settings }, document);
+  }
+
   /** Plan at once what has just been changed; an earlier such run gives way. */
   async replan(given, settings) {
     const before = this.find(this.#live);
-    if (before && !isOver(before)) await post(`/runs/${before.number}/cancel`).catch(() => {});
-    const base = this.shown;
+    const isSecond = before && !isOver(before);
+    if (isSecond) await post(`/runs/${before.number}/cancel`).catch(() => {});
+    const base = isSecond ? before.based_on : this.shown;
     this.#live = await this.plan(given, { ...settings, time_limit: 1, based_on: base });
     this.beside = base;
   }
@@ -65,31 +84,43 @@ export class RunStore extends Observable {
     return post(`/runs/${this.running.number}/stop`);
   }
 
+  cancel() {
+    return post(`/runs/${this.running.number}/cancel`);
+  }
+
   /** Show the plan of a run, and find out why its robots wait. */
   async show(number) {
     const turn = ++this.#wanted;
     const payload = await get(`/runs/${number}/payload`);
     if (turn !== this.#wanted) return;
-    const isOther = this.shown !== number;
+    if (this.shown !== number) Object.assign(this, { losses: null, comparison: null, report: null, command: "" });
     Object.assign(this, { shown: number, payload });
-    if (isOther) Object.assign(this, { losses: [], comparison: null });
     this.tell("payload");
     const run = this.find(number);
     if (!run || !isOver(run)) return;
-    const { losses } = await get(`/runs/${number}/losses`);
+    const [losses, report, command] = await Promise.all([
+      run.has_plan ? get(`/runs/${number}/losses`) : { losses: [] }, run.has_report ? get(`/runs/${number}/report`) : null,
+      get(`/runs/${number}/command`).catch(() => ({ command: "" })), // some runs are not made by a command
+    ]);
     if (this.shown !== number) return;
-    this.losses = losses;
+    Object.assign(this, { ...losses, report, ...command });
     this.tell("runs");
-    if (this.beside && this.beside !== number) await this.compare(this.beside);
+    if (this.beside && this.beside !== number && run.has_plan) await this.compare(this.beside);
+  }
+
+  /** Show no plan any more. */
+  hide() {
+    this.#wanted++;
+    Object.assign(this, NOTHING_SHOWN);
+    this.tell("runs");
   }
 
   /** Compare the plan that is shown with that of another run; null to end that. */
   async compare(number) {
-    this.beside = number;
-    this.comparison = null;
+    Object.assign(this, { beside: number, comparison: null });
     if (number) {
       const found = await get(`/compare?run=${number}&run=${this.shown}`);
-      if (found.runs[1] === this.shown) this.comparison = found;
+      if (found.runs[1] === this.shown && this.beside === number) this.comparison = found;
     }
     this.tell("runs");
   }
@@ -112,6 +143,7 @@ export class RunStore extends Observable {
     await remove(`/runs/${number}`);
     this.runs = this.runs.filter((run) => run.number !== number);
     if (this.beside === number) Object.assign(this, { beside: null, comparison: null });
+    if (this.shown === number) this.hide();
     this.tell("runs");
   }
 
@@ -123,7 +155,9 @@ export class RunStore extends Observable {
   #keep(run) {
     const before = this.find(run.number);
     const points = run.points?.length || !before ? run.points : before.points;
-    this.runs = [{ ...run, points: points ?? [] }, ...this.runs.filter(({ number }) => number !== run.number)].sort((a, b) => b.number - a.number);
+    const since = run.state === "running" ? before?.since ?? performance.now() : undefined; // clocks of server and browser may differ
+    const kept = { ...run, points: points ?? [], since };
+    this.runs = [kept, ...this.runs.filter(({ number }) => number !== run.number)].sort((a, b) => b.number - a.number);
     this.tell("runs");
   }
 
@@ -132,12 +166,14 @@ export class RunStore extends Observable {
       run: (run) => {
         this.#keep(run);
         if (!isOver(run)) return;
-        if (run.has_plan) this.#try(() => this.show(number));
+        if (canBeShown(run)) this.#try(() => this.show(number));
         if (run.error) this.#refuse(run.error);
       },
-      progress: ({ seconds, flowtime }) => {
+      progress: ({ seconds, flowtime, lower_bound: bound, message }) => {
         const run = this.find(number);
-        if (flowtime !== undefined && run) this.#keep({ ...run, points: [...run.points, [seconds, flowtime]] });
+        if (!run) return;
+        const points = flowtime === undefined ? run.points : [...run.points, [seconds, flowtime]];
+        this.#keep({ ...run, points, bound: bound ?? run.bound, message: message ?? run.message });
       },
       plan: ({ figures }) => {
         const run = this.find(number);
