@@ -19,7 +19,7 @@ const LEGENDS = `<div class="legends">
 <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
 <div id="hover" class="hover" aria-live="off" hidden></div>`;
 
-/** Events: `show` when another map is drawn, `choice`, `overlay` to paint above the map (with `context` and `view`). */
+/** Events: `show` when another map is drawn, `choice`, `underlay` and `overlay` to paint below and above the map (with `context`). */
 export class Stage extends Observable {
   /** All that is in `holder`, `below` and `time` is of the stage. */
   constructor({ holder, below, time, card }) {
@@ -87,9 +87,10 @@ export class Stage extends Observable {
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-roledescription", texts.mapRole);
     canvas.setAttribute("aria-describedby", "hover");
+    this.under = Object.assign(document.createElement("canvas"), { ariaHidden: "true" });
     this.over = Object.assign(document.createElement("canvas"), { className: "over", ariaHidden: "true" });
     this.holder.innerHTML = LEGENDS;
-    this.holder.prepend(canvas, this.over);
+    this.holder.prepend(this.under, canvas, this.over);
     if (hadFocus) canvas.focus();
     return canvas;
   }
@@ -115,24 +116,25 @@ export class Stage extends Observable {
     this.last = clock.playing ? now : 0;
     if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
+    this.#paintOn(this.under, "underlay");
     view.paint();
-    this.#paintOver();
+    this.#paintOn(this.over, "overlay");
     this.player?.paint();
     this.frames++;
     if (clock.playing) this.ask();
   }
 
-  /** What is being drawn, in units of the drawing. */
-  #paintOver() {
-    const { over, view } = this;
-    const { ratio } = fitCanvas(over);
-    const context = over.getContext("2d");
+  /** What others paint below or above the map, in units of the drawing. */
+  #paintOn(canvas, event) {
+    const { view } = this;
+    const { ratio } = fitCanvas(canvas);
+    const context = canvas.getContext("2d");
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, over.width, over.height);
+    context.clearRect(0, 0, canvas.width, canvas.height);
     const { left, top, scale } = view.viewport;
     context.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * left, ratio * top);
     this.context = context;
-    this.tell("overlay");
+    this.tell(event);
   }
 }
 

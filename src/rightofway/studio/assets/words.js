@@ -15,6 +15,7 @@ const TEXTS = {
     inFolder: (name) => `In the folder ${name}`, draftsTitle: "Drawn and not saved",
     kinds: { document: "", workbook: "workbook", layout: "layout", scenario: "robots" },
     tools: {
+      pick: ["Pick", "Press a place on the picture."],
       select: ["Select and move", "Press to select, drag to move, drag from an empty place for a box; Shift selects more."],
       line: ["Wall", "Drag from one end of the wall to the other."],
       brush: ["Brush", "Drag over the cells that are blocked."],
@@ -27,6 +28,8 @@ const TEXTS = {
       robot: ["Place robots", "Press the home of a robot, then the place where it works."],
     },
     nextRobots: "Next: place robots", nextPlan: "Next: plan and watch",
+    backdrop: "Picture below the map", choosePicture: "Choose a picture to draw over", setScale: "Scale by two places", setOrigin: "Set the origin", removePicture: "Take it away", distance: "Their distance", apply: "Apply",
+    pickPoint: (count) => (count > 0 ? `Press ${counted(count, "more place")} on the picture.` : "Now give their distance."),
     noVertexHere: "No robot can stand there.", homeTaken: "Another robot has its home there.", pressStop: "Now press the place where it works; with Shift there are more.",
     pressMore: "Press the next place; without Shift it is the last.", pressHome: "Press the home of the next robot.", pressLane: "Press the next vertex, or the same one to end.",
     robotsElsewhere: "The robots are in another file.", writeHere: "Write them here",
@@ -76,6 +79,7 @@ const TEXTS = {
     inFolder: (name) => `Im Ordner ${name}`, draftsTitle: "Gezeichnet und nicht gesichert",
     kinds: { document: "", workbook: "Arbeitsmappe", layout: "Layout", scenario: "Roboter" },
     tools: {
+      pick: ["Ort", "Einen Ort auf dem Bild drücken."],
       select: ["Auswählen und schieben", "Drücken wählt aus, Ziehen schiebt, Ziehen von einer leeren Stelle wählt im Rahmen; Umschalt wählt mehr."],
       line: ["Wand", "Von einem Ende der Wand zum anderen ziehen."],
       brush: ["Pinsel", "Über die Zellen ziehen, die gesperrt sind."],
@@ -88,6 +92,8 @@ const TEXTS = {
       robot: ["Roboter setzen", "Den Heimatplatz drücken, dann den Platz, wo der Roboter arbeitet."],
     },
     nextRobots: "Weiter: Roboter setzen", nextPlan: "Weiter: planen und zusehen",
+    backdrop: "Bild unter der Karte", choosePicture: "Ein Bild zum Nachzeichnen wählen", setScale: "Maßstab aus zwei Orten", setOrigin: "Ursprung setzen", removePicture: "Wegnehmen", distance: "Ihr Abstand", apply: "Anwenden",
+    pickPoint: (count) => (count > 0 ? `Noch ${count} auf dem Bild drücken.` : "Jetzt ihren Abstand angeben."),
     noVertexHere: "Dort kann kein Roboter stehen.", homeTaken: "Dort ist ein anderer Roboter zu Hause.", pressStop: "Jetzt den Platz drücken, wo er arbeitet; mit Umschalt mehrere.",
     pressMore: "Den nächsten Platz drücken; ohne Umschalt ist es der letzte.", pressHome: "Den Heimatplatz des nächsten Roboters drücken.", pressLane: "Den nächsten Knoten drücken, oder denselben zum Beenden.",
     robotsElsewhere: "Die Roboter stehen in einer anderen Datei.", writeHere: "Hier aufschreiben",
