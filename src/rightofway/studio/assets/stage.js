@@ -43,7 +43,12 @@ export class Stage extends Observable {
    * map and a plan, which has less room, the view stays only where somebody has chosen it.
    */
   show(raw, { keeps = false } = {}) {
+<<<<<<< HEAD
     const { clock: before, view: old, isPlan: wasPlan } = this;
+=======
+    const { clock: before, view: old } = this;
+    const chosen = this.choice?.robot?.name;
+>>>>>>> uiruns
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
@@ -70,6 +75,7 @@ export class Stage extends Observable {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
     }
+    if (keeps && chosen !== undefined) choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
     this.tell("show");
     this.repaint();
   }

@@ -29,8 +29,9 @@ export function Comparison({ studio }) {
       <table>
         <thead><tr><td></td>${both.map((run) => html`<th scope="col">${run.number} ${titleOf(run)}</th>`)}</tr></thead>
         <tbody>
-          ${["flowtime", "makespan", "lower_bound"].map((key) => html`<tr><th scope="row">${words[key === "lower_bound" ? "bound" : key]}</th>
-            <td>${before.text[key]}</td><td class=${way(after[key] - before[key])}>${after.text[key]}</td></tr>`)}
+          ${["flowtime", "makespan"].map((key) => html`<tr><th scope="row">${words[key]}</th>
+            <td>${before.text[key]}</td><td class=${way(after.time[key] - before.time[key])}>${after.text[key]}</td></tr>`)}
+          <tr><th scope="row">${words.bound}</th><td>${before.text.lower_bound}</td><td>${after.text.lower_bound}</td></tr>
           <tr><th scope="row">${words.gap}</th><td>${before.text.gap}</td><td>${after.text.gap}</td></tr>
         </tbody>
       </table>

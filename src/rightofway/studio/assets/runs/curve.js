@@ -14,14 +14,14 @@ export function Curve({ run }) {
   const limit = run.request?.time_limit ?? 1;
   return html`
     <figure class="curve" data-state=${run.state}>
-      <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.curve} preserveAspectRatio="none">
+      ${(points.length > 0 || !isOver(run)) && html`<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.curve} preserveAspectRatio="none">
         ${bound !== undefined && html`<path class="bound" d="M0 ${HEIGHT - 2}H${WIDTH}" />`}
         ${bound !== undefined && points.length > 0 && html`<path class="reached" d=${steps(points, bound, seconds)} />`}
       </svg>
-      <progress aria-label=${words.timeUsed} max=${limit} value=${isOver(run) ? limit : Math.min(seconds, limit)}></progress>
+      <progress aria-label=${words.timeUsed} max=${limit} value=${isOver(run) ? limit : Math.min(seconds, limit)}></progress>`}
       <figcaption>
         ${!isOver(run) && html`<span role="status">${words.states[run.state]}</span>${run.state === "running" && ` ${seconds.toFixed(1)} s`} `}
-        ${figures && html`${words.flowtime} <b>${figures.text.flowtime}</b>, ${words.bound} ${figures.text.lower_bound}${figures.text.gap && ` (+${figures.text.gap})`}`}
+        ${figures && html`${words.flowtime} <b>${figures.text.flowtime}</b>, ${words.bound} ${figures.text.lower_bound}${figures.flowtime > bound && ` (+${figures.text.gap})`}`}
         ${isOver(run) && run.status && html` <span class="hint">${run.status}</span>`}
       </figcaption>
     </figure>`;

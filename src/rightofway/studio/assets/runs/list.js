@@ -36,8 +36,8 @@ function Row({ studio, run }) {
       <td class="title"><input value=${run.name} placeholder=${titleOf(run)} maxlength="200" spellcheck="false" aria-label=${`${words.runName} ${number}`}
           onChange=${({ target }) => studio.attempt(() => runs.rename(number, target.value.trim()))} />
         <small>${[method, words.states[run.state]].filter(Boolean).join(", ")}</small></td>
-      <td>${figures?.text.flowtime}</td><td>${figures?.text.gap}</td><td>${took}</td>
-      <td class="actions">
+      <td>${figures?.text.flowtime}</td><td class="short">${figures?.text.gap}</td><td class="short">${took}</td>
+      <td class="do">
         ${run.has_plan && runs.run?.has_plan && !isShown && html`<button type="button" class="quiet" aria-pressed=${String(runs.beside === number)} aria-label=${named(words.compare)} title=${words.compare}
           onClick=${() => studio.attempt(() => runs.compare(runs.beside === number ? null : number))}>⇄</button>`}
         ${isOver(run) && html`<button type="button" class="quiet" aria-label=${named(words.remove)} title=${words.remove} onClick=${() => studio.attempt(() => runs.forget(number))}>✕</button>`}</td>

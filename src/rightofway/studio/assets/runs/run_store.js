@@ -6,6 +6,7 @@ import { get, listen, post, remove, request } from "../api.js";
 export const isOver = (run) => !["queued", "running"].includes(run.state);
 export const canBeShown = (run) => run.has_plan || run.has_payload;
 
+const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
 const NOTHING_SHOWN = { shown: null, payload: null, losses: null, report: null, command: "", beside: null, comparison: null };
 
@@ -100,7 +101,7 @@ export class RunStore extends Observable {
     if (!run || !isOver(run)) return;
     const [losses, report, command] = await Promise.all([
       run.has_plan ? get(`/runs/${number}/losses`) : { losses: [] }, run.has_report ? get(`/runs/${number}/report`) : null,
-      get(`/runs/${number}/command`).catch(() => ({ command: "" })), // some runs are not made by a command
+      NO_COMMAND.includes(run.kind) ? { command: "" } : get(`/runs/${number}/command`),
     ]);
     if (this.shown !== number) return;
     Object.assign(this, { ...losses, report, ...command });
