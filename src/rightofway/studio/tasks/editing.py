@@ -28,7 +28,9 @@ Result = tuple[Any, ...]
 ROBOT = re.compile(r"robots\[(\d+)\]")
 
 
-def surveyed(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str) -> Result:
+def surveyed(
+    _emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: str, inspects: bool = True
+) -> Result:
     """Return faults, notes, the map with all robots that have no fault, and what will hurt on it.
 
     A robot of the site has the `index` that it has in the document. The site is null where the map
@@ -57,13 +59,14 @@ def surveyed(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], folder: st
         "sentences": [],
     }
     if site is not None:
-        found = inspect(site)
         drawn = site_data(site)
         colours = robot_colours(1 + max(kept, default=0))
         for robot, index in zip(drawn["robots"], kept, strict=False):
             robot |= {"index": index, "colour": colours[index]}
+        answer["site"] = {**drawn, "closures": closures}
+    if site is not None and inspects:
+        found = inspect(site)
         answer |= {
-            "site": {**drawn, "closures": closures},
             "findings": [{**asdict(each), "sentence": str(each)} for each in found.findings],
             "sentences": list(sentences(site, found)),
         }
