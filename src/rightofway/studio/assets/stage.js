@@ -43,12 +43,8 @@ export class Stage extends Observable {
    * map and a plan, which has less room, the view stays only where somebody has chosen it.
    */
   show(raw, { keeps = false } = {}) {
-<<<<<<< HEAD
     const { clock: before, view: old, isPlan: wasPlan } = this;
-=======
-    const { clock: before, view: old } = this;
     const chosen = this.choice?.robot?.name;
->>>>>>> uiruns
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
     const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
