@@ -176,9 +176,10 @@ def _retime(task: Task, search: FleetSearch) -> None:
 
     LNS replaces tracks, not waits.
     """
-    if task.scenario.problem.closures is None:
+    problem = task.scenario.problem
+    if problem.closures is None:
         search.retime()
-    else:
+    elif problem.resources is None or problem.resources.is_exact:
         graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))
         search.start(graph.tracks())
 
