@@ -44,6 +44,10 @@ rule : int
     (1), or (2) the one that would lose more by waiting.
 loss : int64[R]
     The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
+vertex_row, edge_row : int32[N] or None
+    Where robots have sizes: the rows of each place's vertex and of the edge driven out of it.
+first, excluded : int32[M + 1], int32[K], or None
+    A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``.
 
 Raises
 ------
@@ -65,13 +69,24 @@ constexpr auto deadlock_doc =
     R"(Return the conflict that cannot be resolved: the two robots, the vertex, the tick, and the robots
 that would each wait for the next, int32[K].)";
 
+using Rows = std::optional<ArrayIn<std::int32_t>>;
+
 void init(CyclicSimulator* self, const ArrayIn<std::int32_t>& first_place,
           const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& least,
           const ArrayIn<Tick>& approach, const ArrayIn<Tick>& first_least, Tick headway,
           RobotId pacemaker, Tick lag, Tick most_lag, Tick patience, Tick reach,
-          std::int32_t memory, std::int32_t rule, const ArrayIn<std::int64_t>& loss) {
-    const LapArrays laps{view(first_place), view(vertex),      view(least),
-                         view(approach),    view(first_least), headway};
+          std::int32_t memory, std::int32_t rule, const ArrayIn<std::int64_t>& loss,
+          const Rows& vertex_row, const Rows& edge_row, const Rows& first, const Rows& excluded) {
+    const LapArrays laps{view(first_place),
+                         view(vertex),
+                         view(least),
+                         view(approach),
+                         view(first_least),
+                         headway,
+                         view_or_empty(vertex_row),
+                         view_or_empty(edge_row),
+                         view_or_empty(first),
+                         view_or_empty(excluded)};
     const Horizon horizon{pacemaker, lag, most_lag, patience, reach, memory};
     require_id("rule", rule, n_cyclic_rules);
     std::vector<std::int64_t> losses(loss.data(), loss.data() + loss.size());
@@ -118,7 +133,9 @@ void bind_simulator(nb::module_& module) {
         .def("__init__", &init, array("first_place"), array("vertex"), array("least"),
              array("approach"), array("first_least"), nb::kw_only(), nb::arg("headway"),
              nb::arg("pacemaker"), nb::arg("lag"), nb::arg("most_lag"), nb::arg("patience"),
-             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), array("loss"))
+             nb::arg("reach"), nb::arg("memory"), nb::arg("rule"), array("loss"),
+             array("vertex_row").none() = nb::none(), array("edge_row").none() = nb::none(),
+             array("first").none() = nb::none(), array("excluded").none() = nb::none())
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)
         .def("reset_states", &CyclicSimulator::reset_states,
              "Forget the states seen, to advance beyond one that has recurred.")

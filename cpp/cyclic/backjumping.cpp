@@ -2,9 +2,69 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <tuple>
 #include <utility>
 
 namespace rightofway {
+namespace {
+
+enum class Recurrence { none, in_place, head_on };
+
+// How pairs of a segment come again whole laps apart: later for one robot and earlier for the
+// other (head_on: endless), or for one robot only, which can go on for ever (in_place).
+Recurrence recurrence(const std::vector<IncompatiblePair>& linked, std::int32_t i_length,
+                      std::int32_t j_length) {
+    using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+    std::vector<Key> in_order;
+    for (const IncompatiblePair& pair : linked) {
+        in_order.emplace_back(pair.i.number % i_length, pair.j.number % j_length, pair.i.number,
+                              pair.j.number);
+    }
+    std::sort(in_order.begin(), in_order.end());
+    Recurrence found = Recurrence::none;
+    std::int32_t latest = -1;  // visit of j with an earlier visit of i
+    for (std::size_t k = 0, end = 0; k < in_order.size(); k = end) {
+        const auto [i_place, j_place, i, first] = in_order[k];
+        if (k == 0 || std::tie(i_place, j_place) !=
+                          std::tie(std::get<0>(in_order[k - 1]), std::get<1>(in_order[k - 1]))) {
+            latest = -1;
+        }
+        bool is_again = false;
+        std::int32_t last = first;
+        for (end = k; end < in_order.size() && std::get<0>(in_order[end]) == i_place &&
+                      std::get<1>(in_order[end]) == j_place && std::get<2>(in_order[end]) == i;
+             ++end) {
+            last = std::get<3>(in_order[end]);
+            is_again = is_again || last == latest;
+        }
+        if (first < latest) {
+            return Recurrence::head_on;
+        }
+        if (end - k > 1 || is_again) {
+            found = Recurrence::in_place;
+        }
+        latest = std::max(latest, last);
+    }
+    return found;
+}
+
+// Of (start, end before it), those with an end that no earlier start waits for.
+using Waits = std::vector<std::pair<CyclicVisit, CyclicVisit>>;
+std::vector<CyclicRight> implying(Waits waits) {
+    std::sort(waits.begin(), waits.end(), [](const auto& left, const auto& right) {
+        return left.first != right.first ? left.first < right.first : left.second > right.second;
+    });
+    std::vector<CyclicRight> rights;
+    for (const auto& [start, end] : waits) {
+        if (rights.empty() || end > rights.back().first) {
+            rights.push_back({end, start});
+        }
+    }
+    return rights;
+}
+
+}  // namespace
 
 Backjumping::Backjumping(const CyclicRoutes& routes, RollingTimetable& timetable,
                          ConflictSweep& conflicts, CyclicRule rule,
@@ -19,23 +79,16 @@ Backjumping::Outcome Backjumping::resolve(const Conflict& conflict) {
     }
     conflict_visit_ = i;
     waiting_cycle_.clear();
-    const Segment segment = segment_of(i, j);
-    const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
-                             segment.j_last.number == timetable_.end(j.robot) - 1;
-    if (segment.kind == Segment::Kind::head_on && reaches_end) {
-        // Periodic routes that agree for the length of both laps together agree endlessly.
-        // N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
-        const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
-        if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
-            return Outcome::window_too_short;
-        }
-        waiting_cycle_ = {i.robot, j.robot};
-        return Outcome::deadlock;
+    Outcome outcome = Outcome::resolved;
+    const auto found =
+        routes_.has_sizes() ? choice_with_sizes(i, j, outcome) : choice(i, j, outcome);
+    if (!found) {
+        return outcome;
     }
-    const bool waits = i_waits(segment);
+    const bool waits = i_waits(*found);
     culprits_.clear();
     for (const bool is_turned : {false, true}) {
-        if (decide({rights_if(segment, waits != is_turned), rights_if(segment, waits == is_turned)},
+        if (decide({found->rights_if(waits != is_turned), found->rights_if(waits == is_turned)},
                    is_turned)) {
             return Outcome::resolved;
         }
@@ -62,6 +115,110 @@ Backjumping::Outcome Backjumping::backjump() {
     }
     is_backjumping_ = true;
     return Outcome::backjumping;
+}
+
+std::optional<Backjumping::Choice> Backjumping::choice(CyclicVisit i, CyclicVisit j,
+                                                       Outcome& outcome) {
+    const Segment segment = segment_of(i, j);
+    const bool reaches_end = segment.i_last.number == timetable_.end(i.robot) - 1 ||
+                             segment.j_last.number == timetable_.end(j.robot) - 1;
+    if (segment.kind == Segment::Kind::head_on && reaches_end) {
+        // Periodic routes that agree for the length of both laps together agree endlessly.
+        // N. J. Fine and H. S. Wilf, Uniqueness theorems for periodic functions, 1965.
+        const std::int32_t length = segment.i_last.number - segment.i_first.number + 1;
+        if (length < routes_.length(i.robot) + routes_.length(j.robot)) {
+            outcome = Outcome::window_too_short;
+            return std::nullopt;
+        }
+        waiting_cycle_ = {i.robot, j.robot};
+        outcome = Outcome::deadlock;
+        return std::nullopt;
+    }
+    return Choice{segment.i_first, segment.j_first, rights_if(segment, true),
+                  rights_if(segment, false)};
+}
+
+std::optional<Backjumping::Choice> Backjumping::choice_with_sizes(CyclicVisit i, CyclicVisit j,
+                                                                  Outcome& outcome) {
+    const LinkedVisits linked = linked_to(i, j);
+    Choice choice{linked.front().i_starts, linked.front().j_starts, {}, {}};
+    CyclicVisit i_last = i;
+    CyclicVisit j_last = j;
+    Waits of_i;
+    Waits of_j;
+    std::int64_t products = 0;
+    std::int64_t sum_i = 0;
+    std::int64_t sum_j = 0;
+    for (const IncompatiblePair& pair : linked) {
+        choice.i_first = std::min(choice.i_first, pair.i_starts);
+        choice.j_first = std::min(choice.j_first, pair.j_starts);
+        i_last = std::max(i_last, pair.i);
+        j_last = std::max(j_last, pair.j_starts);
+        of_i.emplace_back(pair.i_starts, pair.j);
+        of_j.emplace_back(pair.j_starts, pair.i);
+        const std::int64_t a = pair.i.number - i.number;
+        const std::int64_t b = pair.j.number - j.number;
+        products += a * b;
+        sum_i += a;
+        sum_j += b;
+    }
+    // Head-on: visits of i meet earlier visits of j, the later they are.
+    const bool is_head_on = static_cast<std::int64_t>(linked.size()) * products - sum_i * sum_j < 0;
+    const bool reaches_end = i_last.number >= timetable_.end(i.robot) - 1 ||
+                             j_last.number >= timetable_.end(j.robot) - 1;
+    if (is_head_on && reaches_end) {
+        switch (recurrence(linked, routes_.length(i.robot), routes_.length(j.robot))) {
+            case Recurrence::none:
+                outcome = Outcome::window_too_short;
+                return std::nullopt;
+            case Recurrence::head_on:
+                waiting_cycle_ = {i.robot, j.robot};
+                outcome = Outcome::deadlock;
+                return std::nullopt;
+            case Recurrence::in_place:
+                break;
+        }
+    }
+    choice.if_i_waits = implying(std::move(of_i));
+    choice.if_j_waits = implying(std::move(of_j));
+    return choice;
+}
+
+// All pairs linked to a pair of incompatible visits, directly or through others. Two pairs are
+// linked if the robots would wait for each other for ever if not one of them went first in both.
+Backjumping::LinkedVisits Backjumping::linked_to(CyclicVisit i, CyclicVisit j) const {
+    const auto pair_of = [&](CyclicVisit one, CyclicVisit other) {
+        const bool i_leaves = one.number + 1 < timetable_.end(i.robot);
+        const bool j_leaves = other.number + 1 < timetable_.end(j.robot);
+        return routes_.incompatible(one, i_leaves, other, j_leaves);
+    };
+    const auto is_linked = [](const IncompatiblePair& one, const IncompatiblePair& other) {
+        return one.j_starts.number <= other.j.number + 1 &&
+               other.i_starts.number <= one.i.number + 1 &&
+               one.i_starts.number <= other.i.number + 1 &&
+               other.j_starts.number <= one.j.number + 1;
+    };
+    LinkedVisits linked{*pair_of(i, j)};
+    std::set<std::pair<std::int32_t, std::int32_t>> known{{i.number, j.number}};
+    for (std::size_t k = 0; k < linked.size(); ++k) {
+        const IncompatiblePair here = linked[k];
+        for (std::int32_t di = -1; di <= 1; ++di) {
+            for (std::int32_t dj = -1; dj <= 1; ++dj) {
+                const CyclicVisit one{i.robot, here.i.number + di};
+                const CyclicVisit other{j.robot, here.j.number + dj};
+                if (!timetable_.is_in_window(one) || !timetable_.is_in_window(other) ||
+                    known.contains({one.number, other.number})) {
+                    continue;
+                }
+                const auto near = pair_of(one, other);
+                if (near && is_linked(here, *near)) {
+                    known.insert({one.number, other.number});
+                    linked.push_back(*near);
+                }
+            }
+        }
+    }
+    return linked;
 }
 
 // The longest run of vertices around two visits that the robots visit in reverse order, or else in
@@ -92,23 +249,23 @@ Backjumping::Segment Backjumping::segment_of(CyclicVisit i, CyclicVisit j) const
 }
 
 // On a tie, the robot that enters the segment first goes first; on a second tie, i.
-bool Backjumping::i_waits(const Segment& segment) const {
+bool Backjumping::i_waits(const Choice& choice) const {
     if (rule_ == CyclicRule::fixed_order) {
         return false;
     }
     if (rule_ == CyclicRule::least_loss) {
-        const std::int64_t of_i = loss_if(segment, true);
-        const std::int64_t of_j = loss_if(segment, false);
+        const std::int64_t of_i = loss_if(choice, true);
+        const std::int64_t of_j = loss_if(choice, false);
         if (of_i != of_j) {
             return of_i < of_j;
         }
     }
-    return enter_in_window(segment.j_first) < enter_in_window(segment.i_first);
+    return enter_in_window(choice.j_first) < enter_in_window(choice.i_first);
 }
 
 // The largest delay of the waiting robot at a vertex of the segment, times its cost per tick.
-std::int64_t Backjumping::loss_if(const Segment& segment, bool i_waits) const {
-    const auto rights = rights_if(segment, i_waits);
+std::int64_t Backjumping::loss_if(const Choice& choice, bool i_waits) const {
+    const auto& rights = choice.rights_if(i_waits);
     Tick delay = 0;
     for (const auto& [first, second] : rights) {
         const Tick free = timetable_.enter(first.next()) + routes_.gap_before(second);

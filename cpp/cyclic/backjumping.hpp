@@ -5,13 +5,15 @@
 // Intelligence 9, 1993.
 //
 // One decision resolves one conflict, for a whole segment: the longest run of vertices that two
-// robots visit in reverse or in the same order. If neither robot can wait, the decisions with
+// robots visit in reverse or in the same order, or for robots with sizes a largest set of linked
+// pairs of visits. If neither robot can wait, the decisions with
 // rights of way on the closed cycles are the *culprits*. All decisions from the latest unturned
 // culprit on are undone, and this culprit is turned: the other robot gets the rights of way. If the
 // turned decision fails, too, its culprits are added to the set.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -89,9 +91,28 @@ class Backjumping {
         CyclicVisit j_last;
     };
 
+    // A largest set of linked pairs of visits of two robots with sizes: one robot goes first in all
+    // of them (docs/decisions/0010-space.md).
+    using LinkedVisits = std::vector<IncompatiblePair>;
+    // The two ways to decide a segment, and the first visit of each robot that may start later.
+    struct Choice {
+        CyclicVisit i_first;
+        CyclicVisit j_first;
+        std::vector<CyclicRight> if_i_waits;
+        std::vector<CyclicRight> if_j_waits;
+
+        const std::vector<CyclicRight>& rights_if(bool i_waits) const {
+            return i_waits ? if_i_waits : if_j_waits;
+        }
+    };
+
+    // No value: the segment of a conflict has to be longer, or is endless (`outcome`).
+    std::optional<Choice> choice(CyclicVisit i, CyclicVisit j, Outcome& outcome);
+    std::optional<Choice> choice_with_sizes(CyclicVisit i, CyclicVisit j, Outcome& outcome);
     Segment segment_of(CyclicVisit i, CyclicVisit j) const;
-    bool i_waits(const Segment& segment) const;
-    std::int64_t loss_if(const Segment& segment, bool i_waits) const;
+    LinkedVisits linked_to(CyclicVisit i, CyclicVisit j) const;
+    bool i_waits(const Choice& choice) const;
+    std::int64_t loss_if(const Choice& choice, bool i_waits) const;
     Tick enter_in_window(CyclicVisit visit) const;
     static std::vector<CyclicRight> rights_if(const Segment& segment, bool i_waits);
     bool decide(SegmentOrder&& order, bool is_turned);

@@ -9,7 +9,7 @@
 namespace rightofway {
 
 ConflictSweep::ConflictSweep(const CyclicRoutes& routes, const RollingTimetable& timetable)
-    : routes_(routes), timetable_(timetable), at_(routes.n_vertices()), sweeps_(routes.n_robots()) {
+    : routes_(routes), timetable_(timetable), at_(routes.n_lists()), sweeps_(routes.n_robots()) {
     restart();
 }
 
@@ -27,7 +27,13 @@ void ConflictSweep::restart() {
 
 void ConflictSweep::end_changed(RobotId robot, std::int32_t old_end) {
     const std::int32_t swept = sweeps_[robot].number;
-    if (timetable_.end(robot) < swept) {
+    if (routes_.has_sizes()) {
+        // The last visit in the window is swept without the edge driven out of it.
+        const std::int32_t last = std::min(old_end, timetable_.end(robot)) - 1;
+        if (swept > last) {
+            unsweep(robot, std::max(last, timetable_.start(robot)));
+        }
+    } else if (timetable_.end(robot) < swept) {
         unsweep(robot, timetable_.end(robot));
     } else if (swept == old_end || swept == timetable_.end(robot)) {
         find_next(robot);
@@ -47,6 +53,11 @@ void ConflictSweep::unsweep(RobotId robot, std::int32_t from) {
     std::int32_t& swept = sweeps_[robot].number;
     for (; swept > from; --swept) {
         const CyclicVisit visit{robot, swept - 1};
+        if (routes_.has_sizes()) {
+            take_out(routes_.vertex_row(visit), visit);
+            take_out(routes_.edge_row(visit), visit);
+            continue;
+        }
         auto& booked = at_[routes_.vertex(visit)].booked;
         const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
         booked.erase(std::find_if(booked.rbegin(), booked.rend(), is_it).base() - 1);
@@ -89,11 +100,39 @@ Booking ConflictSweep::booking(CyclicVisit visit) const {
             timetable_.enter(visit.next()) + routes_.headway()};
 }
 
+Booking ConflictSweep::booking(CyclicVisit visit, CyclicVisit starts) const {
+    return {timetable_.enter(starts) - routes_.approach(starts),
+            timetable_.enter(visit.next()) + routes_.headway()};
+}
+
+bool ConflictSweep::leaves(CyclicVisit visit) const {
+    return visit.number + 1 < timetable_.end(visit.robot);
+}
+
+// The conflict of two visits of different robots with sizes, if any.
+std::optional<Conflict> ConflictSweep::conflict(CyclicVisit one, CyclicVisit other) const {
+    const auto [a, b] = std::minmax(one, other);
+    const auto found = routes_.incompatible(a, leaves(a), b, leaves(b));
+    if (!found) {
+        return std::nullopt;
+    }
+    const Booking left = booking(a, found->i_starts);
+    const Booking right = booking(b, found->j_starts);
+    if (overlap(left, right) <= 0) {
+        return std::nullopt;
+    }
+    const Tick tick = std::max(left.start, right.start);
+    return Conflict{tick, a.robot, b.robot, a.number, b.number, ConflictKind::vertex};
+}
+
 bool ConflictSweep::holds(const Conflict& conflict) const {
     const CyclicVisit a{conflict.robot_a, conflict.visit_a};
     const CyclicVisit b{conflict.robot_b, conflict.visit_b};
     if (!timetable_.is_in_window(a) || !timetable_.is_in_window(b)) {
         return false;
+    }
+    if (routes_.has_sizes()) {
+        return this->conflict(a, b) == conflict;
     }
     if (conflict.kind == ConflictKind::swap) {
         return timetable_.enter(a) == conflict.tick && timetable_.enter(b) == conflict.tick;
@@ -120,7 +159,7 @@ std::optional<Conflict> ConflictSweep::next(Tick limit) {
         const auto& [start, visit] = upcoming_.front();
         const Sweep& own = sweeps_[visit.robot];
         if (start < never && start == own.start && visit.number == own.number) {
-            sweep(visit.robot);
+            routes_.has_sizes() ? sweep_with_sizes(visit.robot) : sweep(visit.robot);
         } else {
             std::pop_heap(upcoming_.begin(), upcoming_.end(), std::greater<>());
             upcoming_.pop_back();
@@ -151,13 +190,77 @@ void ConflictSweep::sweep(RobotId robot) {
         after = booking.start > own.booking.start ? k : after;
     }
     booked.insert(booked.begin() + static_cast<std::ptrdiff_t>(after), own);
+    advance(robot, leave);
+    prefetch_next(robot);
+}
+
+void ConflictSweep::take_out(std::int32_t list, CyclicVisit visit) {
+    auto& booked = at_[list].booked;
+    const auto is_it = [visit](const Booked& one) { return one.visit == visit; };
+    const auto found = std::find_if(booked.rbegin(), booked.rend(), is_it);
+    if (found != booked.rend()) {  // no edge led out of the last visit in the window
+        booked.erase(found.base() - 1);
+    }
+}
+
+void ConflictSweep::put_in(std::int32_t list, const Booked& own) {
+    Place& place = at_[list];
+    place.longest = std::max(place.longest, own.booking.end - own.booking.start);
+    if (place.booked.size() == place.booked.capacity()) {
+        drop_past(place.booked);
+    }
+    const auto starts_later = [](const Booking& booking, const Booked& one) {
+        return booking.start < one.booking.start;
+    };
+    place.booked.insert(
+        std::upper_bound(place.booked.begin(), place.booked.end(), own.booking, starts_later), own);
+}
+
+// Sweeps the visit at the top of the heap, from its start on as a whole: a conflict begins at or
+// after the later start of its two visits.
+void ConflictSweep::sweep_with_sizes(RobotId robot) {
+    const Sweep& sweep = sweeps_[robot];
+    const CyclicVisit visit{robot, sweep.number};
+    const Tick leave = timetable_.enter(visit.next());
+    const Booked own{visit, {sweep.start, leave + routes_.headway()}};
+    const auto meet = [&](std::int32_t row) {
+        for (const std::int32_t list : routes_.excluded(row)) {
+            const Place& place = at_[list];
+            for (std::size_t k = place.booked.size(); k-- > 0;) {
+                const Booked& other = place.booked[k];
+                if (other.booking.start + place.longest < own.booking.start) {
+                    break;
+                }
+                const bool is_near =
+                    other.booking.start < own.booking.end && other.booking.end > own.booking.start;
+                if (!is_near || other.visit.robot == robot) {
+                    continue;
+                }
+                if (const auto found = conflict(visit, other.visit)) {
+                    conflicts_.push_back(*found);
+                    std::push_heap(conflicts_.begin(), conflicts_.end(), std::greater<>());
+                }
+            }
+        }
+    };
+    meet(routes_.vertex_row(visit));
+    put_in(routes_.vertex_row(visit), own);
+    if (leaves(visit)) {
+        meet(routes_.edge_row(visit));
+        put_in(routes_.edge_row(visit), own);
+    }
+    advance(robot, leave);
+}
+
+// Goes on to the robot's next visit.
+void ConflictSweep::advance(RobotId robot, Tick leave) {
+    Sweep& sweep = sweeps_[robot];
     ++sweep.number;
     sweep.place = sweep.place + 1 == routes_.length(robot) ? 0 : sweep.place + 1;
     sweep.start = sweep.number < timetable_.end(robot)
                       ? leave - routes_.approach_at(robot, sweep.place)
                       : never;
     replace_first_upcoming(robot);
-    prefetch_next(robot);
 }
 
 // Visits are scattered in memory. Other robots are swept before the robot's next visit; meanwhile,

@@ -2,8 +2,10 @@
 //
 // Visits are swept by the start of their bookings, up to a tick, into one list per vertex. A swept
 // visit is compared with the visits in the list; their conflicts stay in a heap until all earlier
-// bookings are swept. If times change, the robot's visits are removed from the first changed visit
-// on and swept again: a conflict is found as soon as both its visits are swept. An outdated
+// bookings are swept. Where robots have sizes, there is a list for each row; a visit stands in
+// those of its vertex and of the edge driven out of it, and is compared with visits in all lists
+// that these two exclude. If times change, the robot's visits are removed from the first changed
+// visit on and swept again: a conflict is found as soon as both its visits are swept. An outdated
 // conflict is dropped at the top of the heap. (ConflictIndex, for finite routes, weighs conflicts
 // without an order.)
 #pragma once
@@ -57,10 +59,17 @@ class ConflictSweep {
     };
 
     Booking booking(CyclicVisit visit) const;
+    Booking booking(CyclicVisit visit, CyclicVisit starts) const;
+    std::optional<Conflict> conflict(CyclicVisit one, CyclicVisit other) const;
+    bool leaves(CyclicVisit visit) const;
     bool holds(const Conflict& conflict) const;
     void find_next(RobotId robot);
     void unsweep(RobotId robot, std::int32_t from);
     void sweep(RobotId robot);
+    void sweep_with_sizes(RobotId robot);
+    void take_out(std::int32_t list, CyclicVisit visit);
+    void put_in(std::int32_t list, const Booked& own);
+    void advance(RobotId robot, Tick leave);
     void replace_first_upcoming(RobotId robot);
     void prefetch_next(RobotId robot) const;
     void drop_past(std::vector<Booked>& booked) const;
@@ -69,7 +78,7 @@ class ConflictSweep {
 
     const CyclicRoutes& routes_;
     const RollingTimetable& timetable_;
-    std::vector<Place> at_;            // per vertex
+    std::vector<Place> at_;            // per vertex, or per row
     std::vector<Sweep> sweeps_;        // per robot
     std::vector<Upcoming> upcoming_;   // a heap
     std::vector<Conflict> conflicts_;  // a heap

@@ -41,8 +41,15 @@ CyclicRoutes::CyclicRoutes(const LapArrays& arrays)
       least_(arrays.least.begin(), arrays.least.end()),
       approach_(arrays.approach.begin(), arrays.approach.end()),
       first_least_(arrays.first_least.begin(), arrays.first_least.end()),
-      headway_(arrays.headway) {
+      headway_(arrays.headway),
+      vertex_row_(arrays.vertex_row.begin(), arrays.vertex_row.end()),
+      edge_row_(arrays.edge_row.begin(), arrays.edge_row.end()),
+      first_(arrays.first.begin(), arrays.first.end()),
+      excluded_(arrays.excluded.begin(), arrays.excluded.end()) {
     check_lengths(arrays);
+    if (has_sizes()) {
+        check_rows();
+    }
     n_vertices_ = vertex_.empty() ? 0 : *std::max_element(vertex_.begin(), vertex_.end()) + 1;
     for (RobotId r = 0; r < n_robots(); ++r) {
         check(r);
@@ -76,6 +83,37 @@ void CyclicRoutes::check(RobotId robot) const {
             reject_entry("approach", index, approach_[k], "is negative, or too long");
         }
     }
+}
+
+void CyclicRoutes::check_rows() const {
+    require_length("vertex_row", vertex_row_.size(), vertex_.size());
+    require_length("edge_row", edge_row_.size(), vertex_.size());
+    require_length("excluded", excluded_.size(), static_cast<std::size_t>(first_.back()));
+    for (std::size_t k = 0; k < vertex_.size(); ++k) {
+        require_id("vertex_row[" + std::to_string(k) + "]", vertex_row_[k], n_lists());
+        require_id("edge_row[" + std::to_string(k) + "]", edge_row_[k], n_lists());
+    }
+    for (std::size_t k = 0; k < excluded_.size(); ++k) {
+        require_id("excluded[" + std::to_string(k) + "]", excluded_[k], n_lists());
+    }
+}
+
+bool CyclicRoutes::excludes(std::int32_t row, std::int32_t other) const {
+    const auto rows = excluded(row);
+    return std::binary_search(rows.begin(), rows.end(), other);
+}
+
+std::optional<IncompatiblePair> CyclicRoutes::incompatible(CyclicVisit i, bool i_leaves,
+                                                           CyclicVisit j, bool j_leaves) const {
+    const bool at_both = excludes(vertex_row(i), vertex_row(j));
+    const bool i_stays = j_leaves && excludes(vertex_row(i), edge_row(j));
+    const bool j_stays = i_leaves && excludes(edge_row(i), vertex_row(j));
+    const bool on_edges = i_leaves && j_leaves && excludes(edge_row(i), edge_row(j));
+    if (!at_both && !i_stays && !j_stays && !on_edges) {
+        return std::nullopt;
+    }
+    return IncompatiblePair{i, j, at_both || i_stays ? i : i.next(),
+                            at_both || j_stays ? j : j.next()};
 }
 
 Tick CyclicRoutes::unimpeded_enter(CyclicVisit visit) const {

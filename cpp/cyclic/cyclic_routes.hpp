@@ -6,6 +6,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,22 @@ struct LapArrays {
     std::span<const Tick> approach;     // n: ticks from the start of the booking to the enter
     std::span<const Tick> first_least;  // r: of visit 0
     Tick headway = 0;                   // ticks from the leave to the end of the booking
+    // Where robots have sizes: the rows of each place's vertex and of the edge driven out of it (n
+    // each), and the lists of excluded rows, see Resources in problem.hpp. Else empty.
+    std::span<const std::int32_t> vertex_row = {};
+    std::span<const std::int32_t> edge_row = {};
+    std::span<const std::int32_t> first = {};
+    std::span<const std::int32_t> excluded = {};
+};
+
+// Two incompatible visits of robots with sizes, and the visits whose starts are the earliest
+// incompatible ones: each is the visit itself, or the next one if only the edge driven out of the
+// visit takes part.
+struct IncompatiblePair {
+    CyclicVisit i;
+    CyclicVisit j;
+    CyclicVisit i_starts;
+    CyclicVisit j_starts;
 };
 
 class CyclicRoutes {
@@ -48,6 +65,22 @@ class CyclicRoutes {
         return first_place_[robot + 1] - first_place_[robot];
     }
     Tick headway() const { return headway_; }
+
+    bool has_sizes() const { return !first_.empty(); }
+    // Lists of bookings: one for each vertex, or for each row.
+    std::int32_t n_lists() const {
+        return has_sizes() ? static_cast<std::int32_t>(first_.size()) - 1 : n_vertices_;
+    }
+    // Only where robots have sizes.
+    std::int32_t vertex_row(CyclicVisit visit) const { return vertex_row_[place(visit)]; }
+    std::int32_t edge_row(CyclicVisit visit) const { return edge_row_[place(visit)]; }
+    std::span<const std::int32_t> excluded(std::int32_t row) const {
+        return std::span(excluded_).subspan(first_[row], first_[row + 1] - first_[row]);
+    }
+    // No value if the visits are compatible. `i_leaves`, `j_leaves`: whether the edge driven out of
+    // the visit counts.
+    std::optional<IncompatiblePair> incompatible(CyclicVisit i, bool i_leaves, CyclicVisit j,
+                                                 bool j_leaves) const;
 
     VertexId vertex(CyclicVisit visit) const { return vertex_[place(visit)]; }
     Tick approach(CyclicVisit visit) const { return approach_[place(visit)]; }
@@ -80,6 +113,8 @@ class CyclicRoutes {
         return first_place_[visit.robot] + place_in_lap(visit);
     }
     void check(RobotId robot) const;
+    void check_rows() const;
+    bool excludes(std::int32_t row, std::int32_t other) const;
 
     std::vector<std::int32_t> first_place_;
     std::vector<VertexId> vertex_;
@@ -89,6 +124,10 @@ class CyclicRoutes {
     Tick headway_;
     VertexId n_vertices_ = 0;
     std::vector<Tick> within_;  // length + 1 per lap: ticks from its start to each place
+    std::vector<std::int32_t> vertex_row_;
+    std::vector<std::int32_t> edge_row_;
+    std::vector<std::int32_t> first_;
+    std::vector<std::int32_t> excluded_;
 };
 
 // The enters of all past visits, stored as the waits only: an enter is the unimpeded enter plus all

@@ -40,6 +40,7 @@ from rightofway.model import (
     Track,
     Wait,
 )
+from rightofway.model.layout import Layout
 from rightofway.planners import (
     AutoOptions,
     LacamOptions,
@@ -57,7 +58,13 @@ from rightofway.solve import improve, solve
 if _TYPE_CHECKING:
     from rightofway.cyclic import CyclicResult, best_timetable, plan_of, run_laps
     from rightofway.execution import Outcome, simulate
-    from rightofway.io import load, load_plan, write_plan, write_scenario
+    from rightofway.io import (
+        layout_of_graph,
+        load,
+        load_plan,
+        write_plan,
+        write_scenario,
+    )
     from rightofway.metrics import Metrics, lost_time, measure, waits
     from rightofway.viz import Background, Film, write_gif, write_page, write_png
     from rightofway.viz.palette import Theme
@@ -67,7 +74,13 @@ __version__ = "0.1.0"
 _ROOMS = {
     "cyclic": ("CyclicResult", "best_timetable", "plan_of", "run_laps"),
     "execution": ("Outcome", "simulate"),
-    "io": ("load", "load_plan", "write_plan", "write_scenario"),
+    "io": (
+        "layout_of_graph",
+        "load",
+        "load_plan",
+        "write_plan",
+        "write_scenario",
+    ),
     "metrics": ("Metrics", "lost_time", "measure", "waits"),
     "viz": ("Background", "Film", "write_gif", "write_page", "write_png"),
     "viz.palette": ("Theme",),
@@ -87,6 +100,7 @@ __all__ = [
     "InputError",
     "InvalidPlan",
     "LacamOptions",
+    "Layout",
     "LnsOptions",
     "LocalSearchOptions",
     "Loss",
@@ -119,6 +133,7 @@ __all__ = [
     "best_timetable",
     "check",
     "improve",
+    "layout_of_graph",
     "load",
     "load_plan",
     "lost_time",

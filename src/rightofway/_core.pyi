@@ -189,6 +189,10 @@ class CyclicSimulator:
         (1), or (2) the one that would lose more by waiting.
     loss : int64[R]
         The cost of a tick of waiting for each robot, above 0, with rule 2; else unused.
+    vertex_row, edge_row : int32[N] or None
+        Where robots have sizes: the rows of each place's vertex and of the edge driven out of it.
+    first, excluded : int32[M + 1], int32[K], or None
+        A booking of row ``r`` excludes other robots from ``excluded[first[r]:first[r + 1]]``.
 
     Raises
     ------
@@ -200,7 +204,7 @@ class CyclicSimulator:
     Exact and deterministic. The GIL is released by ``advance``; Ctrl-C is obeyed.
     """
 
-    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, first_place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], approach: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_least: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], *, headway: int, pacemaker: int, lag: int, most_lag: int, patience: int, reach: int, memory: int, rule: int, loss: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, edge_row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, excluded: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     def advance(self, time_limit: float | None = None) -> int:
         """
@@ -287,8 +291,7 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
     -------
     tuple of (int, int32[R + 1], int32[N], int64[N])
         How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
-        and where and when each visit begins. For robots without sizes these are the earliest times that
-        keep the order at each vertex.
+        and where and when each visit begins.
     """
 
 def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:

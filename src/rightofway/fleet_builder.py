@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import fields
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
@@ -27,6 +28,7 @@ from rightofway.model import (
     straight_length,
 )
 from rightofway.model.closures import Closure, closure_faults
+from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
 from rightofway.model.places import as_place, is_cell, vertex_at
 from rightofway.model.resources import circle_around
 from rightofway.model.spacing import SplitLanes, split_lanes
@@ -40,8 +42,8 @@ __all__ = ["FleetBuilder"]
 class FleetBuilder:
     """Builds a scenario step by step: a map, robots by the names of places, rules.
 
-    The map is a grid, a map file, a `networkx` graph, or, where none of these is given, the
-    vertices and edges that are added. Methods return the builder, so that calls can be chained.
+    The map is a grid, a map file, a `networkx` graph, a layout, or, where none of these is given,
+    the vertices and edges that are added. Methods return the builder, so that calls can be chained.
 
     Parameters
     ----------
@@ -51,6 +53,11 @@ class FleetBuilder:
         The path of a MovingAI ``.map`` file.
     graph
         A `networkx` graph, directed or not; see Notes.
+    layout
+        A layout of lanes, or its file, as `read_layout` takes it. Lengths are metres and times
+        seconds, unless ``units`` says otherwise; places are names of vertices or stations.
+    level, vehicle_type
+        Which level of a layout, and whose lanes, where it has several.
     cell_size
         Side of a cell of a grid or a map file [length unit].
     y
@@ -79,7 +86,8 @@ class FleetBuilder:
     The nodes of a graph are named by their text, ``str(node)``, and a robot's place may be the node
     itself. A node's position is its ``pos`` attribute, or ``x`` and ``y``, or the node, if it is a
     pair of numbers. An edge's length is its ``length``, else its ``weight``, else the straight
-    distance between the positions of its ends, rounded up to 1/1000, else 1.
+    distance between the positions of its ends, rounded up to 1/1000, else 1. Its ``max_speed`` is a
+    speed limit.
 
     Examples
     --------
@@ -95,6 +103,9 @@ class FleetBuilder:
         grid: Sequence[str] | None = None,
         map_file: Path | str | None = None,
         graph: Any = None,
+        layout: Layout | Path | str | None = None,
+        level: str | None = None,
+        vehicle_type: str | None = None,
         cell_size: Number = 1,
         y: Literal["down", "up"] = "down",
         origin: tuple[Number, Number] | None = None,
@@ -102,7 +113,7 @@ class FleetBuilder:
         spacing: Number | None = None,
         **rules: Any,
     ) -> None:
-        given = {"grid": grid, "map_file": map_file, "graph": graph}
+        given = {"grid": grid, "map_file": map_file, "graph": graph, "layout": layout}
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
@@ -112,6 +123,10 @@ class FleetBuilder:
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
         if spacing is not None and (grid or map_file):
             raise InputError.at("spacing", "is for vertices and edges (take it out)")
+        if layout is None and (level or vehicle_type):
+            raise InputError.at(
+                "level" if level else "vehicle_type", "is for a layout (take it out)"
+            )
         self._spacing = None if spacing is None else exact_length(spacing, "spacing")
         self._positions: dict[str, Point] = {}
         self._edges: list[tuple[str, str, Fraction | None, dict[str, Any]]] = []
@@ -121,6 +136,9 @@ class FleetBuilder:
         self._zones: list[NamedZone] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
+        self._lanes: Callable[..., LevelRoadmap] | None = None
+        self._stations: dict[str, VertexId] = {}
+        self._is_drawn = True
         self._rules = _rules(rules)
         self._units = _units(units)
         self._y_up = y == "up"
@@ -135,6 +153,8 @@ class FleetBuilder:
             self._roadmap = roadmap_of_grid(load_map(Path(map_file)), **frame)
         elif graph is not None:
             self._add_graph(graph)
+        elif layout is not None:
+            self._take_layout(layout, level, vehicle_type)
 
     def add_vertex(
         self,
@@ -264,7 +284,7 @@ class FleetBuilder:
         self,
         name: str,
         *,
-        home: Any,
+        home: Any = None,
         target: Any = None,
         work: Number = 0,
         stops: Iterable[Any] | None = None,
@@ -285,7 +305,8 @@ class FleetBuilder:
             A name of its own.
         home
             The place that it starts from: ``"N8"`` or (row, column) on a grid, the name of a
-            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit].
+            vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit]. Without one it
+            gets a parking or charging place of the layout, near to its first stop.
         target, work
             The place to work at, and how long [time unit]; short for one stop.
         stops
@@ -318,10 +339,12 @@ class FleetBuilder:
             trip = [("target", target, work)]
         else:
             trip = [(f"stops[{k}]", *_place_and_work(stop)) for k, stop in enumerate(stops)]
+        from rightofway.io.scenario.homes import HOMELESS
+
         try:
             robot = Robot(
                 name=name,
-                home=self._vertex("home", home),
+                home=HOMELESS if home is None else self._vertex("home", home),
                 stops=tuple(
                     Stop(at=self._vertex(place, at), work=time)  # type: ignore[arg-type]
                     for place, at, time in trip
@@ -394,12 +417,25 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            With every fault, as `Scenario`; or where there is no map.
+            With every fault, as `Scenario`; where there is no map; or for a turn rate on a graph
+            without positions.
         """
+        from rightofway.io.scenario.homes import housed
+
+        rates = [self._rules.turn_rate, *(robot.turn_rate for robot in self._robots)]
+        if not self._is_drawn and any(rates):
+            remedy = "give each node a pos, or x and y; or leave it out"
+            raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
+        roadmap, rules = self.roadmap(), self._rules
+        if self._lanes and any(robot.radius for robot in self._robots):
+            cut = self._lanes(cuts_curves=True)
+            roadmap = cut.roadmap
+            rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
+        robots, _ = housed(self._robots, roadmap, rules)
         return Scenario(
-            roadmap=self.roadmap(),
-            robots=tuple(self._robots),
-            rules=self._rules,
+            roadmap=roadmap,
+            robots=tuple(robots),
+            rules=rules,
             units=self._units,
             closures=tuple(self._closures),
         )
@@ -414,7 +450,7 @@ class FleetBuilder:
         """
         if self._roadmap is None:
             if not self._positions:
-                remedy = "give grid, map_file or graph, or add vertices and edges"
+                remedy = "give grid, map_file, graph or layout, or add vertices and edges"
                 raise InputError.at("", f"the fleet has no map ({remedy})")
             squares = [
                 self._square(tail, head) for tail, head, given, _ in self._edges if given is None
@@ -450,8 +486,14 @@ class FleetBuilder:
     def _vertex(self, key: str, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""
         roadmap = self.roadmap()
-        if roadmap.grid is None and not isinstance(place, str) and str(place) in self._positions:
+        if not isinstance(place, str) and str(place) in (roadmap.labels or ()):
             place = str(place)
+        if (
+            isinstance(place, str)
+            and place in self._stations
+            and place not in (roadmap.labels or ())
+        ):
+            return self._stations[place]
         found = _within(key, as_place, place, roadmap)
         vertex: VertexId = _within(key, vertex_at, roadmap, found, units=self._units)
         return vertex
@@ -461,18 +503,51 @@ class FleetBuilder:
             remedy = "add vertices and edges first, and to no grid"
             raise InputError.at(place, f"the map is complete already ({remedy})")
 
+    def _take_layout(
+        self, layout: Layout | Path | str, level: str | None, vehicle_type: str | None
+    ) -> None:
+        """Make the roadmap of a layout; that of robots with a size has cut curves besides."""
+        if not isinstance(layout, Layout):
+            from rightofway.io import read_layout
+
+            found = read_layout(layout)
+            if not isinstance(found, Layout):
+                remedy = "write a scenario with map: {layout: …} and load it"
+                raise InputError.at("layout", f"is a map in pixels or cells ({remedy})")
+            layout = found
+        self._units = Units(length=self._units.length or "m", time=self._units.time or "s")
+        metres, seconds = self._units.metres, self._units.seconds
+        assert metres, "a unit of length has a length"
+        assert seconds, "a unit of time has a length"
+        self._lanes = partial(
+            roadmap_of_level,
+            layout.level(level),
+            vehicle_type=vehicle_type,
+            metre=1 / metres,
+            second=1 / seconds,
+            spacing=self._spacing,
+        )
+        self._roadmap = self._lanes().roadmap
+        self._stations = dict(self._roadmap.drawing.stations)
+
     def _add_graph(self, graph: Any) -> None:
         """Add the nodes and edges of a networkx graph."""
         if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
             raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
         nodes = dict(graph.nodes(data=True))
         at = {node: _position(node, data) for node, data in nodes.items()}
-        is_drawn = all(at.values())
+        self._is_drawn = is_drawn = all(at.values())
         for index, (node, position) in enumerate(at.items()):
             self.add_vertex(str(node), *(position if position and is_drawn else (index, 0)))
         for tail, head, data in graph.edges(data=True):
             length = data.get("length", data.get("weight", None if is_drawn else 1))
-            self.add_edge(str(tail), str(head), length, both_ways=not graph.is_directed())
+            self.add_edge(
+                str(tail),
+                str(head),
+                length,
+                both_ways=not graph.is_directed(),
+                max_speed=data.get("max_speed"),
+            )
         self.roadmap()
 
 

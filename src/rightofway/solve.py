@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from numbers import Integral
 from typing import Any
 
@@ -210,7 +209,7 @@ def _run(
             has_plan=keep,
         )
         if on_plan is not None:
-            task = replace(task, better=partial(_hand_over, on_plan, spec, task))
+            task = replace(task, better=_handing_over(on_plan, spec, task))
         if task.start is not None:
             keep()
         draft = _drafted(spec, task)
@@ -276,22 +275,27 @@ def _drafted(spec: PlannerSpec, task: Task) -> Draft:
     raise gave_up
 
 
-def _hand_over(
-    on_plan: Callable[[Plan], None],
-    spec: PlannerSpec,
-    task: Task,
-    tracks: Callable[[], Sequence[Track]],
-) -> None:
-    """Hand a plan of a planner that goes on to the caller of `solve`."""
+def _handing_over(
+    on_plan: Callable[[Plan], None], spec: PlannerSpec, task: Task
+) -> Callable[[Callable[[], Sequence[Track]]], None]:
+    """Return a function that hands plans of a planner that goes on to the caller of `solve`.
+
+    A planner that tries several methods calls it with the plan of each; only better ones go on.
+    """
     assert task.alone is not None, "it is measured before planning"
+    alone = tuple(task.alone.tolist())
     run = PlannerRun(
-        name=spec.name,
-        options=task.options,
-        seed=task.seed,
-        status="so far",
-        alone=tuple(task.alone.tolist()),
+        name=spec.name, options=task.options, seed=task.seed, status="so far", alone=alone
     )
-    on_plan(Plan(scenario=task.scenario, tracks=tuple(tracks()), run=run))
+    least: list[int] = []
+
+    def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
+        plan = Plan(scenario=task.scenario, tracks=tuple(tracks()), run=run)
+        if not least or plan.flowtime < least[-1]:
+            least.append(plan.flowtime)
+            on_plan(plan)
+
+    return hand_over
 
 
 def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tests.viewer.conftest import Viewer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
+
+PICTURES = os.environ.get("RIGHTOFWAY_PICTURES", "")
+"""A folder that pictures of the page are written to, for the documentation; empty for none."""
 
 Point = tuple[float, float]
 
@@ -16,7 +21,8 @@ WHERE = """([x, y]) => {
   const { left, top } = studio.stage.holder.getBoundingClientRect();
   const { frame, unit } = roadmap;
   const [right, down] = [(x - frame.x) / unit, (frame.yUp ? frame.y - y : y - frame.y) / unit];
-  return [left + viewport.left + right * viewport.scale, top + viewport.top + down * viewport.scale];
+  const { scale } = viewport;
+  return [left + viewport.left + right * scale, top + viewport.top + down * scale];
 }"""
 
 
@@ -63,6 +69,11 @@ class StudioPage(Viewer):
         """Wait until a document is on the screen."""
         self.wait_for("Boolean(studio.store.site)")
         self.settle()
+
+    def keep(self, name: str) -> None:
+        """Write a picture of the page, where pictures are wanted."""
+        if PICTURES:
+            self.page.screenshot(path=Path(PICTURES, f"{name}.png"))
 
     @property
     def document(self) -> Any:

@@ -320,6 +320,21 @@ def test_convert_writes_a_plan_for_a_program_on_the_site(cli: Cli, door: Path) -
     assert "paths.json: y is negated" in done.err
 
 
+def test_convert_writes_robots_with_a_radius_for_a_layout(cli: Cli) -> None:
+    Path("nodes.csv").write_text("name,x,y\na,0,0\nb,5,0\n", encoding="utf-8")
+    Path("edges.csv").write_text("from,to,both_ways\na,b,yes\n", encoding="utf-8")
+    done = cli("convert", "nodes.csv", "--radius", "0.3", "-o", "-")
+    assert (done.code, done.out.splitlines()[-1]) == (
+        0,
+        "- {name: R1, home: a, target: b, work: 10, radius: 3/10}",
+    )
+    assert (
+        "'wide' is not a number" in cli("convert", "nodes.csv", "--radius", "wide", "-o", "-").err
+    )
+    lif = cli("convert", "nodes.csv", "--radius", "1", "--to", "lif", "-o", "-")
+    assert "--radius is for a scenario" in lif.err
+
+
 def test_convert_refuses_an_unknown_format_before_it_asks_for_a_file(cli: Cli) -> None:
     done = cli("convert", "plan.json", "--to", "event")
     assert (done.code, done.out) == (2, "")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -22,7 +23,10 @@ from rightofway.errors import InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
 from tests.builders.fleets import random_fleet
+from tests.builders.seeds import seeds
+from tests.builders.sizes import repeated
 from tests.oracles import periodic_bookings as oracle
+from tests.oracles import periodic_space
 
 few = settings(max_examples=30, derandomize=True, deadline=None)
 many = settings(max_examples=60, derandomize=True, deadline=None)
@@ -150,3 +154,36 @@ def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
         if closed is not None:
             assert float(problem.value(closed)) <= value + 1e-9
             assert value <= problem.bound + Fraction(1, 10**9)
+
+
+@pytest.mark.parametrize("seed", seeds(40, 5))
+def test_closings_with_sizes_keep_every_rule_across_the_seam(seed: int) -> None:
+    """Windows closed by their orders, and stretches closed at a seam."""
+    scenario = repeated(seed)
+    try:
+        routes = cyclic_routes(scenario)
+    except NoPlanExists:
+        pytest.skip("no routes")
+    group = max(independent_groups(scenario, routes), key=len)
+    context = GroupContext(scenario=scenario, routes=tuple(group))
+    simulation = CyclicSimulator(context, "first-come")
+    run = advance(simulation, Deadline())
+    while run.ends == "repeats" and max(past[-1] for past in run.history) < LAPS * context.longest:
+        simulation.reset_states()
+        run = advance(simulation, Deadline())
+    if len(group) < 2 or run.ends != "repeats" or not all(run.mean_laps()):
+        pytest.skip("no run of several robots that all make laps")
+    problem = problem_of(run)
+    short = (window for window in closed_windows(problem, run) if window.n_visits <= 150)
+    closed = [
+        problem.timetable(problem.booked(window)[1], window.period) for window in islice(short, 3)
+    ]
+    for laps in (5, 9):
+        stretch = Stretch(begins=context.longest, period=laps * context.longest)
+        if stretch.begins + stretch.period <= min(past[-1] for past in run.history):
+            found = close_stretch(problem, run, stretch)
+            closed += [] if found is None else [found.timetable]
+    for timetable in closed:
+        assert problem.graph(timetable).slack().min() >= 0
+        cycles = periodic_space.cycles_of(timetable)
+        assert not periodic_space.conflicts(scenario, cycles, int(timetable.period))

@@ -15,6 +15,8 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners import Deadline
 from tests.builders.fleets import fleet_on, random_grid
+from tests.builders.seeds import seeds
+from tests.builders.sizes import repeated
 from tests.oracles.lap_rules import rolling
 
 some_rules = st.sampled_from(
@@ -64,16 +66,33 @@ def test_the_kernel_decides_as_one_window_after_the_other_does(
         draw, size=draw.randint(3, 7), robots=draw.randint(2, 10), walls=0.1, rules=rules
     )
     for context in groups:
-        slow, fast = rolling(context, rule), simulation_of(context, rule)
-        expected, found = outcome(slow), outcome(fast)
-        if expected is None or found is None:
-            continue
-        if isinstance(expected, Deadlock):
-            assert isinstance(found, Deadlock)
-            assert vars(found) == vars(expected)
-        else:
-            assert found == expected
-        assert [list(past) for past in fast.history] == [list(past) for past in slow.history]
+        check_decisions(context, rule)
+
+
+def check_decisions(context: GroupContext, rule: str) -> None:
+    """Compare the kernel with windows, tick by tick, and their deadlocks."""
+    slow, fast = rolling(context, rule), simulation_of(context, rule)
+    expected, found = outcome(slow), outcome(fast)
+    if expected is None or found is None:
+        return
+    if isinstance(expected, Deadlock):
+        assert isinstance(found, Deadlock)
+        assert vars(found) == vars(expected)
+    else:
+        assert found == expected
+    assert [list(past) for past in fast.history] == [list(past) for past in slow.history]
+
+
+@pytest.mark.parametrize("rule", NATIVE_RULES)
+@pytest.mark.parametrize("seed", seeds(60, 5))
+def test_the_kernel_decides_as_windows_do_for_robots_with_a_size(seed: int, rule: str) -> None:
+    scenario = repeated(seed)
+    try:
+        routes = cyclic_routes(scenario, ROUTES[seed % len(ROUTES)])
+    except NoPlanExists:
+        pytest.skip("no routes")
+    for group in independent_groups(scenario, routes):
+        check_decisions(GroupContext(scenario=scenario, routes=tuple(group)), rule)
 
 
 @pytest.mark.parametrize("rule", RULES)

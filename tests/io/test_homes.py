@@ -85,13 +85,15 @@ def test_too_few_places_are_an_error_with_numbers(street: Path) -> None:
 
 
 def test_a_place_must_have_a_way_to_the_stop(street: Path) -> None:
-    lanes = EDGES.replace("P2,b,yes", "b,P2,no")
+    lanes = EDGES.replace("P2,b,yes", "P2,b,no").replace("b,P4,yes", "P4,b,no")
     (street / "edges.csv").write_text(lanes, encoding="utf-8")
     robots = [{"target": "b"}, {"target": "b"}, {"target": "b"}]
     assert message(street, *robots) == (
-        "homes: no free parking or charging place has a way to the first stop of R3"
+        "homes: no free parking or charging place has a way to the stops of R1 and back"
         " (give that robot a home, or join the parts of the map)"
     )
+    found = loaded(street, *robots[:2], rules={"return": "none"})
+    assert homes(found) == ["P2", "P4"]
 
 
 def test_a_map_without_parking_places_is_an_error(street: Path) -> None:
@@ -109,3 +111,8 @@ def test_a_table_of_robots_may_do_without_homes(street: Path) -> None:
 
 def test_homes_of_another_kind_are_refused(street: Path) -> None:
     assert message(street, {"target": "a"}, homes="stations").startswith("homes: 'stations' ")
+
+
+def test_homes_that_are_all_written_need_no_places(street: Path) -> None:
+    keys: dict[str, Any] = {"map": {"grid": ["..."]}}
+    assert homes(loaded(street, {"home": "N0", "target": "N2"}, **keys)) == ["N0"]

@@ -203,3 +203,26 @@ def spline(one: dict[str, Any], two: dict[str, Any], axis: int) -> Any:
             (2 * s**3 - 3 * s**2 + 1) * p + (s**3 - 2 * s**2 + s) * u
             + (3 * s**2 - 2 * s**3) * q + (s**3 - s**2) * v, 9
         )  # fmt: skip
+
+
+def test_a_robot_drives_on_through_a_small_turn() -> None:
+    """Two lanes of 5 m that meet at 8 degrees, and one at a right angle."""
+    away = math.radians(8)
+    bend = [round(5 + 5 * math.cos(away), 6), round(5 * math.sin(away), 6)]
+    plan = planned(
+        map={
+            "roadmap": {
+                "vertices": {"a": [0, 0], "b": [5, 0], "c": bend, "d": [bend[0] - 1, bend[1] + 7]},
+                "edges": [["a", "b"], ["b", "c"], ["c", "d"]],
+            },
+            "y": "up",
+        },
+        units={"length": "m", "time": "s"},
+        robots=[{"name": "R1", "home": "a", "target": "d"}],
+        rules={"return": "none"},
+    )
+    (route,) = written(plan, "open-rmf")["itineraries"]["R1"]
+    _, bent, corner, _ = route["trajectory"]["waypoints"]
+    assert bent["position"][2] == pytest.approx(away / 2, abs=1e-6)
+    assert math.hypot(*bent["velocity"]) == pytest.approx(1, abs=0.01)
+    assert corner["velocity"] == [0, 0, 0]

@@ -120,8 +120,8 @@ def test_later_keys_of_robots_and_rules_are_kept(tmp_path: Path) -> None:
 
 
 def test_a_document_with_parts_that_no_sheet_holds_is_refused() -> None:
-    with pytest.raises(InputError, match=r"a workbook has no place for closures \(write .yaml"):
-        workbook_of({**TEMPLATE, "closures": []})
+    with pytest.raises(InputError, match=r"a workbook has no place for fleets \(write .yaml"):
+        workbook_of({**TEMPLATE, "fleets": []})
 
 
 def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:

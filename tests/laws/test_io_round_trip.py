@@ -46,6 +46,7 @@ names = st.one_of(
 lengths = st.fractions(Fraction(1, 60), 60, max_denominator=60)
 times = st.fractions(0, 60, max_denominator=60)
 turns = st.one_of(st.none(), times)
+rates = st.one_of(st.none(), lengths)
 
 
 coordinates = st.fractions(-(10**6), 10**6, max_denominator=10**6)
@@ -82,6 +83,7 @@ def scenarios(draw: st.DrawFn) -> Scenario:
         turn=draw(turns if roadmap.grid is None else st.one_of(turns, st.just("cell"))),
         laps=draw(st.integers(1, 3)),
         rotations=draw(st.booleans()),
+        turn_rate=draw(rates),
     )
     vertices = st.integers(0, roadmap.n_vertices - 1).map(VertexId)
     stops = st.builds(Stop, at=vertices, work=times)
@@ -94,6 +96,7 @@ def scenarios(draw: st.DrawFn) -> Scenario:
             turn=draw(turns),
             ends=draw(st.sampled_from([None, "home"])),
             laps=draw(st.sampled_from([None, 2])),
+            turn_rate=draw(rates),
         )
         for home, name in enumerate(draw(st.lists(names, min_size=1, max_size=2, unique=True)))
     )

@@ -6,14 +6,16 @@ import pytest
 
 from rightofway import check, solve
 from rightofway.errors import NoPlanExists
+from tests.builders.seeds import seeds
 from tests.builders.sizes import tiny
 from tests.oracles.joint_space import least_flowtime
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_auto_finds_the_optimum_or_proves_that_there_is_no_plan(seed: int) -> None:
+@pytest.mark.parametrize("robots", [2, 3])
+@pytest.mark.parametrize("seed", seeds(200, 20))
+def test_auto_finds_the_optimum_or_proves_that_there_is_no_plan(seed: int, robots: int) -> None:
     """Lanes cross and pass near vertices, and robots stand in each other's way."""
-    scenario = tiny(seed)
+    scenario = tiny(seed, robots=robots)
     least = least_flowtime(scenario)
     try:
         plan = solve(scenario)

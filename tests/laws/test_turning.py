@@ -191,6 +191,21 @@ def test_late_robots_still_turn_and_never_meet(seed: int) -> None:
         assert check(replace(plan, tracks=outcome.trace(7).tracks)).ok
 
 
+@pytest.mark.parametrize("seed", seeds(24, 3))
+def test_replanned_robots_turn_from_the_heading_that_they_have(seed: int) -> None:
+    """Robots are late or break down; the judge looks at runs of new plans."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    rules = (Rules(), Rules(occupancy="both"), Rules(headway=Fraction(1)), Rules(ends="none"))
+    scenario = turning(random_fleet(seed, size=5, robots=5, rules=rules[seed % 4]), draw)
+    plan = solve(scenario, "prioritized")
+    for delays in ("exponential:0.5", "chance:0.1x15", "breaks:0.1"):
+        outcome = simulate(plan, delays, runs=8, replan=True, switch=seed % 2 == 1)
+        assert (outcome.collisions, outcome.deadlocks) == (0, 0)
+        for run in range(8):
+            judged = check(replace(plan, tracks=outcome.trace(run).tracks))
+            assert not {"turn cut short", "too fast", "vertex conflict"} & set(judged.counts)
+
+
 def test_moving_a_roadmap_changes_no_plan() -> None:
     """The same lanes, some 1000 units away, whose coordinates have other last digits."""
     fleet = turning(fleet_on_lanes(1, robots=3), random.Random(1))  # noqa: S311

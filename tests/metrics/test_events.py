@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import rightofway
-from rightofway.metrics import event_columns, events
+from rightofway.metrics import event_columns, events, lost_time
 from rightofway.model import Plan, PlannerRun, Rules, Stop, Track, VertexId
 from rightofway.model.robot import Robot
 from rightofway.model.scenario import Scenario
@@ -66,3 +66,19 @@ def test_columns_have_times_in_the_scenario_unit_and_exact_ticks() -> None:
     assert columns["enter"] == [0.0, 0.5, 2.5]
     assert columns["leave"] == [0.5, 2.5, None]
     assert (columns["enter_tick"], columns["leave_tick"]) == ([0, 1, 5], [1, 5, None])
+
+
+def test_a_visit_says_that_a_robot_turns_on_the_spot() -> None:
+    """East, then south: 2 for the corner, which is waited for, too; 4 to come back."""
+    fleet = rightofway.FleetBuilder(grid=["..", "@."], turn_rate=45)
+    scenario = fleet.add_robot("R", home="N0", target="N3", work=1).scenario()
+    plan = plan_of(scenario, [0, 1, 2, 1, 0], [0, 1, 4, 10, 14])
+    assert [(event.purpose, event.enter, event.waits) for event in events(plan)] == [
+        ("home", 0, 0),
+        ("turn", 1, 0),
+        ("work at stop 1, turn", 4, 0),
+        ("wait, turn", 10, 1),
+        ("home", 14, 0),
+    ]
+    (lost,) = lost_time(plan)
+    assert (lost.alone, lost.detours, lost.making_room, lost.waiting) == (13, 0, 0, 1)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import pairwise
+from math import ceil
+from typing import Any
 
 import pytest
 
@@ -89,39 +91,51 @@ def test_the_name_of_a_piece_may_not_be_taken() -> None:
         fleet.roadmap()
 
 
-def test_a_convoy_on_a_lane_of_40_loses_no_more_than_two_pieces_for_each_robot() -> None:
-    """Ten robots of radius 0.5, pieces of 2: the next one starts when 2 pieces are free."""
+@pytest.mark.parametrize(
+    ("spacing", "radius", "home", "apart"),
+    [
+        (2, "0.5", 2, 4),
+        (2, "1", 2, 4),  # discs may touch: one piece is as long as both radii
+        (2, "1.01", 4, 6),
+        (2, "2.5", 6, 8),
+        (1, "0.5", 1, 2),
+        (1, "1.6", 4, 5),
+        (3, "0.5", 2, Fraction(40, 7)),  # 14 pieces of 20/7
+        (40, "0.5", 40, 80),
+    ],
+)
+@pytest.mark.parametrize("planner", ["prioritized", "lacam", "two-level", "auto"])
+def test_a_convoy_on_a_lane_of_40_drives_as_close_as_its_pieces_allow(
+    planner: str, spacing: int, radius: str, home: int, apart: Fraction
+) -> None:
+    """Ten robots stand in a row behind A; they drive 1 + max(1, ceil(D / piece)) pieces apart."""
+    ends = {f"G{k}": 40 * (11 - k) for k in range(10)}
+    at = {**{f"H{k}": -home * (k + 1) for k in range(10)}, "A": 0, "B": 40, **ends}
+    row = sorted(at, key=at.__getitem__)
     document = {
         "format": "rightofway-scenario/1",
         "map": {
-            "spacing": 2,
+            "spacing": spacing,
             "roadmap": {
-                "vertices": {
-                    "A": [0, 0],
-                    "B": [40, 0],
-                    **{f"H{k}": [-20, 4 * k - 18] for k in range(10)},
-                    **{f"G{k}": [60, 4 * k - 18] for k in range(10)},
-                },
-                "edges": [
-                    {"from": "A", "to": "B", "both_ways": False},
-                    *({"from": f"H{k}", "to": "A"} for k in range(10)),
-                    *({"from": "B", "to": f"G{k}"} for k in range(10)),
-                ],
+                "vertices": {name: [at[name], 0] for name in row},
+                "edges": [{"from": u, "to": v, "both_ways": False} for u, v in pairwise(row)],
             },
         },
         "robots": [
-            {"name": f"R{k}", "home": f"H{k}", "target": f"G{k}", "radius": 0.5} for k in range(10)
+            {"name": f"R{k}", "home": f"H{k}", "target": f"G{k}", "radius": radius}
+            for k in range(10)
         ],
         "rules": {"return": "none"},
     }
     scenario = scenario_of(document)
-    assert "A-B/19" in (scenario.roadmap.labels or ())
-    plan = rightofway.solve(scenario, "prioritized")
-    passing = sorted(
-        int(track.enter[list(track.vertices).index(scenario.roadmap.vertex("B"))])
-        for track in plan.tracks
-    )
-    tick = scenario.problem.clock.tick
-    gaps = [(b - a) * tick for a, b in pairwise(passing)]
-    assert min(gaps) >= 4
-    assert passing[-1] - passing[0] <= 9 * 32 / tick
+    pieces = ceil(Fraction(40) / spacing)
+    lane = [label for label in scenario.roadmap.labels or () if label.startswith("A-B/")]
+    assert len(lane) == pieces - 1
+    given: dict[str, Any] = {"prioritized": {"order": "file"}, "auto": {"iterations": 9}}
+    plan = rightofway.solve(scenario, planner, options=given.get(planner))
+    tick, at_b = scenario.problem.clock.tick, scenario.roadmap.vertex("B")
+    passing = [
+        tick * int(track.enter[track.vertices.tolist().index(at_b)]) for track in plan.tracks
+    ]
+    assert {later - earlier for earlier, later in pairwise(passing)} == {apart}
+    assert apart == (1 + max(1, ceil(2 * Fraction(radius) * pieces / 40))) * Fraction(40, pieces)

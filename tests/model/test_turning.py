@@ -5,16 +5,22 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
+import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
+from rightofway import solve
 from rightofway.errors import InputError
 from rightofway.fleet_builder import FleetBuilder
 from rightofway.model import (
     Clock,
     Edge,
     Roadmap,
+    Robot,
     Rules,
     Scenario,
+    Stop,
+    Track,
+    VertexId,
     roadmap_of_edges,
     roadmap_of_grid,
     route_through,
@@ -155,8 +161,30 @@ def test_rates_that_are_not_positive_are_refused_together() -> None:
 
 
 def test_a_rate_that_takes_too_many_ticks_is_refused() -> None:
-    with pytest.raises(InputError, match=r"robots\[0\].turn_rate: .* is too slow"):
-        corner(Rules(turn_rate=Fraction(1, 10**12)))
+    with pytest.raises(InputError) as caught:
+        corner(Rules(turn_rate=Fraction(1, 10**8)))
+    assert [str(fault) for fault in caught.value.faults] == [
+        (
+            "robots[0].turn_rate: 1/100000000 is too slow: a turn takes 18000000000 ticks of 1"
+            " (give a faster one)"
+        )
+    ]
+
+
+def test_a_graph_without_positions_has_no_headings() -> None:
+    fleet = FleetBuilder(graph=nx.path_graph(["A", "B", "C"]), turn_rate=90)
+    fleet.add_robot("R1", home="A", target="C")
+    with pytest.raises(InputError, match="turn_rate: needs positions, and the graph has none"):
+        fleet.scenario()
+
+
+def test_a_roadmap_without_edges_that_follow_each_other_is_planned() -> None:
+    scenario = Scenario(
+        roadmap=lanes({"A": (0.0, 0.0), "B": (1.0, 0.0)}, "AB"),
+        robots=(Robot(name="R1", home=VertexId(0), stops=(Stop(at=VertexId(1)),)),),
+        rules=Rules(turn_rate=Fraction(90), ends="none"),
+    )
+    assert solve(scenario).tracks == (Track.of([0, 1], [0, 1]),)
 
 
 def test_a_builder_takes_rates_of_the_fleet_and_of_a_robot() -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache, partial
 from heapq import heappop, heappush
 from itertools import combinations, product
 from typing import NamedTuple
@@ -30,6 +31,11 @@ class State(NamedTuple):
     passes: frozenset[int] = frozenset()  # those with the edge that is driven out, decided before
 
 
+Booked = tuple[Shape, ...]
+Action = tuple[State, Booked, int]
+"""The next state, what is booked in the tick, and what the tick costs."""
+
+
 class _Fleet:
     """What each robot can do in a tick, and whether two robots can do it together."""
 
@@ -37,41 +43,53 @@ class _Fleet:
         self.scenario = scenario
         self.books_ahead = scenario.rules.occupancy == "both"
         assert self.books_ahead or len(scenario.robots) < 3, "three points may rotate"
-        self.closed: dict[tuple[int, Shape, int], bool] = {}
-        self.excludes: dict[tuple[int, Shape, int, Shape], bool] = {}
+        self.excludes = cache(partial(incompatible, scenario))
+        self.clash = cache(self._clash)
+        self.is_closed = cache(self._is_closed)
+        self.actions = cache(lambda robot, state: list(self._actions(robot, state)))
 
-    def is_closed(self, robot: int, booked: list[Shape], tick: int) -> bool:
+    def _is_closed(self, robot: int, booked: Booked, tick: int) -> bool:
         """Return whether something that a robot books in a tick is closed."""
         places = [shape for shape in booked if shape[0] >= 0]  # the others are zones
-        for shape in places:
-            key = (robot, shape, tick)
-            if key not in self.closed:
-                now = Fraction(tick)
-                self.closed[key] = is_shut(self.scenario, robot, shape, now, now + 1)
-        return any(self.closed[robot, shape, tick] for shape in places)
+        now = Fraction(tick)
+        return any(is_shut(self.scenario, robot, shape, now, now + 1) for shape in places)
 
-    def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:
+    def _clash(self, i: int, one: Booked, j: int, other: Booked) -> bool:
         """Return whether robots i and j book shapes that exclude each other."""
         if not self.books_ahead:  # points: only vertices exclude each other
-            one = [shape for shape in one if len(shape) == 1]
-            other = [shape for shape in other if len(shape) == 1]
-        for x, y in product(one, other):
-            if (i, x, j, y) not in self.excludes:
-                self.excludes[i, x, j, y] = incompatible(self.scenario, i, x, j, y)
-        return any(self.excludes[i, x, j, y] for x, y in product(one, other))
+            one = tuple(shape for shape in one if len(shape) == 1)
+            other = tuple(shape for shape in other if len(shape) == 1)
+        return any(self.excludes(i, x, j, y) for x, y in product(one, other))
 
-    def actions(self, robot: int, state: State) -> Iterator[tuple[State, list[Shape], int]]:
+    def together(self, states: tuple[State, ...], tick: int) -> list[tuple[Action, ...]]:
+        """Return what all robots can do in a tick without booking what excludes each other."""
+        found: list[tuple[Action, ...]] = [()]
+        for j, state in enumerate(states):
+            found = [
+                (*before, action)
+                for action in self.actions(j, state)
+                if not self.is_closed(j, action[1], tick)
+                for before in found
+                if not any(
+                    self.clash(i, one[1], j, action[1])
+                    or _exchanges(states[i], one[0], state, action[0])
+                    for i, one in enumerate(before)
+                )
+            ]
+        return found
+
+    def _actions(self, robot: int, state: State) -> Iterator[Action]:
         """Yield the next state, what is booked in the tick, and what the tick costs."""
         roadmap = self.scenario.roadmap
         inside = zones_around(roadmap, state.vertex) | state.passes
-        here: list[Shape] = [(state.vertex,), *((-1 - zone,) for zone in inside)]
+        here: Booked = ((state.vertex,), *((-1 - zone,) for zone in inside))
         if state.is_done:
             yield state, here, 0
         elif state.left:
             left, edge = state.left - 1, (state.vertex, state.head)
             along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
-            booked = [*here, edge, *((-1 - zone,) for zone in along | ahead)]
-            booked += [(state.head,)] if self.books_ahead else []
+            booked: Booked = (*here, edge, *((-1 - zone,) for zone in along | ahead))
+            booked += ((state.head,),) if self.books_ahead else ()
             if left:
                 yield state._replace(left=left), booked, 1
                 return
@@ -89,12 +107,12 @@ class _Fleet:
                 if state.came & zones_with(roadmap, (state.vertex, head)) != state.passes:
                     continue
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
-                yield from self.actions(robot, state._replace(head=head, left=ticks))
+                yield from self._actions(robot, state._replace(head=head, left=ticks))
 
 
 def least_flowtime(scenario: Scenario) -> int | None:
     """Return the least sum of completions [ticks], None where there is no plan."""
-    fleet, robots = _Fleet(scenario), range(len(scenario.robots))
+    fleet = _Fleet(scenario)
     moments = [begins(scenario, closure) for closure in scenario.closures]
     moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
     horizon = max(moments, default=0)  # nothing is opened or closed later
@@ -104,24 +122,14 @@ def least_flowtime(scenario: Scenario) -> int | None:
     while heap:
         cost, tick, states = heappop(heap)
         if tick == horizon and all(
-            state.is_done and not fleet.is_closed(robot, [(state.vertex,)], tick)
+            state.is_done and not fleet.is_closed(robot, ((state.vertex,),), tick)
             for robot, state in enumerate(states)
         ):
             return cost
         if best[tick, states] < cost:
             continue
-        open_now = [
-            [each for each in fleet.actions(k, states[k]) if not fleet.is_closed(k, each[1], tick)]
-            for k in robots
-        ]
-        for chosen in product(*open_now):
+        for chosen in fleet.together(states, tick):
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
-            if any(
-                fleet.clash(i, chosen[i][1], j, chosen[j][1])
-                or _exchanges(states[i], after[1][i], states[j], after[1][j])
-                for i, j in combinations(robots, 2)
-            ):
-                continue
             total = cost + sum(each[2] for each in chosen)
             if total < best.get(after, total + 1):
                 best[after] = total

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 import socket
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -112,6 +113,13 @@ def test_many_slow_listeners_are_refused_at_some_number(tmp_path: Path) -> None:
         assert studio.client.get(f"/runs/{number}/events").status_code == 429
         for listener in listeners:
             listener.close()
+        client = studio.client
+        for _ in range(200):
+            with client.stream("GET", f"/runs/{number}/events") as again:
+                if again.status_code == 200:
+                    break
+            time.sleep(0.05)
+        assert again.status_code == 200
 
 
 @pytest.mark.parametrize("garbage", [b"\0" * 1000, b"GET\r\n\r\n", b"A" * 100_000, b"\x16\x03\x01"])
@@ -122,4 +130,30 @@ def test_what_is_no_request_ends_its_connection_only(tmp_path: Path, garbage: by
             connection.sendall(garbage + b"\r\n\r\n")
             assert b"200" not in connection.recv(100)[:12]
         assert studio.client.get("/files").status_code == 200
+        assert studio.end() == ""
+
+
+def test_twenty_browsers_watch_ten_plans_that_are_made_at_once(tmp_path: Path) -> None:
+    from tests.builders.crowds import CROWD
+
+    with command(tmp_path, "--no-history", "--planners", "10") as studio:
+        body = {"document": CROWD, "planner": "lns", "time_limit": 8}
+        numbers = [studio.client.post("/runs", json=body).json()["number"] for _ in range(10)]
+
+        def watch(browser: int) -> tuple[str, int]:
+            with httpx.Client(base_url=studio.client.base_url, timeout=60) as client:
+                number, plans, state = numbers[browser % 10], 0, ""
+                with client.stream("GET", f"/runs/{number}/events") as events:
+                    for line in events.iter_lines():
+                        if line.startswith("event: plan"):
+                            played = client.get(f"/runs/{number}/payload").json()
+                            plans += played["faults"]["count"] == 0
+                        elif line.startswith("data: ") and '"state"' in line:
+                            state = json.loads(line[6:])["state"]
+                return state, plans
+
+        with ThreadPoolExecutor(20) as pool:
+            watched = list(pool.map(watch, range(20)))
+        assert {state for state, _ in watched} == {"done"}
+        assert min(plans for _, plans in watched) >= 1
         assert studio.end() == ""

@@ -36,6 +36,11 @@ def test_a_layout_opens_as_the_map_of_a_new_scenario(client: httpx.Client, folde
     opened = client.get("/documents/hall.map").json()
     assert opened["kind"] == "layout"
     assert opened["document"]["map"]["layout"] == "hall.map"
+    assert (opened["save_as"], opened["revision"]) == ("hall.yaml", "")
+    body = {"document": opened["document"], "revision": opened["revision"]}
+    assert client.put("/documents/hall.yaml", json=body).status_code == 200
+    assert client.put("/documents/hall.yaml", json=body).status_code == 412
+    assert client.get("/documents/hall.map").json()["save_as"] == "hall2.yaml"
 
 
 def test_a_plan_opens_as_a_run_that_is_done(client: httpx.Client, folder: Path) -> None:
@@ -107,9 +112,9 @@ def test_a_body_that_does_not_fit_is_refused_in_the_same_words(client: httpx.Cli
 def test_a_document_is_inspected_drawn_and_converted(client: httpx.Client) -> None:
     body = {"document": DOOR}
     assert client.post("/inspect", json=body).json()["places"] == 4
-    drawn = client.post("/draw", json=body).json()
-    assert drawn["map"]["rows"] == ["...", "@.@", "..."]
-    assert [robot["name"] for robot in drawn["robots"]] == ["R1", "R2"]
+    site = client.post("/survey", json=body).json()["site"]
+    assert site["map"]["rows"] == ["...", "@.@", "..."]
+    assert [robot["name"] for robot in site["robots"]] == ["R1", "R2"]
     written = client.post("/convert", json={**body, "name": "door.yaml"}).text
     assert written.startswith("format: rightofway-scenario/1")
 
@@ -149,3 +154,59 @@ def test_an_exported_plan_is_the_plan(client: httpx.Client, folder: Path, tmp_pa
     file = tmp_path / "plan.json"
     file.write_bytes(client.get(f"/runs/{run['number']}/export/json").content)
     assert dump_scenario(load_plan(file).scenario)["robots"][1]["work"] == 1
+
+
+def test_a_fleet_is_dealt_over_places_that_reach_each_other(client: httpx.Client) -> None:
+    """The last column cannot be reached, so five places are left for five robots."""
+    document = {"map": {"grid": ["...@.", "..@@."]}}
+    body = {"document": document, "robots": 5, "seed": 7, "speeds": [1, "1/2"], "work": [2, 3]}
+    dealt = client.post("/deal", json=body).json()["robots"]
+    assert client.post("/deal", json=body).json()["robots"] == dealt
+    assert {robot["home"] for robot in dealt} == {"N0", "N1", "N2", "N5", "N6"}
+    assert len({robot["target"] for robot in dealt}) == 5
+    assert [robot["speed"] for robot in dealt] == [1, "1/2", 1, "1/2", 1]
+    assert {robot["work"] for robot in dealt} <= {2, 3}
+    scenario = {"format": "rightofway-scenario/1", **document, "robots": dealt}
+    assert client.post("/validate", json={"document": scenario}).json()["faults"] == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "place"),
+    [
+        ({"robots": 6}, "robots"),
+        ({"speeds": [0]}, "speeds"),
+        ({"speeds": ["fast"]}, "speeds"),
+        ({"work": [3, 2]}, "work"),
+        ({"document": {"map": {"grid": ["?", ".."]}}}, "map.grid[1]"),
+    ],
+)
+def test_a_fleet_that_cannot_be_dealt_is_refused(
+    client: httpx.Client, wrong: dict[str, Any], place: str
+) -> None:
+    body = {"document": {"map": {"grid": ["...@.", "..@@."]}}, "robots": 5, **wrong}
+    refused = client.post("/deal", json=body)
+    assert refused.status_code == 422
+    assert refused.json()["error"]["faults"][0]["place"] == place
+
+
+def test_a_survey_has_the_faults_and_the_robots_without_one(client: httpx.Client) -> None:
+    document = {**DOOR, "robots": [{"name": "R1", "home": "N99"}, *DOOR["robots"]]}
+    found = client.post("/survey", json={"document": document}).json()
+    assert not found["ok"]
+    assert [fault["place"] for fault in found["faults"]] == ["robots[0].home"]
+    assert [robot["index"] for robot in found["site"]["robots"]] == [1, 2]
+
+
+def test_a_survey_of_a_map_without_robots_has_the_map(client: httpx.Client) -> None:
+    found = client.post("/survey", json={"document": {**DOOR, "robots": []}}).json()
+    assert found["site"]["map"]["rows"] == DOOR["map"]["grid"]
+    assert found["site"]["robots"] == []
+
+
+def test_an_inlined_document_needs_no_other_file(client: httpx.Client, folder: Path) -> None:
+    (folder / "door.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    robots = [{"name": "R1", "home": "N0", "target": "N2"}]
+    document = {"format": DOOR["format"], "map": {"file": "door.map"}, "robots": robots}
+    found = client.post("/inline", json={"document": document}).json()["document"]
+    assert found["map"]["grid"] == ["..."]
+    assert found["robots"][0]["target"] == "N2"

@@ -111,7 +111,7 @@ def test_an_adaptive_floor_is_drawn_on_in_steps_of_its_smallest_cell(studio: Stu
 def test_walls_and_robots_are_made_with_the_keyboard_alone(floor: StudioPage) -> None:
     page = floor.page
     page.locator("canvas#map").focus()
-    for key in ("ArrowDown", "Enter", "ArrowRight", "ArrowRight", "Enter"):
+    for key in ("ArrowDown", "ArrowDown", "Enter", "ArrowRight", "ArrowRight", "Enter"):
         page.keyboard.press(key)
     floor.settle()
     assert obstacles(floor) == [[0, 0.5, 1.5, 0.5]]
@@ -269,3 +269,22 @@ def test_findings_are_listed_and_lit_on_the_map(studio: StudioPage) -> None:
     studio.opened()
     studio.page.locator(".findings button").first.click()
     assert studio.ask("studio.stage.choice.lit.length") > 0
+
+
+def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: StudioPage) -> None:
+    png = LAYOUTS.parents[2] / "docs" / "images" / "door.png"
+    lanes.tab("Map")
+    lanes.page.get_by_label("Choose a picture to draw over").set_input_files(png)
+    lanes.wait_for("Boolean(studio.backdrop.image)")
+    scale = lanes.ask("studio.backdrop.place.scale")
+    lanes.button("Scale by two places").click()
+    lanes.press((1, 0))
+    lanes.press((3, 0))
+    lanes.page.get_by_label("Their distance").fill("4")
+    lanes.button("Apply").click()
+    assert lanes.ask("studio.backdrop.place.scale") == pytest.approx(2 * scale, rel=0.02)
+    left = lanes.ask("studio.backdrop.place.left")
+    lanes.button("Set the origin").click()
+    lanes.press((1, 0))
+    assert lanes.ask("studio.backdrop.place.left") == pytest.approx(left - 1, abs=0.02)
+    assert lanes.complaints == []

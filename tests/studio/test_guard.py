@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import socket
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
+from PIL import Image
 
-from rightofway.studio.guard import Access
+from rightofway.studio.guard import Access, Guard
 from tests.builders.studios import DOOR, running, sent
 
 
@@ -119,16 +125,40 @@ def test_no_asset_is_outside_of_the_assets(client: httpx.Client, path: str) -> N
     assert json.loads(text)["error"]["status"] == status
 
 
+OUTSIDE = ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
 @pytest.mark.parametrize(
-    "name", ["../secret.yaml", "/etc/hostname", "link.yaml", "out/secret.yaml"]
+    "part",
+    [
+        lambda name: {"map": {"file": name}},
+        lambda name: {"map": {"layout": name}},
+        lambda name: {"robots": {"table": name}},
+        lambda name: {"robots": {"scen": name}},
+    ],
+    ids=["file", "layout", "table", "scen"],
 )
-@pytest.mark.parametrize("key", ["file", "layout"])
 def test_a_document_cannot_name_a_file_outside_of_the_folder(
-    client: httpx.Client, key: str, name: str
+    client: httpx.Client, part: Callable[[str], dict[str, Any]], name: str
 ) -> None:
-    verdict = client.post("/validate", json={"document": {**DOOR, "map": {key: name}}}).json()
+    verdict = client.post("/validate", json={"document": {**DOOR, **part(name)}}).json()
     assert not verdict["ok"]
     assert "outside of the folder" in verdict["faults"][0]["message"]
+
+
+def test_a_layout_cannot_name_a_picture_outside_of_the_folder(
+    client: httpx.Client, folder: Path
+) -> None:
+    Image.new("L", (4, 4), 255).save(folder.parent / "secret.png")
+    lines = "resolution: 0.5", "origin: [0, 0, 0]", "negate: 0"
+    limits = "occupied_thresh: 0.65", "free_thresh: 0.25"
+    for name, is_there in (("../secret.png", False), ("inside.png", True)):
+        Image.new("L", (4, 4), 255).save(folder / "inside.png")
+        (folder / "ros.yaml").write_text("\n".join((f"image: {name}", *lines, *limits)))
+        opened = client.get("/documents/ros.yaml")
+        assert opened.is_success == is_there, opened.text
+        assert is_there or "outside of the folder" in opened.text
 
 
 @pytest.mark.parametrize("place", ["..", "/", "../floor", "a/../..", ".", "out"])
@@ -196,3 +226,41 @@ def test_elsewhere_each_request_needs_the_token(folder: Path) -> None:
         assert (signed.status_code, signed.headers["location"]) == (303, "/")
         assert {"HttpOnly", "SameSite=Strict"} <= set(signed.headers["set-cookie"].split("; "))
         assert client.get("/files").status_code == 200  # by the cookie
+
+
+@pytest.mark.parametrize("name", ["numpy.py", "door", "run.sh", "page.html", "lib.so"])
+def test_only_files_that_can_be_opened_are_put_into_the_folder(
+    client: httpx.Client, name: str
+) -> None:
+    kind = {"content-type": "application/octet-stream"}
+    assert client.put(f"/files/{name}", content=b"x", headers=kind).status_code == 400
+
+
+def test_many_large_bodies_at_once_wait_for_each_other(client: httpx.Client) -> None:
+    body = json.dumps({"document": {**DOOR, "note": "x" * 2_000_000}}).encode()
+    kind = {"content-type": "application/json"}
+    with ThreadPoolExecutor(20) as pool:
+        send = partial(client.post, "/validate", content=body, headers=kind)
+        answers = list(pool.map(lambda _: send().status_code, range(20)))
+    assert set(answers) == {200}
+
+
+def test_a_defect_of_ours_is_one_line_and_one_form(capsys: pytest.CaptureFixture[str]) -> None:
+    async def broken(*_: Any) -> None:
+        raise RuntimeError("first line\nsecond line")
+
+    sent_back: list[Any] = []
+
+    async def receive() -> dict[str, Any]:
+        return {"type": "http.request", "body": b""}
+
+    async def send(message: Any) -> None:
+        sent_back.append(message)
+
+    scope = {"type": "http", "method": "GET", "path": "/x", "query_string": b""}
+    guard = Guard(broken, Access(hosts=None))
+    asyncio.run(guard({**scope, "headers": [(b"host", b"h")]}, receive, send))
+    assert sent_back[0]["status"] == 500
+    error = json.loads(sent_back[1]["body"])["error"]
+    assert error["message"] == "unexpected RuntimeError: first line second line"
+    assert capsys.readouterr().err.count("\n") == 1

@@ -154,7 +154,8 @@ def test_every_button_and_field_has_a_name(studio: StudioPage) -> None:
         studio.tab(tab)
         nameless = studio.ask(
             "[...document.querySelectorAll('button, input, select, textarea, a')]"
-            ".filter((each) => each.checkVisibility() && !(each.ariaLabel || each.textContent.trim()"
-            " || each.labels?.length)).map((each) => each.outerHTML)"
+            ".filter((each) => each.checkVisibility())"
+            ".filter((each) => !(each.ariaLabel || each.textContent.trim() || each.labels?.length))"
+            ".map((each) => each.outerHTML)"
         )
         assert nameless == []

@@ -1,4 +1,7 @@
-"""The studio as somebody new uses it, with a stop-watch: a floor, a ROS map, a LIF file."""
+"""The studio as somebody new uses it, with a stop-watch: a floor, a ROS map, a LIF file.
+
+With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are written anew.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +52,7 @@ def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
     """Return the page of a studio in an empty folder."""
     with running(tmp_path, keeps=False) as client:
         context = browser.new_context(
-            locale="en-GB", reduced_motion="reduce", viewport={"width": 1440, "height": 900}
+            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
         )
         yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
         context.close()
@@ -88,6 +91,7 @@ def test_a_floor_is_drawn_planned_watched_understood_and_exported(studio: Studio
         studio.press(stop)
     assert len(studio.document["robots"]) == 3
     assert studio.ask("studio.store.faults") == []
+    studio.keep("studio-draw")
     studio.button("Plan").click()
     studio.planned()
     studio.button("Play").click()
@@ -97,6 +101,7 @@ def test_a_floor_is_drawn_planned_watched_understood_and_exported(studio: Studio
     assert " waits " in why.inner_text()
     why.click()
     assert studio.page.locator("#card").is_visible()
+    studio.keep("studio-plan")
     assert b"<!doctype html>" in exported(studio)[:200].lower()
     assert time.monotonic() - began < TWO_MINUTES
     assert studio.complaints == []

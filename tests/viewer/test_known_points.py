@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from math import cos, sin
 from pathlib import Path
 from shutil import copy
@@ -110,3 +111,35 @@ def test_the_picture_of_a_layout_is_painted(show: Opener, tmp_path: Path) -> Non
     viewer = show(plan_on({"layout": "room.yaml"}, "N3", "N3", tmp_path))
     viewer.wait_for("mapView.base.paintings > 1")  # again, once the picture is there
     assert viewer.complaints == []
+
+
+def test_a_point_drives_along_the_curve_of_its_lane(show: Opener, tmp_path: Path) -> None:
+    """From (0, 0) by way of (0, 4) to (4, 4): a quarter of the way is at (0, 2)."""
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"id": index},
+            "geometry": {"type": "Point", "coordinates": at},
+        }
+        for index, at in enumerate([[0, 0], [4, 4]])
+    ]
+    edge = {
+        "type": "Feature",
+        "properties": {"id": 9, "startid": 0, "endid": 1},
+        "geometry": {"type": "LineString", "coordinates": [[0, 0], [0, 4], [4, 4]]},
+    }
+    graph = {"type": "FeatureCollection", "features": [*features, edge]}
+    (tmp_path / "route.geojson").write_text(json.dumps(graph), encoding="utf-8")
+    document: dict[str, Any] = {
+        "format": "rightofway-scenario/1",
+        "map": {"layout": "route.geojson"},
+        "robots": [{"name": "R1", "home": "0", "target": "1", "return": "none"}],
+    }
+    viewer = show(solve(scenario_of(document, tmp_path)))
+    viewer.ask("(clock.seek(plan.robots[0].enter[1] / 4), frames.paint(0))")
+    at = viewer.ask("plan.roadmap.toSite(motion.x[0], motion.y[0])")
+    assert at == pytest.approx([0, 2], abs=MILLIMETRE)
+    assert viewer.complaints == []
+    document["robots"][0]["radius"] = 1  # judged, and so drawn, on the straight line
+    viewer = show(solve(scenario_of(document, tmp_path)))
+    assert viewer.ask("plan.roadmap.curves.size") == 0

@@ -108,6 +108,18 @@ def test_the_closest_approach_is_exact_and_one_goes_to_it(show: Opener) -> None:
     assert viewer.ask("[choice.space, choice.pair]") == [True, 1]
 
 
+def test_the_closest_approach_of_the_fleet_is_said_and_one_goes_to_it(show: Opener) -> None:
+    viewer = show(cross())
+    viewer.page.click("#space")
+    legend = "R1 and R2, 4 m apart, 1.6 m needed, at 4 s"
+    assert legend in viewer.text("#space-legend")
+    viewer.page.click("#space-legend button")
+    assert viewer.ask("[choice.robotIndex, choice.pair, clock.tick / clock.ticksPerUnit]") == [
+        0, 1, pytest.approx(4),
+    ]  # fmt: skip
+    assert not viewer.page.is_visible("#space-legend")
+
+
 def test_closest_approaches_are_never_below_what_robots_need(show: Opener) -> None:
     """The planner keeps to it; the page measures the same plan by itself."""
     robots = [

@@ -2,6 +2,8 @@
 
 import pytest
 
+from rightofway.fleet_builder import FleetBuilder
+from rightofway.model import Plan, PlannerRun, Track
 from rightofway.viz.motion import Activity, Moment, Trip, end_of, trips_of
 from tests.builders.plans import door, loop
 
@@ -18,6 +20,19 @@ def test_a_visit_is_work_then_turning_then_waiting_then_the_drive(cart: Trip) ->
         (8, 10, Activity.TURN),
         (10, 11, Activity.WAIT),
         (11, 14, Activity.DRIVE),
+    ]
+
+
+def test_a_turn_between_two_edges_comes_before_the_wait() -> None:
+    """At the corner from 1 to 5: 2 of turning, 1 of waiting, 1 of driving."""
+    fleet = FleetBuilder(grid=["..", "@."], turn_rate=45, ends="none")
+    scenario = fleet.add_robot("R", home="N0", target="N3").scenario()
+    tracks = (Track.of([0, 1, 2], [0, 1, 5]),)
+    (trip,) = trips_of(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
+    assert list(trip.phases(1)) == [
+        (1, 3, Activity.TURN),
+        (3, 4, Activity.WAIT),
+        (4, 5, Activity.DRIVE),
     ]
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import floor, lcm, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +65,13 @@ def judge_space(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
     _judge_discs(visits, shapes, names, collector)
 
 
+class _Near(NamedTuple):
+    """Of each shape k the shapes near it: those from first[k] to first[k + 1]."""
+
+    first: Indices
+    shapes: Indices
+
+
 class _Shapes:
     """The shapes that a plan uses: vertices first, then lanes, in whole multiples of a length."""
 
@@ -81,14 +88,28 @@ class _Shapes:
         self.of_drive[drives] = n + lane
         self.one = np.concatenate((np.arange(n), lanes // n))
         self.other = np.concatenate((np.arange(n), lanes % n))
-        x, y = _coordinates(roadmap)
-        self._scale = lcm(*(value.denominator for value in (*x, *y, *radii, clearance)))
-        self.x, self.y = (np.array([int(v * self._scale) for v in axis], object) for axis in (x, y))
-        self._radius = np.array([int(radius * self._scale) for radius in radii], object)
+        axes, sizes = _coordinates(roadmap), set(radii)
+        numbers = (*axes[0][0], *axes[1][0], *sizes, clearance)
+        self._scale = lcm(*(value.denominator for value in numbers))
+        self.x, self.y = (
+            np.array([int(value * self._scale) for value in values], object)[index]
+            for values, index in axes
+        )
+        scaled = {radius: int(radius * self._scale) for radius in sizes}
+        self._radius = np.array([scaled[radius] for radius in radii], object)
         self._clearance = int(clearance * self._scale)
         is_used = np.zeros(len(self.one), bool)
         is_used[visits.vertex[visits.known]] = is_used[n:] = True
-        self._first, self._near = self._nearby(np.flatnonzero(is_used))
+        one, other = self._nearby(np.flatnonzero(is_used))
+        self.near = self._lists(one, other)
+        ends = self.one[one], self.other[one]
+        meet = [end == far[other] for end in ends for far in (self.one, self.other)]
+        without = ~np.logical_or.reduce(meet)
+        self.near_without_common_vertex = self._lists(one[without], other[without])
+
+    def _lists(self, one: Indices, other: Indices) -> _Near:
+        """Return pairs of shapes, sorted by the first, as a list for each shape."""
+        return _Near(np.searchsorted(one, np.arange(len(self.one) + 1)), other)
 
     def apart(self, i: Indices, j: Indices) -> Exact:
         """Return the least distance of robots, 0 where none of the two has a size."""
@@ -100,20 +121,21 @@ class _Shapes:
         """Return the length [length unit] of which the square in whole multiples is given."""
         return sqrt(square) / self._scale
 
-    def together(self, times: _Times) -> Iterator[tuple[Indices, Indices]]:
+    @staticmethod
+    def together(times: _Times, near: _Near) -> Iterator[tuple[Indices, Indices]]:
         """Yield pairs of entries of different robots, near each other, that overlap in time."""
         moments, rank = np.unique(np.concatenate((times.start, times.end)), return_inverse=True)
         start, end = np.split(rank.reshape(-1), 2)
         keys = times.shape * len(moments) + start
-        counts = self._first[times.shape + 1] - self._first[times.shape]
+        counts = near.first[times.shape + 1] - near.first[times.shape]
         ends = np.cumsum(counts)
         begin = 0
         while begin < len(counts):
             before = ends[begin] - counts[begin]
             stop = max(int(np.searchsorted(ends, before + CHUNK)), begin + 1)
-            one, place = _spread(self._first[times.shape[begin:stop]], counts[begin:stop])
+            one, place = _spread(near.first[times.shape[begin:stop]], counts[begin:stop])
             one += begin
-            there = self._near[place] * len(moments)
+            there = near.shapes[place] * len(moments)
             first = np.searchsorted(keys, there + start[one])
             after = np.searchsorted(keys, there + end[one])
             which, place = _spread(first, np.maximum(after - first, 0))
@@ -155,7 +177,7 @@ class _Shapes:
         return np.array(to_a | to_b | beside, bool)
 
     def _nearby(self, used: Indices) -> tuple[Indices, Indices]:
-        """Return for each shape the shapes that robots may be too near on, itself included."""
+        """Return pairs of shapes, sorted, that robots may be too near on; each with itself, too."""
         x = np.array([value / self._scale for value in self.x - self.x.min()], float)
         y = np.array([value / self._scale for value in self.y - self.y.min()], float)
         widest = sum(sorted(self._radius)[-2:]) + self._clearance
@@ -186,21 +208,21 @@ class _Shapes:
         pairs = pairs[np.append(True, np.diff(pairs) != 0)]
         one, other = np.divmod(pairs, len(used))
         near = _distances(p[one], q[one], p[other], q[other]) <= reach
-        found = used[one[near]]
-        first = np.searchsorted(found, np.arange(len(self.one) + 1))
-        return first, used[other[near]]
+        return used[one[near]], used[other[near]]
 
 
-def _coordinates(roadmap: Roadmap) -> tuple[list[Fraction], list[Fraction]]:
-    """Return x and y of all vertices, exactly: floats count as the decimals that they print as."""
+def _coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
+    """Return numbers, and which of them is x of each vertex; the same for y.
+
+    The numbers are exact: floats count as the decimals that they print as.
+    """
     grid = roadmap.grid
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
         steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
-        x, y = ([steps[k] for k in axis.tolist()] for axis in (columns, rows))
-    else:
-        x, y = ([Fraction(str(v)) for v in axis] for axis in roadmap.positions.T.tolist())
-    return x, y
+        return [(steps, columns), (steps, rows)]
+    axes = roadmap.positions.T.tolist()
+    return [([Fraction(str(v)) for v in axis], np.arange(len(axis))) for axis in axes]
 
 
 def _spread(first: Indices, counts: Indices) -> tuple[Indices, Indices]:
@@ -273,7 +295,7 @@ def _judge_bookings(
         end=np.concatenate(((visits.leave + headway)[here], (visits.leave + headway)[drives])),
     ).in_order()
     found: list[tuple[Indices, Indices]] = []
-    for one, other in shapes.together(bookings):
+    for one, other in shapes.together(bookings, shapes.near_without_common_vertex):
         limit = shapes.apart(bookings.robot[one], bookings.robot[other])
         excluded = shapes.exclude(bookings.shape[one], bookings.shape[other], limit)
         found.append((one[excluded], other[excluded]))
@@ -324,7 +346,10 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         start=np.concatenate((visits.enter[here], begun[drives])),
         end=np.concatenate((begun[here], visits.leave[drives])),
     ).in_order()
-    parts = [_encounters(visits, shapes, motions, *pair) for pair in shapes.together(motions)]
+    parts = [
+        _encounters(visits, shapes, motions, *pair)
+        for pair in shapes.together(motions, shapes.near)
+    ]
     one, other, square, when = (np.concatenate(each) for each in zip(*parts, strict=True))
     quantities = names.quantities
     for k in _first_of_each(motions, one, other, square):

@@ -32,6 +32,9 @@ MAX_HOMES = 5
 UNEXPLAINED = ", though no place on its way becomes free just then"
 """What a report says about a wait that no other robot is the cause of."""
 
+MAY_BE_CLOSED = ", because something on its way is closed, or to let a robot pass later"
+"""The same where something is closed for a while."""
+
 COLUMNS_OF_TIMES = ("completes", "alone", "detours", "makes room", "waits")
 """Headings of the table of robots: the first is the sum of the others."""
 
@@ -194,15 +197,16 @@ def sentence_on(words: Words, group: Sequence[Loss]) -> str:
             return f"{robot} makes room{reason} {times} times and loses {total}, first {away}."
         return f"{robot} makes room{reason} and loses {total}, {away}."
     where = f"in {place}"
+    unexplained = MAY_BE_CLOSED if words.plan.scenario.closures else UNEXPLAINED
     if first.until_vertex != first.vertex:
         where += f" to {words.place(first.until_vertex)}"
     if times > 1:
-        reason = UNEXPLAINED if first.for_robot is None else ""
+        reason = unexplained if first.for_robot is None else ""
         awaited = "" if first.for_robot is None else f" for {other}"
         how = f"waits {times} times{awaited}, {total} in all, first {where} {begin}"
         return f"{robot} {how}{reason}."
     if first.for_robot is None:
-        reason = UNEXPLAINED
+        reason = unexplained
     elif first.freed == first.towards:
         reason = f", for {other} to leave {freed}"
     else:

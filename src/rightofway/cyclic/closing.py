@@ -334,7 +334,8 @@ class _SeamClosing:
     def _waits_at_home(self, robot: int) -> bool:
         """Connect a robot by a wait at home; return whether its home stays free."""
         kept = self._kept[robot]
-        through = self._seam.connect(kept.lap, 0, kept.begins, kept.until, kept.leave)
+        times = kept.begins, kept.until, kept.leave
+        through = self._seam.connect(kept.lap, 0, *times, robot=robot)
         self._kept[robot] = replace(kept, through=through)
         self._book_through(robot)
         return through is not None
@@ -362,15 +363,14 @@ class _SeamClosing:
         self._seam.remove(robot)  # its own bookings do not block it
         for kept, n_through in choices:
             times = kept.begins, kept.until, kept.leave
-            through = self._seam.connect(kept.lap, n_through, *times)
+            through = self._seam.connect(kept.lap, n_through, *times, robot=robot)
             self._searches += 1
             if through is not None:
                 self._book(robot, replace(kept, through=through))
                 return None
-            vertex = self._seam.stuck_at(kept.lap)
-            for one in self._seam.users([vertex], kept.begins, kept.leave):
+            for one in self._seam.in_the_way(robot, kept.lap, kept.begins, kept.leave):
                 other = self._kept[one]
-                at_home = other.lap.vertices[0] == vertex
+                at_home = self._seam.keeps_out(one, other.lap, robot, kept.lap)
                 if other.through is not None and (other.n_through or at_home):
                     blocking.add(one)
         self._book(robot, before)

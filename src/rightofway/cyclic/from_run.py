@@ -138,17 +138,20 @@ def extract_cycle(
 ) -> Candidate | None:
     """Return the timetable of a long stretch of a run; None without a fair closing.
 
-    At least one closing is completed, in a bounded number of steps, also after the deadline.
+    At least one closing is completed, in a bounded number of steps, also after the deadline; and
+    one of each other run, if it fails.
     """
     found: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
         some = stretches(problem, run)[: params.stretches_each]
         found += [(value, stretch, number) for value, stretch in some]
     found.sort(key=lambda one: one[:2], reverse=True)
+    failed = set[int]()
     for _, stretch, number in found[: params.most_stretches]:
+        if problem.is_out_of_time and number in failed:
+            continue
         closed = close_stretch(problem, runs[number], stretch)
         if closed is not None and problem.accepts(closed):
             return closed
-        if problem.is_out_of_time:
-            break
+        failed.add(number)
     return None

@@ -14,15 +14,31 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
 from rightofway.cyclic.backjumping import Decision, RightOfWaySearch
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
-from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
-from rightofway.cyclic.window_rules import two_level
+from rightofway.cyclic.window import AnySegment, FrozenPrefix, TooShort, Window, WindowRule
 from rightofway.planners import Deadline
+from rightofway.planners.two_level import by_two_levels
+from rightofway.precedence import Meeting
+
+
+def two_level(window: Window, meeting: Meeting, segment: AnySegment) -> Literal[0, 1]:
+    """Decide as in the paper: fewest conflicts left in the window, then least time of two robots.
+
+    On a tie, the robot that would enter the segment later waits.
+    """
+    settlement = by_two_levels(window.fleet, meeting)
+    if settlement is not None and settlement.decisions:
+        return 0 if settlement.decisions[0].waits == meeting.robots[0] else 1
+    (i, j), graph = meeting.robots, window.graph
+    i_enters = graph.enter(graph.visit(i, segment.i_first))
+    return 0 if graph.enter(graph.visit(j, segment.j_first)) < i_enters else 1
+
 
 _Checkpoint = tuple[int, tuple[int, ...], tuple[Decision, ...]]
 """The tick of a cut, the visits of each robot begun by the cut, and the open decisions."""

@@ -9,8 +9,7 @@ from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, independent_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
-from rightofway.cyclic.simulator import DEFAULT, CyclicSimulator, Deadlock, choose_pacemaker
-from rightofway.cyclic.window_rules import WINDOW_RULES
+from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, InputError, kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.planners import Deadline
@@ -80,16 +79,7 @@ def run_laps(
 
 def simulation_of(context: GroupContext, rule: str) -> Simulation:
     """Return a new simulation of a group."""
-    if rule in NATIVE_RULES and context.scenario.problem.resources is None:
-        return CyclicSimulator(context, rule)
-    return by_windows(context, rule)
-
-
-def by_windows(context: GroupContext, rule: str) -> RollingHorizon:
-    """Return a simulation of a group in Python, with the pacemaker of the native simulator."""
-    part = 1 if rule == "two-level" else DEFAULT.pacemaker_part
-    pacemaker = choose_pacemaker(context.laps, -(-context.longest // part))
-    return RollingHorizon(context, WINDOW_RULES[rule], pacemaker=pacemaker)
+    return CyclicSimulator(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
 
 
 def share_time(

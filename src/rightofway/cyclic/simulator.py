@@ -18,6 +18,7 @@ from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, VertexId
 from rightofway.planners import Deadline
+from rightofway.precedence import BookedRows
 
 OPEN, REPEATS = 0, 1
 """Ends reported by the kernel; any other end is a deadlock."""
@@ -75,6 +76,8 @@ class CyclicSimulator:
         laps, longest = context.laps, context.longest
         pacemaker = choose_pacemaker(laps, -(-longest // params.pacemaker_part))
         drive = np.array([ticks for lap in laps for ticks in lap.drive], np.int64)
+        one_each = [1] * len(laps)
+        rows = BookedRows.of_laps(context.scenario, context.robots, laps, one_each)
         self._kernel = _core.CyclicSimulator(
             np.cumsum([0, *map(len, laps)], dtype=np.int32),
             np.array([vertex for lap in laps for vertex in lap.vertices], np.int32),
@@ -90,6 +93,10 @@ class CyclicSimulator:
             memory=params.memory,
             rule=NATIVE_RULES.index(rule),
             loss=np.array([max(LAP_LOSS // lap.duration, 1) for lap in laps], np.int64),
+            vertex_row=None if rows is None else rows.vertex,
+            edge_row=None if rows is None else rows.edge,
+            first=None if rows is None else rows.first,
+            excluded=None if rows is None else rows.excluded,
         )
 
     @property

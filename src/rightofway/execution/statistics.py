@@ -302,13 +302,13 @@ class Outcome:
 
     def typical(self) -> int:
         """Return the median run, ordered by the number of robots that complete, then flowtime."""
-        return int(self._order()[(self.runs - 1) // 2])
+        return int(self._from_best()[(self.runs - 1) // 2])
 
     def worst(self) -> int:
-        """Return the last run in that order."""
-        return int(self._order()[-1])
+        """Return the last run in the same order."""
+        return int(self._from_best()[-1])
 
-    def _order(self) -> Any:
+    def _from_best(self) -> NDArray[np.intp]:
         never = (self.completion < 0).sum(axis=1)
         flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
         return np.lexsort((flowtime, never))

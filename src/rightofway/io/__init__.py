@@ -7,7 +7,13 @@ else in the package.
 
 from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text
 from rightofway.io.formats import schema
-from rightofway.io.layouts import LAYOUT_WRITERS, is_layout, layout_text, read_layout
+from rightofway.io.layouts import (
+    LAYOUT_WRITERS,
+    is_layout,
+    layout_of_graph,
+    layout_text,
+    read_layout,
+)
 from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
 from rightofway.io.opening import load, load_either, load_plan, load_with_notes
 from rightofway.io.plan.reader import plan_of
@@ -29,6 +35,7 @@ __all__ = [
     "example_of_layout",
     "foreign_text",
     "is_layout",
+    "layout_of_graph",
     "layout_text",
     "load",
     "load_delays",

@@ -33,6 +33,9 @@ LEVEL = "L1"
 DECIMALS = 6
 """Coordinates are written to a micrometre, times to a microsecond, angles to a microradian."""
 
+SMOOTH = math.radians(10)
+"""A robot drives on through a smaller turn, as along the pieces of a curve [rad]."""
+
 BILLION = 10**9
 
 COLUMNS = ("time", "robot", "event", "place", "x", "y", "heading", "purpose", "waits_for")
@@ -101,7 +104,8 @@ class Pose:
     x, y
         Where it is [m].
     heading
-        Which way it points, from x to y [rad]; the way that it drives next, or came.
+        Which way it points, from x to y [rad]: the way that it drives next, or came; where it
+        drives on through a small turn, the way between both.
     speed
         How fast it drives on [m/s]; 0 where it stays or turns.
     """
@@ -141,13 +145,15 @@ class _Site:
         ):
             goes = came if visit == last else headings[visit]
             passes = 0 < visit < last and arrives == departs
-            straight = passes and math.isclose(goes, came, abs_tol=1e-9)
-            speed = min(speeds[visit - 1], speeds[visit]) if straight else 0.0
+            turn = math.remainder(goes - came, math.tau)
+            goes_on = passes and abs(turn) <= SMOOTH
+            heading = math.remainder(came + turn / 2, math.tau) if goes_on else goes
+            speed = min(speeds[visit - 1], speeds[visit]) if goes_on else 0.0
             if not passes and arrives < departs:
                 yield Pose(visit=visit, seconds=arrives * self.second, x=x, y=y,
                            heading=came, speed=0.0)  # fmt: skip
             yield Pose(visit=visit, seconds=departs * self.second, x=x, y=y,
-                       heading=goes, speed=speed)  # fmt: skip
+                       heading=heading, speed=speed)  # fmt: skip
             came = goes
 
     def _drives(

@@ -51,6 +51,9 @@ class Drawing:
         Names of places to work at, each with its vertex.
     parking, charging
         Vertices to park at, and to charge at.
+    curves
+        Tail and head of each edge that is one curve, with the points between them in the site's
+        frame [length unit].
     picture
         The picture that lies below the map.
     """
@@ -58,4 +61,5 @@ class Drawing:
     stations: tuple[tuple[str, VertexId], ...] = ()
     parking: tuple[VertexId, ...] = ()
     charging: tuple[VertexId, ...] = ()
+    curves: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
     picture: Picture | None = None

@@ -5,15 +5,16 @@ Lengths are metres, speeds metres per second, and y grows upwards, whatever the 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.model.drawing import Drawing, Picture
+from rightofway.model.edges import Edge, roadmap_of_edges
 from rightofway.model.geometry import Point
-from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
+from rightofway.model.roadmap import Roadmap
 from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 
@@ -277,7 +278,8 @@ def roadmap_of_level(
         split = split_lanes(positions, edges, spacing, shapes)
     drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
     roadmap = roadmap_of_edges(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
-    roadmap = replace(roadmap, drawing=_drawing(level, roadmap, metre))
+    bends = {(lane.tail, lane.head): lane.shape for lane in lanes if lane.shape}
+    roadmap = replace(roadmap, drawing=_drawing(level, roadmap, bends, metre))
     return LevelRoadmap(
         roadmap=roadmap,
         curves=len(curves),
@@ -299,8 +301,13 @@ def _curves(
     return {ends: lane for ends, lane in found.items() if lane.chord_error is not None}
 
 
-def _drawing(level: Level, roadmap: Roadmap, metre: Fraction) -> Drawing:
-    """Return the places of a level that its roadmap has, and its picture."""
+def _drawing(
+    level: Level,
+    roadmap: Roadmap,
+    bends: Mapping[tuple[str, str], Sequence[Point]],
+    metre: Fraction,
+) -> Drawing:
+    """Return the places and curves of a level that its roadmap has, and its picture."""
     ids = {name: roadmap.vertex(name) for name in roadmap.labels or ()}
     stations = {
         station.name: next(ids[name] for name in station.vertices if name in ids)
@@ -312,6 +319,11 @@ def _drawing(level: Level, roadmap: Roadmap, metre: Fraction) -> Drawing:
         stations=tuple(stations.items()),
         parking=tuple(ids[vertex.name] for vertex in known if vertex.is_parking),
         charging=tuple(ids[vertex.name] for vertex in known if vertex.is_charging),
+        curves=tuple(
+            (ids[tail], ids[head], tuple((x * metre, y * metre) for x, y in points))
+            for (tail, head), points in bends.items()
+            if {tail, head} <= ids.keys() and roadmap.edge(ids[tail], ids[head]) is not None
+        ),
         picture=level.picture and level.picture.scaled(metre),
     )
 

@@ -239,7 +239,7 @@ def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
     for length_class, duration in enumerate(roadmap.durations(robot.speed)):
-        if not roadmap.is_barred(length_class, robot.type):
+        if not roadmap.is_barred(length_class, robot.type, robot.radius):
             yield duration
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
@@ -256,7 +256,9 @@ def _itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
         edge_ticks=tuple(
-            Tick(-1) if roadmap.is_barred(length_class, robot.type) else clock.ticks(duration)
+            Tick(-1)
+            if roadmap.is_barred(length_class, robot.type, robot.radius)
+            else clock.ticks(duration)
             for length_class, duration in enumerate(roadmap.durations(robot.speed))
         ),
         surcharges=tuple(map(clock.ticks, roadmap.surcharges)),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -10,13 +11,16 @@ from math import ceil
 from typing import NamedTuple
 
 from rightofway.errors import InputError
+from rightofway.model.edges import Edge
 from rightofway.model.geometry import (
     COARSE,
     Point,
     squared_distance,
     straight_length,
 )
-from rightofway.model.roadmap import Edge
+
+PIECE = re.compile("(.+)/[1-9][0-9]*")
+"""The name of a vertex between two pieces of a lane."""
 
 
 class SplitLanes(NamedTuple):
@@ -151,3 +155,24 @@ def _cuts(
             inside.append((x, y))
             parts.append(length / count)
     return inside[:-1], parts
+
+
+def along_one_lane(names: Collection[str]) -> bool:
+    """Return whether vertices are pieces, or pieces and ends, of one lane that was split.
+
+    Parameters
+    ----------
+    names
+        Names of vertices.
+
+    Examples
+    --------
+    >>> along_one_lane(["A", "A-B/1", "A-B/3"]), along_one_lane(["A-B/1", "C"])
+    (True, False)
+    """
+    pieces = {name: found[1] for name in names if (found := PIECE.fullmatch(name))}
+    lanes = set(pieces.values())
+    ends = [name for name in names if name not in pieces]
+    return len(lanes) == 1 and all(
+        lane.startswith(f"{end}-") or lane.endswith(f"-{end}") for lane in lanes for end in ends
+    )

@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, shown
 from rightofway.model.resources import exact_positions
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.units import Clock, Tick
@@ -24,8 +24,8 @@ from rightofway.model.units import Clock, Tick
 ANGLE_STEP = Fraction(1, 10**6)
 """Angles are rounded to this [degrees]."""
 
-LONGEST_TURN = 2**40
-"""The most ticks of a turn."""
+LONGEST_TURN = 2**31 - 1
+"""The most ticks of a turn: the native core keeps them in int32."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -117,21 +117,11 @@ def turnings_of(
             angles = angles_of(roadmap)
             ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
             if ticks and ticks[-1] > LONGEST_TURN:
-                message = f"{rate} is too slow: a turn takes more than 2**40 ticks (give more)"
+                longest = f"a turn takes {shown(ticks[-1])} ticks of {shown(clock.tick)}"
+                message = f"{shown(rate)} is too slow: {longest} (give a faster one)"
                 raise InputError.at(f"robots[{robot}].turn_rate", message)
             made[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
     return [made[rate] for rate in rates]
-
-
-def longest_turn(turning: Turning | None) -> Tick:
-    """Return how long the largest turn of a robot takes [ticks]; 0 for None.
-
-    Parameters
-    ----------
-    turning
-        How long the robot turns.
-    """
-    return Tick(0 if turning is None else int(turning.ticks.max(initial=0)))
 
 
 @lru_cache(maxsize=4)

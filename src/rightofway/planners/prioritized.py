@@ -22,7 +22,8 @@ import numpy as np
 from rightofway.model import Scenario, Stop, cost_of
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import plan_fleet, timetable_in_order
-from rightofway.planners.task import Deadline, Draft, Task, planning_problem
+from rightofway.planners.task import Deadline, Draft, Task, planning_headway, planning_problem
+from rightofway.precedence import graph_of
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
@@ -38,8 +39,9 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
-SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.3
-"""The same for robots with a size, and the part of the time left for that."""
+SEARCHES_WITH_SIZES, SHARE_WITH_SIZES, SHARE_WITH_PLAN = 30, 0.7, 0.3
+"""The same for robots with a size or among closures, and the parts of the time left for that:
+without a plan, and with one."""
 
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
@@ -66,7 +68,9 @@ def fleet_search(task: Task) -> FleetSearch:
     return search
 
 
-def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
+def plan_in_turn(
+    task: Task, search: FleetSearch, order: str, *, has_plan: bool = False
+) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
     None if no plan was found, or no time is left; that proves nothing.
@@ -74,8 +78,9 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
-    if task.scenario.problem.resources is not None:
-        return _with_sizes(task, search, turns)
+    problem = task.scenario.problem
+    if problem.resources is not None or problem.closures is not None:
+        return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
@@ -84,17 +89,20 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
         with_net=_part(deadline, SHARE_WITH_NET),
     ):
         return _at_own_speeds(task, search)
-    drafts = [_at_one_pace(task, turns)] if task.scenario.problem.closures is None else []
+    drafts = [_at_one_pace(task, turns)]
     if search.go_on(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     there = [draft for draft in drafts if draft is not None]
     return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
 
 
-def _with_sizes(task: Task, search: FleetSearch, turns: Sequence[int]) -> Draft | None:
-    """Plan robots with a size one after another; one pace gains nothing where they book ahead."""
+def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
+    """Plan robots one after another at their own speeds only.
+
+    One pace gains nothing for robots with a size, which book ahead; and closures are at times.
+    """
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _part(task.deadline, SHARE_WITH_SIZES)
+    limit = _part(task.deadline, share)
     found = search.prioritize(turns, searches=searches, time_limit=limit)
     return _at_own_speeds(task, search) if found else None
 
@@ -104,8 +112,12 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
+    tracks = search.tracks()
+    if task.scenario.problem.closures is not None:  # a robot may have waited for a kept home
+        headway = planning_headway(task.scenario)
+        tracks = tuple(graph_of(task.scenario, tracks, headway=headway).tracks())
     task.has_plan()
-    return Draft(tracks=search.tracks(), status="one after another")
+    return Draft(tracks=tracks, status="one after another")
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:

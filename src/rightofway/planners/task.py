@@ -77,7 +77,7 @@ class Task:
         place, where that is known; int64, shape (R,).
     better
         Planners that improve a plan call it with a function that returns the tracks of the best
-        plan so far, whenever there is a better one.
+        plan so far, whenever there may be a better one.
     keep_best
         Whether an interrupt ends the planner with the best plan so far, where there is one.
     """

@@ -80,8 +80,6 @@ def _turning(problem: Problem) -> dict[str, Any]:
         return {}  # or no edge follows another
     angles = classes[0].angles
     ticks = np.concatenate([one.ticks for one in classes])
-    if ticks.max(initial=0) > np.iinfo(np.int32).max:
-        raise OverflowError(f"a turn of {ticks.max()} ticks does not fit int32")
     return {
         "turn_offset": angles.offset,
         "turn_kind": angles.kind,

@@ -137,7 +137,7 @@ class PeriodicBookings:
     books_ahead
         Whether a robot books a vertex from when it starts to drive there (``occupancy: both``).
     rows
-        What laps book, where robots have a size; for such robots, a period is needed.
+        What laps book, where robots have a size.
     """
 
     def __init__(
@@ -198,9 +198,11 @@ class PeriodicBookings:
             When each begins, and when the last one ends [ticks].
         """
         place = np.arange(visits.start, visits.stop) % len(lap)
-        vertex, dwell, drive = visits_of_laps(lap, 1)
-        begins = np.ascontiguousarray(enter)
-        self._kernel.add(robot, vertex[place], dwell[place], drive[place], begins, int(leave))
+        (vertex, dwell, drive), edges = self._visits(robot, lap, 1)
+        begins, edges = np.ascontiguousarray(enter), None if edges is None else edges[place]
+        self._kernel.add(
+            robot, vertex[place], dwell[place], drive[place], begins, int(leave), edges
+        )
 
     def remove(self, robot: int) -> None:
         """Remove all bookings of a robot."""
@@ -261,7 +263,7 @@ class PeriodicBookings:
         return lap, enter - enter[0] // int(self.period) * int(self.period)
 
     def connect(
-        self, lap: Lap, count: int, begins: int, until: int, leave: int
+        self, lap: Lap, count: int, begins: int, until: int, leave: int, *, robot: int = 0
     ) -> NDArray[np.int64] | None:
         """Return when the visits of some laps can begin, with the visit home after them, or None.
 
@@ -273,32 +275,43 @@ class PeriodicBookings:
             When the robot comes home before them [ticks].
         until, leave
             By when it has to be home again, and until when it stays there then [ticks].
+        robot
+            The robot.
         """
-        return self._kernel.connect(*_visits_home(lap, count), int(begins), int(until), int(leave))
+        vertex, dwell, drive = _visits_home(lap, count)
+        ticks = int(begins), int(until), int(leave)
+        if self._rows is None:
+            return self._kernel.connect(vertex, dwell, drive, *ticks)
+        place = np.append(np.arange(len(lap) * count) % len(lap), 0)
+        vertices, edges = self._rows.of_lap(robot, lap)
+        return self._kernel.connect(vertices[place], dwell, drive, *ticks, edges[place])
 
-    def stuck_at(self, lap: Lap) -> VertexId:
-        """Return the vertex that the last search, for this lap, could not enter."""
-        return lap.vertices[(self._kernel.reached + 1) % len(lap)]
-
-    def in_the_way(self, robot: int, lap: Lap) -> set[int]:
+    def in_the_way(
+        self, robot: int, lap: Lap, begins: int = -NEVER, until: int = NEVER
+    ) -> set[int]:
         """Return the robots that have booked what the last search, for this lap, could not."""
+        return self._users(self._not_reached(robot, lap), begins, until)
+
+    def keeps_out(self, other: int, home_of: Lap, robot: int, lap: Lap) -> bool:
+        """Return whether a robot at home excludes what the last search, for this lap, needed."""
+        needed = self._not_reached(robot, lap)
+        if self._rows is None:
+            return bool(needed[0] == home_of.vertices[0])
+        row = int(self._rows.of_lap(other, home_of)[0][0])
+        return bool(np.isin(needed, self._rows.resources.excluded_by(row)).any())
+
+    def _not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
+        """Return the rows (for points: the vertex) that the last search could not book."""
         visit = (self._kernel.reached + 1) % len(lap)
         if self._rows is None:
-            return self.users([lap.vertices[visit]])
-        vertices, edges = self._rows.of_lap(robot, lap)
-        return self._users(np.array([vertices[visit], edges[visit]], np.int32))
+            return np.array([lap.vertices[visit]], np.int32)
+        return np.array([rows[visit] for rows in self._rows.of_lap(robot, lap)], np.int32)
 
     def neighbours(self, robot: int, lap: Lap) -> set[int]:
         """Return the robots that have booked anything that a lap needs."""
         if self._rows is None:
-            return self.users(lap.vertices)
+            return self._users(np.array(lap.vertices, np.int32))
         return self._users(np.concatenate(self._rows.of_lap(robot, lap)))
-
-    def users(
-        self, vertices: Sequence[VertexId], begins: int = -NEVER, until: int = NEVER
-    ) -> set[int]:
-        """Return the robots that have booked any of these vertices between two ticks."""
-        return self._users(np.array(vertices, np.int32), begins, until)
 
     def _users(self, rows: NDArray[np.int32], begins: int = -NEVER, until: int = NEVER) -> set[int]:
         return set(self._kernel.users(rows, begins, until).tolist())

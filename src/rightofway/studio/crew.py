@@ -196,14 +196,14 @@ class Crew:
 
     async def _done(self, job: Job) -> tuple[Any, list[bytes]]:
         worker = await self._one()
-        job.worker, is_done = worker, False
+        job.worker, is_usable = worker, False
         try:
             job.on_start()
             order = {"job": job.number, "task": job.task, "arguments": job.arguments}
             worker.send(order, job.blobs)
             async with asyncio.timeout(job.limit):
                 answer, blobs = await self._answer(worker, job)
-            is_done = True
+            is_usable = not answer["is_large"]
         except TimeoutError:
             message = f"this took longer than {job.limit:g} s (give a smaller problem)"
             raise TaskFailed({"kind": "too_long", "message": message}) from None
@@ -212,7 +212,7 @@ class Crew:
             raise TaskFailed(error) from None
         finally:
             job.worker = None
-            await self._back(worker, is_whole=is_done)
+            await self._back(worker, is_whole=is_usable)
         if "error" in answer:
             raise TaskFailed(answer["error"])
         return answer["result"], blobs

@@ -8,13 +8,16 @@ send. Where the server listens to other machines, each request also needs the to
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import secrets
 import sys
 from collections.abc import Awaitable, Callable, MutableMapping
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
 from typing import Any
 from urllib.parse import parse_qs, unquote_to_bytes, urlencode
 
@@ -27,6 +30,12 @@ MAX_BODY = 20_000_000
 
 LONGEST_PATH = 2000
 """The longest path of a request, with its query [bytes]."""
+
+LARGE_BODY, MOST_LARGE = 1_000_000, 8
+"""So many requests with a body of more bytes are worked on at once; the others wait."""
+
+HTTP = 80
+"""The port that an address does not name."""
 
 COOKIE = "rightofway-token"
 """Where a browser keeps the token."""
@@ -87,13 +96,19 @@ class Access:
         """
         if is_loopback(host):
             names = ("127.0.0.1", "localhost", "[::1]", host)
-            return cls(hosts=frozenset(f"{name}:{port}" for name in names))
+            usual = names if port == HTTP else ()
+            return cls(hosts=frozenset([*usual, *(f"{name}:{port}" for name in names)]))
         return cls(hosts=None, token=secrets.token_urlsafe(24))
 
 
 def is_loopback(host: str) -> bool:
     """Return whether only this machine reaches an address."""
-    return host in {"localhost", "::1", "[::1]"} or host.startswith("127.")
+    if host == "localhost":
+        return True
+    try:
+        return ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
 
 
 @dataclass(slots=True)
@@ -108,6 +123,12 @@ class _Request:
             if name in self.headers and name in {b"host", b"origin", b"content-length"}:
                 raise Refused(f"the header {name.decode()} stands twice (send it once)")
             self.headers[name] = value
+
+    @property
+    def is_large(self) -> bool:
+        """Whether its body is large, or may be."""
+        length = self.header("content-length")
+        return bool(self.header("transfer-encoding")) or int(length or 0) > LARGE_BODY
 
     def header(self, name: str) -> str:
         """Return a header, empty where there is none."""
@@ -128,6 +149,7 @@ class Guard:
     def __init__(self, app: App, access: Access) -> None:
         self._app = app
         self._access = access
+        self._large = asyncio.Semaphore(MOST_LARGE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request."""
@@ -144,7 +166,8 @@ class Guard:
             if await self._signs_in(request, answer):
                 return
             self._ask_token(request)
-            await self._app(scope, _Body(receive).receive, answer.send)
+            async with self._large if request.is_large else nullcontext():
+                await self._app(scope, _Body(receive).receive, answer.send)
         except StudioError as refused:
             await answer.refuse(refused.status, refused.error)
         except Exception as error:  # noqa: BLE001 (a defect of ours: one line, and the server goes on)
@@ -156,7 +179,9 @@ class Guard:
         """Refuse what is not a request of our own page, of a program here, or of an address bar."""
         scope, method = request.scope, request.scope["method"]
         if method not in READS | CHANGES:
-            raise Refused(f"the method {method[:20]!r} is not known (see /api/v1/docs)", 405)
+            raise Refused(
+                f"the method {method[:20]!r} is not known (see /api/v1/openapi.json)", 405
+            )
         raw = scope.get("raw_path") or scope["path"].encode()
         if len(raw) + len(scope["query_string"]) > LONGEST_PATH:
             raise Refused(f"the path is longer than {LONGEST_PATH} bytes (shorten it)", 414)

@@ -11,6 +11,7 @@ from rightofway.errors import InputError
 from rightofway.io.text import check_depth
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.runs import Runs
+from rightofway.studio.shared import SharedAnswers
 from rightofway.studio.store import Store
 from rightofway.studio.workspace import Workspace
 
@@ -22,6 +23,9 @@ DESK_QUEUE = 200
 
 DESK_LIMIT = 60.0
 """The time after which a request ends, and its worker with it [s]."""
+
+PLAYED = 40_000_000
+"""Payloads of plans that are kept in memory, because many browsers watch the same ones [bytes]."""
 
 
 class Studio:
@@ -50,7 +54,8 @@ class Studio:
         place = self.workspace.folder, self._scratch.name
         self.desk = Crew(*place, size=DESK, queue=DESK_QUEUE)
         self.planners = Crew(*place, size=planners, queue=planners)
-        self.runs = Runs(self.store, self.planners)
+        self.played = SharedAnswers(PLAYED)
+        self.runs = Runs(self.store, self.planners, self.desk)
 
     async def start(self) -> None:
         """Start workers, and take up what was left."""

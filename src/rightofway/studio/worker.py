@@ -34,6 +34,9 @@ SHARE_OF_MEMORY = 0.5
 LEAST_MEMORY = 2**30
 """What a worker may take in any case [bytes]."""
 
+LARGE = 2**29
+"""A worker that had more memory at once is not used again [bytes]."""
+
 Blobs = Sequence[bytes]
 Emit = Callable[..., None]
 """Sends an event of the current job: ``emit({"flowtime": 3}, b"a plan")``."""
@@ -100,7 +103,8 @@ class Worker:
             answer = ({"job": job, "error": as_error(error)}, ())
         finally:
             self._current = None
-        self._send(*answer)
+        message, parts = answer
+        self._send({**message, "is_large": most_memory() > LARGE}, parts)
 
     def _send(self, message: dict[str, Any], blobs: Blobs) -> None:
         data = packed(message, blobs)
@@ -191,6 +195,16 @@ def confine(*folders: str) -> None:
             raise PermissionError(errno.EACCES, reason, path)
 
     sys.addaudithook(watch)
+
+
+def most_memory() -> int:
+    """Return the most memory that this process had at once [bytes]; 0 where nobody counts it."""
+    try:
+        import resource
+    except ImportError:
+        return 0
+    unit = 1 if sys.platform == "darwin" else 1024
+    return unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def limit_memory() -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Iterator
+import threading
+from collections import deque
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -16,8 +17,8 @@ from rightofway.studio.errors import Refused
 MAX_FILES = 2000
 """Files that a list holds; the folder may have more."""
 
-MAX_DEPTH = 6
-"""Folders inside each other that a list goes into."""
+MAX_FOLDERS = 1000
+"""Folders that a list looks into."""
 
 MAX_FILE = 20_000_000
 """The largest file that is opened or uploaded [bytes]."""
@@ -72,6 +73,7 @@ class Workspace:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.resolve(strict=True)
+        self._writing = threading.Lock()
 
     def path(self, name: str) -> Path:
         """Return where a file is.
@@ -96,7 +98,7 @@ class Workspace:
         if any(len(os.fsencode(part)) > LONGEST_NAME for part in parts):
             raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
         path = self.folder.joinpath(*parts)
-        if path.resolve() != path:
+        if _resolved(path) != path:
             raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
         return path
 
@@ -140,13 +142,14 @@ class Workspace:
             If it cannot be written.
         """
         path = self.path(name)
-        if revision is not None and revision != (self.revision(name) or ""):
-            was = "was changed by another program" if revision else "is there already"
-            raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
-        try:
-            write_whole(path, content)
-        except InputError as error:
-            raise InputError(error.faults, name) from None
+        with self._writing:
+            if revision is not None and revision != (self.revision(name) or ""):
+                was = "was changed by another program" if revision else "is there already"
+                raise Refused(f"{name!r} {was} (open it again, or save under another name)", 412)
+            try:
+                write_whole(path, content)
+            except InputError as error:
+                raise InputError(error.faults, name) from None
         return revision_of(content)
 
     def revision(self, name: str) -> str | None:
@@ -154,26 +157,46 @@ class Workspace:
         path = self.path(name)
         return revision_of(path.read_bytes()) if path.is_file() else None
 
-    def files(self) -> list[Entry]:
-        """Return the files that may be opened, in the order of their paths."""
-        found = sorted(self._files(self.folder, MAX_DEPTH), key=lambda entry: entry.path)
-        return found[:MAX_FILES]
+    def files(self) -> tuple[list[Entry], bool]:
+        """Return the files that may be opened, in the order of their paths, and whether all.
 
-    def _files(self, folder: Path, depth: int) -> Iterator[Entry]:
+        Folders near the top come first; a list that is not whole lacks files far inside.
+        """
+        found, folders, seen = list[Entry](), deque([self.folder]), 0
+        while folders and len(found) < MAX_FILES and seen < MAX_FOLDERS:
+            files, inside = self._listed(folders.popleft())
+            found += files
+            folders += inside
+            seen += 1
+        found.sort(key=lambda entry: entry.path)
+        return found[:MAX_FILES], not folders and len(found) <= MAX_FILES
+
+    def _listed(self, folder: Path) -> tuple[list[Entry], list[Path]]:
+        """Return the files of one folder that may be opened, and the folders in it."""
+        files, folders = list[Entry](), list[Path]()
         try:
             inside = sorted(os.scandir(folder), key=lambda each: each.name)
         except OSError:
-            return  # a folder that may not be read has nothing to open
+            return [], []  # a folder that may not be read has nothing to open
         for each in inside:
             if each.name.startswith(".") or each.is_symlink():
                 continue
             kind = KINDS.get(Path(each.name).suffix.lower())
-            if each.is_dir(follow_symlinks=False) and depth:
-                yield from self._files(Path(each.path), depth - 1)
+            if each.is_dir(follow_symlinks=False):
+                folders.append(Path(each.path))
             elif kind and each.is_file(follow_symlinks=False):
                 stat = each.stat(follow_symlinks=False)
                 name = Path(each.path).relative_to(self.folder).as_posix()
-                yield Entry(name, kind, stat.st_size, stat.st_mtime)
+                files.append(Entry(name, kind, stat.st_size, stat.st_mtime))
+        return files, folders
+
+
+def _resolved(path: Path) -> Path | None:
+    """Return where a path leads; None for links that lead in a circle."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):
+        return None
 
 
 def revision_of(content: bytes) -> str:

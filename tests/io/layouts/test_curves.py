@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rightofway import check, solve
+from rightofway import FleetBuilder, check, solve
 from rightofway.io import read_layout
+from rightofway.io.layouts import layout_text
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
+from rightofway.metrics import Site, inspect
 from rightofway.model.layout import Layout
 
 
@@ -143,6 +145,15 @@ def test_both_directions_share_the_pieces_and_the_clearance_grows(tmp_path: Path
     )
 
 
+def test_a_builder_cuts_curves_for_robots_with_a_size_only(tmp_path: Path) -> None:
+    fleet = FleetBuilder(layout=hall(tmp_path, 4)).add_robot("R1", home="A", target="B")
+    assert fleet.scenario().roadmap.n_vertices == 4
+    cut = fleet.add_robot("R2", home="C", target="D", radius=0.3).scenario()
+    assert cut.roadmap.n_vertices > 20
+    assert cut.rules.clearance == 2 * Fraction(repr(CHORD_ERROR))
+    assert [cut.roadmap.name(robot.home) for robot in cut.robots] == ["A", "C"]
+
+
 def test_pieces_are_near_the_curve_and_have_its_length(tmp_path: Path) -> None:
     roadmap = loaded(hall(tmp_path, 4), radius=0.3).scenario.roadmap
     way = ["A", *sorted((n for n in roadmap.labels or () if "/" in n), key=lambda n: int(n[4:])),
@@ -175,3 +186,26 @@ def test_a_trajectory_that_cannot_be_is_mended(
     assert isinstance(found, Layout)
     assert repair in found.notes
     assert all(edge.length in (10, 4) for edge in found.levels[0].edges)
+
+
+def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_path: Path) -> None:
+    scenario = loaded(hall(tmp_path, 4), radius=0.3).scenario
+    site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
+    near = [each.fact for each in inspect(site).findings if each.kind == "too near"]
+    assert any("is too near to the lane C to D" in fact for fact in near)
+    assert not any(fact.count("A-B/") > 1 for fact in near)
+
+
+def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
+    found = read_layout(hall(tmp_path, 4))
+    assert isinstance(found, Layout)
+    text, losses = layout_text(found, "lif")
+    (tmp_path / "again.lif.json").write_text(text, encoding="utf-8")
+    again = read_layout(tmp_path / "again.lif.json")
+    assert isinstance(again, Layout)
+    assert losses == ()
+    assert [edge.shape for edge in again.levels[0].edges] == [
+        edge.shape for edge in found.levels[0].edges
+    ]
+    _, losses = layout_text(found, "graphml")
+    assert "curves that robots drive along (2)" in losses[0]

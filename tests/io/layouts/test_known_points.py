@@ -292,6 +292,12 @@ def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path)
     assert isinstance(missing, Layout)
     assert missing.level("L1").picture is None
     assert "the picture 'hall.png' is not beside the file" in " ".join(missing.notes)
+    (tmp_path.parent / "hall.png").write_bytes(b"")
+    path.write_text(text.replace("hall.png", "../hall.png"), encoding="utf-8")
+    outside = read_layout(path)
+    assert isinstance(outside, Layout)
+    assert outside.level("L1").picture is None
+    path.write_text(text, encoding="utf-8")
     (tmp_path / "hall.png").write_bytes(b"")  # only its name counts here
     found = read_layout(path)
     assert isinstance(found, Layout)

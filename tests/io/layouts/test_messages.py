@@ -182,8 +182,8 @@ def test_a_bad_layout_is_refused_with_line_and_remedy(
             "L1 L2",
             "Lift1 Lift2",
             (
-                "the lifts Lift1 and Lift2 are not used, a plan stays on one level: plan each of"
-                " L1 and L2 by itself, with level"
+                "the lifts Lift1 and Lift2 are not used, a plan stays on one level:"
+                " plan each of L1 and L2 by itself, with level"
             ),
         ),
     ],

@@ -38,6 +38,9 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
         "charging places": [vertex.is_charging for vertex in level.vertices],
         "lengths of curves": [edge.length for edge in level.edges],
         "drawn curves": [edge.shape for edge in level.edges],
+        "curves that robots drive along": [
+            edge.shape for edge in level.edges if edge.chord_error is not None
+        ],
         "vehicle types": level.vehicle_types,
         "zones": level.zones,
     }

@@ -8,6 +8,7 @@ from rightofway.io.layouts.formats import (
     read_layout,
     refuse_layout,
 )
+from rightofway.io.layouts.graph import layout_of_graph
 from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "described",
     "is_layout",
     "layout_formats",
+    "layout_of_graph",
     "layout_text",
     "read_layout",
     "refuse_layout",

@@ -82,7 +82,8 @@ def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> P
     if not isinstance(name, str) or not name:
         return None
     try:
-        is_there = (folder / name).is_file()
+        inside = (folder / name).resolve().is_relative_to(folder.resolve())
+        is_there = inside and (folder / name).is_file()
     except (OSError, ValueError):
         is_there = False
     if not is_there:
@@ -91,8 +92,14 @@ def _picture(level: Part, transform: Transform, folder: Path, draft: Draft) -> P
     far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
     (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
     right, up = to_x - x, to_y - y
-    pixel = right / far if up == 0 < right else Fraction(repr(hypot(right, up) / float(far)))
-    yaw = Fraction(repr(atan2(up, right)))
+    try:
+        pixel = right / far if up == 0 < right else Fraction(repr(hypot(right, up) / float(far)))
+        yaw = Fraction(repr(atan2(up, right)))
+    except (OverflowError, ValueError):
+        pixel, yaw = Fraction(0), Fraction(0)
+    if pixel <= 0:
+        draft.repair(f"the picture {shown(name)} has no size, and is not drawn")
+        return None
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 

@@ -87,7 +87,8 @@ def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "parking places": sum(vertex.is_parking for vertex in vertices),
         "charging places": sum(vertex.is_charging for vertex in vertices),
         "lengths of curves": sum(map(_curved, layout.levels)),
-        "drawn curves": sum(bool(edge.shape) for edge in edges),
+        "drawn curves": sum(bool(edge.shape) and edge.chord_error is None for edge in edges),
+        "curves that robots drive along": sum(edge.chord_error is not None for edge in edges),
         "vehicle types": len({name for edge in edges for name in edge.types or ()}),
         "zones": sum(len(level.zones) for level in layout.levels),
         "further zones of one place": sum(map(_overlaps, layout.levels)),
@@ -109,11 +110,15 @@ def _overlaps(level: Level) -> int:
 
 
 def _curved(level: Level) -> int:
-    """Return how many lanes are longer than the straight line, by more than rounding."""
+    """Return how many lanes are longer than the straight line, by more than rounding.
+
+    Lanes along a known curve do not count.
+    """
     at = {vertex.name: vertex.at for vertex in level.vertices}
     step = Fraction(1, 1000)
     return sum(
-        edge.length > step
+        edge.chord_error is None
+        and edge.length > step
         and (edge.length - step) ** 2 > squared_distance(at[edge.tail], at[edge.head])
         for edge in level.edges
     )
@@ -180,15 +185,32 @@ def _lif_node(vertex: LayoutVertex, level: Level) -> dict[str, Any]:
 
 
 def _lif_edge(edge: LayoutEdge, number: int, level: Level) -> dict[str, Any]:
-    limit = {} if edge.max_speed is None else {"maxSpeed": float(edge.max_speed)}
+    more: dict[str, Any] = {}
+    if edge.max_speed is not None:
+        more["maxSpeed"] = float(edge.max_speed)
+    if edge.chord_error is not None:
+        more["trajectory"] = _trajectory(edge, level)
     return {
         "edgeId": f"{edge.tail}-{edge.head} {number}",
         "startNodeId": edge.tail,
         "endNodeId": edge.head,
         "vehicleTypeEdgeProperties": [
-            {"vehicleTypeId": name, "rotationAllowed": True, **limit}
-            for name in _types(edge, level)
+            {"vehicleTypeId": name, "rotationAllowed": True, **more} for name in _types(edge, level)
         ],
+    }
+
+
+def _trajectory(edge: LayoutEdge, level: Level) -> dict[str, Any]:
+    """Return the curve of an edge as straight lines between its points: a NURBS of degree 1."""
+    at = {
+        vertex.name: vertex.at for vertex in level.vertices if vertex.name in {edge.tail, edge.head}
+    }
+    points = [at[edge.tail], *edge.shape, at[edge.head]]
+    last = len(points) - 1
+    return {
+        "degree": 1,
+        "knotVector": [0.0, *(k / last for k in range(last + 1)), 1.0],
+        "controlPoints": [{"x": float(x), "y": float(y)} for x, y in points],
     }
 
 
@@ -320,7 +342,7 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "lif": LayoutWriter(
         summary="LIF 1.0.0", write=_lif,
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
-                        "vehicle types"}),
+                        "vehicle types", "curves that robots drive along"}),
     ),
     "nav2": LayoutWriter(
         summary="route graph of Nav2, GeoJSON", write=_nav2, says=frozenset({"drawn curves"}),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, blaming, checked, under
 from rightofway.io.formats import PLAN_FORMAT, checked_format
-from rightofway.io.scenario.maps import LoadedMap
+from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import (
     read_scenario,
 )

@@ -12,7 +12,8 @@ from rightofway.errors import InputError
 from rightofway.io.faults import checked
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.maps import LoadedMap, map_of
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.writer import yaml_of
 from rightofway.io.text import json_text
 from rightofway.metrics.connectivity import strong_parts, ways_of

@@ -1,93 +1,86 @@
-"""Homes dealt out: robots without a home start from the parking and charging places of a layout."""
+"""Homes dealt out: robots without a home start from the parking and charging places of a map."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, listed
-from rightofway.model import Roadmap, Tick, VertexId, squared_distance
+from rightofway.model import Roadmap, Robot, Rules, Tick, VertexId, squared_distance
 from rightofway.search import Distances
+
+HOMELESS = VertexId(-1)
+"""The home of a robot to which none is dealt out yet."""
 
 NAMED = 6
 """The most robots whose dealt homes a note names."""
 
 FAR = 2**31 - 1
-"""Distance to a stop that cannot be reached."""
+"""No way is longer [steps]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wanted:
-    """A robot that needs a home: its name, its first stop, and its radius [length unit]."""
+def housed(
+    robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
+) -> tuple[list[Robot], tuple[str, ...]]:
+    """Return the robots with homes for those that are `HOMELESS`, and a note of who starts where.
 
-    name: str
-    first_stop: VertexId
-    radius: Fraction
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Fixed:
-    """What the rest of the scenario says.
-
-    Attributes
-    ----------
-    homes
-        Homes that are written, and the radius of the robot of each [length unit].
-    stops
-        Vertices where robots work, which are nobody's home.
-    clearance
-        Least distance between two robots of which one has a radius [length unit].
-    """
-
-    homes: tuple[tuple[VertexId, Fraction], ...]
-    stops: frozenset[VertexId]
-    clearance: Fraction
-
-
-def dealt_homes(
-    robots: Sequence[Wanted], roadmap: Roadmap, parking: Sequence[VertexId], fixed: Fixed
-) -> list[VertexId]:
-    """Return a home for each robot: in order, the free place with the shortest way to its stop.
+    In the order of the robots, each gets the free place that has the shortest way to its first
+    stop, and a way back from its last one unless it stays there. Of equals the place of least
+    number is taken. Places are not free where a robot works, and where another robot starts: there,
+    in the same zone, or too near for the sizes of both.
 
     Parameters
     ----------
     robots
         The robots, in the order of the file.
     roadmap
-        The map.
-    parking
-        Its parking and charging places, in the order of the file, which decides between equals.
-    fixed
-        Homes and stops that are written: their places are taken. Places too near to another home
-        for the sizes of both robots are taken, too, and places that share a zone with one.
+        The map, with its parking and charging places.
+    rules
+        The rules: whether robots return home, and their clearance.
 
     Raises
     ------
     InputError
         If there are too few places, with their numbers and what to do.
     """
-    if not parking:
+    parking = sorted({*roadmap.drawing.parking, *roadmap.drawing.charging})
+    homeless = [robot for robot in robots if robot.home == HOMELESS]
+    if homeless and not parking:
         message = "the map has no parking or charging place (give each robot a home)"
         raise InputError.at("homes", message)
-    distances = Distances(roadmap)
-    steps = _whole_lengths(roadmap)
-    free = [place for place in parking if place not in fixed.stops]
-    taken, found = list(fixed.homes), list[VertexId]()
+    distances, steps = Distances(roadmap), _whole_lengths(roadmap)
+    stops = {stop.at for robot in robots for stop in robot.stops}
+    free = [place for place in parking if place not in stops]
+    found = [robot for robot in robots if robot.home != HOMELESS]
+    written, dealt = {robot.home for robot in found}, list[Robot]()
     for robot in robots:
-        table = distances.to(robot.first_stop, steps)
+        if robot.home != HOMELESS or not robot.stops:
+            dealt.append(robot)
+            continue
         fitting = [
             place
             for place in free
-            if all(_apart(roadmap, (place, robot.radius), at, fixed.clearance) for at in taken)
+            if all(_apart(roadmap, replace(robot, home=place), at, rules.clearance) for at in found)
         ]
-        ways = [int(table[place]) if table[place] >= 0 else FAR for place in fitting]
-        if not fitting or min(ways) == FAR:
-            raise InputError.at("homes", _too_few(robots, robot, parking, fixed, bool(fitting)))
-        home = fitting[ways.index(min(ways))]
-        found.append(home)
-        taken.append((home, robot.radius))
-    return found
+        out = distances.to(robot.stops[0].at, steps)
+        returns = (robot.ends or rules.ends) == "home"
+        home = next(
+            (
+                place
+                for place in sorted(fitting, key=lambda at: out[at])
+                if out[place] >= 0
+                and (not returns or distances.to(place, steps)[robot.stops[-1].at] >= 0)
+            ),
+            None,
+        )
+        if home is None:
+            used = len(written.intersection(parking)), len(stops.intersection(parking))
+            message = _no_way(robot) if fitting else _too_few(homeless, robot, len(parking), *used)
+            raise InputError.at("homes", message)
+        dealt.append(replace(robot, home=home))
+        found.append(dealt[-1])
+    return dealt, tuple(_note(homeless, dealt, roadmap, len(parking)))
 
 
 def _whole_lengths(roadmap: Roadmap) -> tuple[Tick, ...]:
@@ -97,58 +90,46 @@ def _whole_lengths(roadmap: Roadmap) -> tuple[Tick, ...]:
     return tuple(Tick(max(1, int(length * steps / longest))) for length in roadmap.lengths)
 
 
-def _apart(
-    roadmap: Roadmap, one: tuple[int, Fraction], other: tuple[int, Fraction], clearance: Fraction
-) -> bool:
-    """Return whether robots may stay at two places at one time; each is a vertex and a radius."""
-    places = {one[0], other[0]}
+def _apart(roadmap: Roadmap, one: Robot, other: Robot, clearance: Fraction) -> bool:
+    """Return whether two robots may stay at their homes at one time."""
+    places = {one.home, other.home}
     if len(places) == 1 or any(places <= set(zone.vertices) for zone in roadmap.zones):
         return False
-    if not one[1] and not other[1]:
+    if not one.radius and not other.radius:
         return True
     square = squared_distance(*map(roadmap.point, places))
-    return square >= (one[1] + other[1] + clearance) ** 2
+    return square >= (one.radius + other.radius + clearance) ** 2
 
 
-def _too_few(
-    robots: Sequence[Wanted],
-    robot: Wanted,
-    parking: Sequence[VertexId],
-    fixed: Fixed,
-    are_left: bool,
-) -> str:
-    if are_left:
-        return (
-            f"no free parking or charging place has a way to the first stop of {robot.name}"
-            " (give that robot a home, or join the parts of the map)"
-        )
-    places = "1 parking or charging place" if len(parking) == 1 else (
-        f"{len(parking)} parking and charging places"
-    )  # fmt: skip
-    used = {
-        "a written home": len({home for home, _ in fixed.homes} & set(parking)),
-        "a stop": len(fixed.stops & set(parking)),
-    }
-    less = [f"{number} {'is' if number == 1 else 'are'} {what}{'s' * (number > 1)}"
-            for what, number in used.items() if number]  # fmt: skip
-    why = f", of which {listed(less)}" if less else ""
-    needing = f"{len(robots)} robots need a home" if len(robots) > 1 else "1 robot needs a home"
+def _no_way(robot: Robot) -> str:
+    return (
+        f"no free parking or charging place has a way to the stops of {robot.name} and back"
+        " (give that robot a home, or join the parts of the map)"
+    )
+
+
+def _too_few(homeless: Sequence[Robot], robot: Robot, places: int, homes: int, stops: int) -> str:
+    """Return how many robots need a home, and how many places there are."""
+    used = [
+        f"{count} {'is a' if count == 1 else 'are'} {what}{'s' * (count > 1)}"
+        for count, what in ((homes, "written home"), (stops, "stop"))
+        if count
+    ]
+    why = f", of which {listed(used)}" if used else ""
+    needing = f"{len(homeless)} robots need" if len(homeless) > 1 else "1 robot needs"
+    has = "1 parking or charging place" if places == 1 else f"{places} parking and charging places"
     near = " that are far enough from each other" if robot.radius else ""
-    return f"{needing}, and the map has {places}{near}{why} (give the other robots homes)"
+    return f"{needing} a home, and the map has {has}{near}{why} (give the other robots homes)"
 
 
-def note_of_homes(robots: Sequence[Wanted], homes: Sequence[str], parking: int) -> Iterator[str]:
-    """Yield a note on who starts where.
-
-    Parameters
-    ----------
-    robots, homes
-        The robots, and the name of the home of each.
-    parking
-        Number of parking and charging places.
-    """
-    if len(robots) > NAMED:
-        yield f"homes dealt out: {len(robots)} of {parking} parking and charging places"
-    elif robots:
-        pairs = (f"{robot.name} at {home}" for robot, home in zip(robots, homes, strict=True))
-        yield f"homes dealt out: {listed(list(pairs))}"
+def _note(
+    homeless: Sequence[Robot], dealt: Sequence[Robot], roadmap: Roadmap, places: int
+) -> Iterator[str]:
+    names = {robot.name for robot in homeless}
+    if len(names) > NAMED:
+        yield f"homes dealt out: {len(names)} of {places} parking and charging places"
+    elif names:
+        pairs = [
+            f"{robot.name} at {roadmap.name(robot.home)}" for robot in dealt if robot.name in names
+        ]
+        yield f"homes dealt out: {listed(pairs)}"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError
 from rightofway.io.faults import under
 from rightofway.io.layouts import read_layout
-from rightofway.io.scenario.maps import LoadedMap, joined_note
+from rightofway.io.scenario.loaded_map import LoadedMap, joined_note
 from rightofway.model import Units, decimal, roadmap_of_grid
 from rightofway.model.drawing import Drawing
 from rightofway.model.layout import Layout, LevelRoadmap, roadmap_of_level
@@ -101,7 +101,12 @@ def _cut(
     if 2 * radius > size:
         blocked += f", or beside it for a radius of {units.written_length(radius)}"
     return LoadedMap(
-        roadmap=roadmap, lines=lines, units=units, blocked=blocked, notes=(*found.notes, cells)
+        roadmap=roadmap,
+        lines=lines,
+        units=units,
+        blocked=blocked,
+        keeps_clear=True,
+        notes=(*found.notes, cells),
     )
 
 

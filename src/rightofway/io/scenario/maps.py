@@ -1,9 +1,9 @@
-"""Maps of scenario documents made into roadmaps, and places found on them."""
+"""Maps of scenario documents made into roadmaps."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError, nearest, shown
 from rightofway.io.faults import Faults, under
 from rightofway.io.movingai import load_map
+from rightofway.io.scenario.layouts import laid_out
+from rightofway.io.scenario.loaded_map import LoadedMap, joined_note
 from rightofway.model import (
     Edge,
     Floor,
     Frame,
-    Grid,
     Obstacle,
     Point,
     Roadmap,
@@ -32,7 +33,6 @@ from rightofway.model import (
 )
 from rightofway.model.clustering import MAX_CELLS, free_cells
 from rightofway.model.drawing import Drawing
-from rightofway.model.places import Place, vertex_at
 from rightofway.model.quadtree import MAX_SMALLEST, roadmap_of_squares
 from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
@@ -45,54 +45,6 @@ if TYPE_CHECKING:
         ObstacleDocument,
         RoadmapDocument,
     )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LoadedMap:
-    """A roadmap, and what its document says beyond it."""
-
-    roadmap: Roadmap
-    lines: tuple[str, ...] = ()  # of a grid, as they were written
-    floor: Floor | None = None  # that the grid was cut from
-    file: Path | None = None  # that the grid was read from
-    rounding: str | None = None  # how many lengths are rounded up, and to which step
-    units: Units = field(default_factory=Units)
-    stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
-    chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
-    blocked: str = ""  # what all blocked cells are; else what the grid's characters say
-    notes: tuple[str, ...] = ()  # of a layout's reader
-
-    def find(self, place: Place) -> VertexId:
-        """Return the vertex at a place, or raise an InputError that says what is there."""
-
-        def what_blocks(row: int, column: int) -> str:
-            grid, floor = self.roadmap.grid, self.floor
-            if floor is None or grid is None:
-                sign = self.lines[row][column]
-                return self.blocked or (
-                    "a space, as only '.' is free" if sign == " " else repr(sign)
-                )
-            if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
-                row = grid.rows - 1 - row
-            return _obstacle(row, column, floor, grid)
-
-        if isinstance(place, str) and place not in (self.roadmap.labels or ()):
-            place = self.stations.get(place, place)
-        return vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
-
-
-def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
-    """Return what stands on a cell of a floor."""
-    size = grid.cell_size
-    for index, it in enumerate(floor.obstacles):
-        if (
-            it.x < (column + 1) * size
-            and column * size < it.x + it.width
-            and it.y < (row + 1) * size
-            and row * size < it.y + it.height
-        ):
-            return it.name or f"obstacles[{index}]"
-    raise AssertionError("an obstacle blocked the cell")
 
 
 def map_of(
@@ -112,8 +64,6 @@ def map_of(
     ``base``; without one, none may be read. Units are those that the scenario names.
     """
     if document.layout is not None:
-        from rightofway.io.scenario.layouts import laid_out
-
         return laid_out(document, file_beside(base, document.layout), units, radius, types)
     if document.roadmap is not None:
         with under("roadmap"):
@@ -227,18 +177,6 @@ def _joined_floor(
     return LoadedMap(
         roadmap=roadmap, notes=(joined_note("floor", roadmap, int(free.sum()), units),)
     )
-
-
-def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
-    """Return a sentence on the squares that the smallest cells of a map have been joined to."""
-    assert roadmap.sides is not None, "the cells are squares"
-    least, most = (
-        Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
-    )
-    span = f"of {units.written_length(least)}"
-    if most > least:
-        span = f"of {decimal(least)} to {units.written_length(most)}"
-    return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
 
 
 def _floor(document: FloorDocument, on: MapDocument) -> Floor:

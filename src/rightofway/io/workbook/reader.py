@@ -13,8 +13,10 @@ from rightofway.io.robot_table import NOTES, Located, heading_key, robots_of_row
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
 
-SHEETS = ("map", "robots", "rules", "vertices", "edges")
+SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
+
+VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge")
 
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
@@ -78,6 +80,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> 
     if "rules" in sheets:
         _add_rules(sheets["rules"], document, cells, faults)
         cells["rules"] = sheets["rules"].name
+    document |= _closures(sheets, offset, cells, faults)
     if not document.get("robots") or "map" not in document:
         faults.stop()
     return Located(part=document, cells=cells, faults=faults.found)
@@ -139,6 +142,31 @@ def _robots(sheet: Sheet, offset: tuple[int, int]) -> Located:
     return robots_of_rows(rows, sheet.cell, known)
 
 
+def _closures(
+    sheets: Mapping[str, Sheet], offset: tuple[int, int], cells: dict[str, str], faults: Faults
+) -> dict[str, Any]:
+    """Return the part of a document with the closures in the rows of a sheet, if there is one."""
+    from rightofway.io.scenario.shape import ClosureDocument
+
+    if "closures" not in sheets:
+        return {}
+    sheet = sheets["closures"]
+    known = [field.alias or name for name, field in ClosureDocument.model_fields.items()]
+    closures = list[dict[str, Any]]()
+    for row, found, columns in faults.attempt("", _table, sheet, known) or ():
+        place = f"closures[{len(closures)}]"
+        cells[place] = sheet.cell(row, 1)
+        cells |= {f"{place}.{key}": sheet.cell(row, column) for key, column in columns.items()}
+        read = {
+            key: faults.attempt(
+                sheet.cell(row, columns[key]), value_of, key, _in_map(value, offset)
+            )
+            for key, value in found.items()
+        }
+        closures.append({key: value for key, value in read.items() if value is not None})
+    return {"closures": closures}
+
+
 def _in_map(value: Any, offset: tuple[int, int]) -> Any:
     """Return what a cell holds; for a reference to a cell of the map its row and column there."""
     cell = reference(value) if isinstance(value, str) else None
@@ -195,7 +223,7 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
     from rightofway.io.scenario.shape import EdgeDocument
 
     faults, positions, first_row = Faults(), dict[str, Any](), dict[str, int]()
-    for row, found, _ in faults.attempt("", _table, vertices, ("name", "x", "y")) or ():
+    for row, found, _ in faults.attempt("", _table, vertices, VERTEX_KEYS) or ():
         name = str(found.get("name", ""))
         missing = [key for key in ("name", "x", "y") if key not in found]
         if missing:
@@ -205,7 +233,9 @@ def _roadmap(vertices: Sheet, edges: Sheet, cells: dict[str, str]) -> dict[str, 
             at = vertices.cell(first_row[name], 1)
             faults.note(vertices.cell(row, 1), f"{shown(name)} is in {at} already (take one out)")
         first_row.setdefault(name, row)
-        positions[name] = [found.get("x", 0), found.get("y", 0)]
+        position = [found.get("x", 0), found.get("y", 0)]
+        more = {key: value_of(key, found[key]) for key in ("barred", "surcharge") if key in found}
+        positions[name] = {"at": position, **more} if more else position
         cells[place_of(("map", "roadmap", "vertices", name))] = vertices.cell(row, 1)
     known = [field.alias or name for name, field in EdgeDocument.model_fields.items()]
     ways = list[dict[str, Any]]()

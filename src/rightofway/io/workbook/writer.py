@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
@@ -57,6 +58,7 @@ HELP = (
     "are counted row by row), its [row, column] from 0, or the name of a vertex.",
     "Several stops: replace target and work by the columns stop 1, work 1, stop 2, work 2, …",
     "Instead of map, the sheets vertices (name, x, y) and edges (from, to, length, both_ways).",
+    "closures, if needed: a place in column at, or [A, B] in column edge; from, until, radius.",
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
@@ -115,6 +117,8 @@ def workbook_of(document: dict[str, Any]) -> bytes:
     given = {**document.get("rules", {}), **of_map}
     given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
     _write_rules(workbook.create_sheet("rules"), given)
+    if "closures" in document:
+        _write_closures(workbook.create_sheet("closures"), document["closures"])
     sheet = workbook.create_sheet("how to")
     sheet.column_dimensions["A"].width = 100
     for line in HELP:
@@ -124,7 +128,7 @@ def workbook_of(document: dict[str, Any]) -> bytes:
 
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
-    more = document.keys() - {"format", "map", "robots", "rules", "units"}
+    more = document.keys() - {"format", "map", "robots", "rules", "units", "closures"}
     roadmap = document["map"].get("roadmap", {})
     more |= roadmap.keys() - {"vertices", "edges"}
     if more:
@@ -201,10 +205,23 @@ def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
         sheet.column_dimensions[letter].width = width
 
 
+def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
+    from rightofway.io.scenario.shape import ClosureDocument
+
+    keys = ["at", "edge", "from", "until", "radius"]
+    _write_table(sheet, keys, [[_cell(one.get(key)) for key in keys] for one in closures])
+    for letter, key in zip("ABCDE", keys, strict=True):
+        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, _described(ClosureDocument, key), "")
+
+
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
     vertices, edges = workbook.create_sheet("vertices"), workbook.create_sheet("edges")
-    rows = [[name, *position] for name, position in roadmap["vertices"].items()]
-    _write_table(vertices, ["name", "x", "y"], rows)
+    rows = [
+        [name, *it["at"], _cell(it["barred"])] if isinstance(it, dict) else [name, *it]
+        for name, it in roadmap["vertices"].items()
+    ]
+    is_barred = any(isinstance(it, dict) for it in roadmap["vertices"].values())
+    _write_table(vertices, ["name", "x", "y", *(["barred"] if is_barred else [])], rows)
     keys = list(dict.fromkeys(["from", "to", "length", "both_ways", *chain(*roadmap["edges"])]))
     ways = [[_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
     _write_table(edges, keys, ways)
@@ -260,4 +277,6 @@ def _cell(value: Any) -> Any:
     """Return a value of a document as a cell holds it."""
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, list | tuple) and all(isinstance(item, str) for item in value):
+        return json.dumps(value, ensure_ascii=False)  # a name may look like a number
     return f"[{', '.join(map(str, value))}]" if isinstance(value, list | tuple) else value

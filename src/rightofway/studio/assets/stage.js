@@ -19,7 +19,7 @@ const LEGENDS = `<div class="legends">
 <div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
 <div id="hover" class="hover" aria-live="off" hidden></div>`;
 
-/** Events: `show` when another map is drawn, `choice`, `overlay` to paint above the map (with `context` and `view`). */
+/** Events: `show` when another map is drawn, `choice`, `underlay` and `overlay` to paint below and above the map (with `context`). */
 export class Stage extends Observable {
   /** All that is in `holder`, `below` and `time` is of the stage. */
   constructor({ holder, below, time, card }) {
@@ -28,6 +28,7 @@ export class Stage extends Observable {
     this.theme = new Theme();
     this.asked = false;
     this.frames = 0;
+    this.isMoved = false; // whether somebody has zoomed or moved the map
     this.theme.on("theme", () => this.repaint());
     new ResizeObserver(() => this.ask()).observe(holder);
   }
@@ -37,9 +38,12 @@ export class Stage extends Observable {
     return this.plan instanceof Plan;
   }
 
-  /** Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. */
+  /**
+   * Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. Between a
+   * map and a plan, which has less room, the view stays only where somebody has chosen it.
+   */
   show(raw, { keeps = false } = {}) {
-    const { clock: before, view: old } = this;
+    const { clock: before, view: old, isPlan: wasPlan } = this;
     const chosen = this.choice?.robot?.name;
     const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
@@ -54,11 +58,15 @@ export class Stage extends Observable {
     this.view = view;
     this.player?.begin(view);
     view.viewport.fit();
-    if (keeps && old) keepView(old, view);
+    if (!keeps) this.isMoved = false;
+    if (keeps && old && (this.isMoved || wasPlan === this.isPlan)) keepView(old, view);
     for (const event of ["tick", "playing"]) clock.on(event, () => this.ask());
     for (const event of ["choice", "heat", "space", "corridor", "bottleneck"]) choice.on(event, () => this.repaint());
     choice.on("choice", () => this.tell("choice"));
-    view.viewport.on("view", () => this.repaint());
+    view.viewport.on("view", () => {
+      this.isMoved = !view.viewport.fitted;
+      this.repaint();
+    });
     if (keeps && before && this.isPlan) {
       clock.seek(Math.min(before.tick, clock.end));
       if (before.playing) clock.play();
@@ -81,9 +89,10 @@ export class Stage extends Observable {
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-roledescription", texts.mapRole);
     canvas.setAttribute("aria-describedby", "hover");
+    this.under = Object.assign(document.createElement("canvas"), { ariaHidden: "true" });
     this.over = Object.assign(document.createElement("canvas"), { className: "over", ariaHidden: "true" });
     this.holder.innerHTML = LEGENDS;
-    this.holder.prepend(canvas, this.over);
+    this.holder.prepend(this.under, canvas, this.over);
     if (hadFocus) canvas.focus();
     return canvas;
   }
@@ -109,24 +118,25 @@ export class Stage extends Observable {
     this.last = clock.playing ? now : 0;
     if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
+    this.#paintOn(this.under, "underlay");
     view.paint();
-    this.#paintOver();
+    this.#paintOn(this.over, "overlay");
     this.player?.paint();
     this.frames++;
     if (clock.playing) this.ask();
   }
 
-  /** What is being drawn, in units of the drawing. */
-  #paintOver() {
-    const { over, view } = this;
-    const { ratio } = fitCanvas(over);
-    const context = over.getContext("2d");
+  /** What others paint below or above the map, in units of the drawing. */
+  #paintOn(canvas, event) {
+    const { view } = this;
+    const { ratio } = fitCanvas(canvas);
+    const context = canvas.getContext("2d");
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, over.width, over.height);
+    context.clearRect(0, 0, canvas.width, canvas.height);
     const { left, top, scale } = view.viewport;
     context.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * left, ratio * top);
     this.context = context;
-    this.tell("overlay");
+    this.tell(event);
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { address, get, inAddress, post, upload } from "./api.js";
 import { ScenarioStore, drafts } from "./document.js";
+import { Backdrop } from "./draw/backdrop.js";
 import { Editor } from "./draw/editor.js";
 import { RunStore } from "./runs/run_store.js";
 import { Stage } from "./stage.js";
@@ -29,6 +30,7 @@ export class Studio extends Observable {
     this.runs = new RunStore();
     this.stage = new Stage(elements);
     this.editor = new Editor(this.store, this.stage);
+    this.backdrop = new Backdrop(this.store, this.stage);
     for (const [source, ...events] of [[this.store, "document", "survey"], [this.runs, "runs"], [this.editor, "editor"], [this.stage, "choice"]]) {
       for (const event of events) source.on(event, () => this.tell("change"));
     }

@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import asdict
+from itertools import chain
+from itertools import count as count_from
 from pathlib import PurePosixPath
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Response
 
+from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
-from rightofway.studio.routes.models import Draft, FilePath, InStudio, Placed, Save, ToText
+from rightofway.studio.routes.models import Deal, Draft, FilePath, InStudio, Placed, Save, ToText
 from rightofway.studio.runs import Run, Runs
-from rightofway.studio.session import checked_json
-from rightofway.studio.workspace import revision_of
+from rightofway.studio.session import Studio, checked_json
+from rightofway.studio.workspace import KINDS, revision_of
 
 MAX_DRAFTS = 200
 """Drafts that are kept."""
 
 router = APIRouter()
+SAVED = {".yaml", ".yml", ".json", ".xlsx"}
+"""Endings of files that documents are saved in."""
+
 MEDIA = {
     ".json": "application/json",
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
 }
+
+
+def free_name(studio: Studio, path: str) -> str:
+    """Return the name of a scenario beside a file: one that no other file has."""
+    stem = path.removesuffix(PurePosixPath(path).suffix)
+    names = (f"{stem}{number}.yaml" for number in chain([""], count_from(2)))
+    return next(name for name in names if studio.workspace.revision(name) is None)
 
 
 def folder_of(path: str) -> str:
@@ -33,7 +47,8 @@ def folder_of(path: str) -> str:
 @router.get("/files", tags=["files"])
 def list_files(studio: InStudio) -> dict[str, Any]:
     """List the files that may be opened."""
-    return {"files": [asdict(entry) for entry in studio.workspace.files()]}
+    entries, is_whole = studio.workspace.files()
+    return {"files": [asdict(entry) for entry in entries], "is_whole": is_whole}
 
 
 @router.get("/files/{path:path}", tags=["files"], response_class=Response)
@@ -53,6 +68,10 @@ def upload(
     replace: Annotated[bool, Query(description="whether a file of that name is replaced")] = False,
 ) -> dict[str, Any]:
     """Put a file into the folder, as drag and drop does; the body is its content."""
+    if PurePosixPath(path).suffix.lower() not in KINDS:
+        raise Refused(
+            f"{path[:100]!r} is no file to open (give one that ends in {', '.join(KINDS)})"
+        )
     revision = studio.workspace.write(path, content, revision=None if replace else "")
     return {"path": path, "revision": revision}
 
@@ -67,13 +86,16 @@ async def open_document(
 ) -> dict[str, Any]:
     """Open any file that the library reads: a scenario, a layout, a workbook, or a plan.
 
-    A layout becomes the map of a new scenario. A plan becomes a run that is done.
+    A layout becomes the map of a new scenario. A plan becomes a run that is done. ``save_as`` and
+    ``revision`` are for saving: what is no scenario of ours is saved beside its file.
     """
     content = studio.workspace.read(path)
     result, blobs = await studio.ask("open", path=path, count=count)
-    answer = {"path": path, "folder": folder_of(path), "revision": revision_of(content), **result}
+    answer = {"path": path, "folder": folder_of(path), **result}
+    if result["kind"] == "scenario" and PurePosixPath(path).suffix.lower() in SAVED:
+        return {**answer, "save_as": path, "revision": revision_of(content)}
     if result["kind"] != "plan":
-        return answer
+        return {**answer, "save_as": free_name(studio, path), "revision": ""}
     name = PurePosixPath(path).name
     run = Run(kind="opened", name=name, source=path, figures=result["figures"])
     return {**answer, "run": Runs.data(await studio.runs.add_done(run, blobs[0]))}
@@ -86,10 +108,9 @@ async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[st
     _, blobs = await studio.ask(
         "write", document=save.document, folder=studio.place(save.folder), name=path
     )
-    return {
-        "path": path,
-        "revision": studio.workspace.write(path, blobs[0], revision=save.revision),
-    }
+    write = studio.workspace.write
+    revision = await asyncio.to_thread(write, path, blobs[0], revision=save.revision)
+    return {"path": path, "revision": revision}
 
 
 @router.post("/validate", tags=["documents"])
@@ -126,13 +147,16 @@ async def inline(studio: InStudio, placed: Placed) -> dict[str, Any]:
     return dict(result)
 
 
-@router.post("/draw", tags=["documents"], response_class=Response)
-async def draw(studio: InStudio, placed: Placed) -> Response:
-    """Return what the viewer needs to draw the map and the robots of a document."""
-    _, blobs = await studio.ask(
-        "draw", document=placed.document, folder=studio.place(placed.folder)
-    )
-    return Response(blobs[0], media_type="application/json")
+@router.post("/deal", tags=["documents"])
+async def deal(studio: InStudio, deal: Deal) -> dict[str, Any]:
+    """Return robots at random places that reach each other; the same seed gives the same."""
+    least, most = deal.work
+    if not 0 <= least <= most:
+        message = f"{least} to {most} is no range of work (give the least first, from 0 on)"
+        raise InputError.at("work", message)
+    arguments = deal.model_dump() | {"folder": studio.place(deal.folder)}
+    result, _ = await studio.ask("deal", **arguments)
+    return dict(result)
 
 
 @router.post("/convert", tags=["documents"], response_class=Response)

@@ -42,7 +42,8 @@ class Save(Placed):
     """A document that is to be saved."""
 
     revision: str | None = Field(
-        None, description="revision that the file must have; empty if there must be none"
+        "",
+        description="revision that the file must have; empty if there must be none; null for any",
     )
 
 
@@ -56,6 +57,17 @@ class ToText(Placed):
     """A document that is to be converted."""
 
     name: str = Field("scenario.yaml", description="name that ends in .yaml, .json or .xlsx")
+
+
+class Deal(Placed):
+    """A fleet that is to be dealt out over the map of a document."""
+
+    robots: int = Field(ge=1, le=100_000, description="a number of robots up to 100000")
+    seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
+    speeds: list[str | int | float] = Field(
+        [1], min_length=1, max_length=100, description="speeds, which go round"
+    )
+    work: tuple[int, int] = Field((0, 0), description="least and most work time")
 
 
 class Search(Model):
@@ -118,7 +130,9 @@ class NewSimulation(Model):
     name: Name = ""
     delays: list[str] = Field([], max_length=50, description="as in rightofway simulate --delays")
     runs: int = Field(1000, ge=1, le=100_000, description="a number of runs up to 100000")
-    run: int | None = Field(None, ge=0, description="the run to play, from 0")
+    run: Annotated[int, Field(ge=0)] | Literal["typical", "worst"] = Field(
+        "typical", description="the run to play, from 0, or typical or worst"
+    )
     seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
     switch: bool = False
     replan: bool = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import shlex
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator
 from contextlib import aclosing
 from typing import Annotated, Any
 
@@ -15,6 +15,7 @@ from fastapi.responses import StreamingResponse
 from rightofway.io import FOREIGN_FORMATS
 from rightofway.planners import DEFAULT, IMPROVER, find, registered
 from rightofway.studio.errors import Refused
+from rightofway.studio.events import Event
 from rightofway.studio.routes.models import (
     Flip,
     InStudio,
@@ -146,6 +147,12 @@ async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     return Runs.data(await studio.runs.cancel(number))
 
 
+@router.post("/runs/{number}/again", tags=["runs"], status_code=202)
+async def repeat_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Queue the same as a new run, for example after the studio went down."""
+    return Runs.data(await studio.runs.again(number))
+
+
 @router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
 async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     """Send the events of a run as they come, as server-sent events.
@@ -154,19 +161,32 @@ async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     lower bound or a message. ``plan``: there is a better plan so far; get its payload. The stream
     ends when the run is over.
     """
-    events = studio.runs.listen(number)
+    return await _stream(studio.runs.listen(number))
+
+
+@router.get("/events", tags=["runs"], response_class=StreamingResponse)
+async def all_events(studio: InStudio) -> StreamingResponse:
+    """Send the events of all runs, each with the ``number`` of its run, for ever.
+
+    First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and
+    ``deleted``. A page needs no other stream: browsers have six connections to a server.
+    """
+    return await _stream(studio.runs.listen_to_all())
+
+
+async def _stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
     first = await anext(events)
 
-    async def stream() -> AsyncIterator[str]:
+    async def lines() -> AsyncIterator[str]:
         async with aclosing(events):
             yield _line(first)
             async for event in events:
                 yield _line(event)
 
-    return StreamingResponse(stream(), media_type="text/event-stream")
+    return StreamingResponse(lines(), media_type="text/event-stream")
 
 
-def _line(event: tuple[str, dict[str, Any]] | None) -> str:
+def _line(event: Event | None) -> str:
     return ":\n\n" if event is None else f"event: {event[0]}\ndata: {json.dumps(event[1])}\n\n"
 
 
@@ -198,13 +218,17 @@ async def run_page(
 
 
 async def _played(studio: Studio, task: str, run: Run, other: int | None) -> bytes:
-    plans = [await studio.runs.blob(run.number, "plan")]
-    titles = {"title": title_of(run)}
-    if other is not None:
-        plans.append(await studio.runs.blob(other, "plan"))
-        titles["other"] = title_of(studio.runs.get(other))
-    _, blobs = await studio.ask(task, *plans, **titles)
-    return blobs[0]
+    """Return the payload or the page of the plan that a run has now, perhaps beside another one."""
+    shown = [run] if other is None else [run, studio.runs.get(other)]
+    titles = dict(zip(("title", "other"), map(title_of, shown), strict=False))
+
+    async def make() -> bytes:
+        plans = [await studio.runs.blob(each.number, "plan") for each in shown]
+        _, blobs = await studio.ask(task, *plans, **titles)
+        return blobs[0]
+
+    key = (task, *((each.number, each.revision, title_of(each)) for each in shown))
+    return await studio.played.get(key, make)
 
 
 def title_of(run: Run) -> str:
@@ -268,7 +292,7 @@ def command_of(run: Run) -> str:
         for name, value in request["options"].items():
             words += ["--option", f"{name}={value}"]
     for key in ("rule", "routes", "runs", "run", "seed"):
-        if request.get(key) is not None:
+        if request.get(key) not in {None, "typical", "worst"}:
             words += [f"--{key}", str(request[key])]
     for delay in request.get("delays", ()):
         words += ["--delays", delay]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from rightofway.studio.tasks import asking, documents, editing, planning, views
+from rightofway.studio.tasks import asking, dealing, documents, editing, planning, views
 
 Task = Callable[..., tuple[Any, ...]]
 
@@ -17,10 +17,10 @@ TASKS: dict[str, Task] = {
     "open": documents.opened,
     "validate": documents.validated,
     "inspect": documents.inspected,
-    "draw": documents.drawn,
     "survey": editing.surveyed,
     "inline": editing.inlined,
     "write": documents.written,
+    "deal": dealing.dealt,
     "plan": planning.plan,
     "improve": planning.improve,
     "laps": planning.laps,

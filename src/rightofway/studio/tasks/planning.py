@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rightofway.check import check
 from rightofway.cli.laps_report import laps_data, laps_report
 from rightofway.cli.simulate import report as simulation_report
 from rightofway.cli.terminal import measures
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.io import FOREIGN_FORMATS, plan_of, plan_text
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
@@ -57,6 +58,8 @@ class Progress:
 
     def on_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
+        if not check(plan).ok:
+            return  # only plans that the judge has passed are shown
         self.best, seconds = plan, self._seconds()
         event = {
             "seconds": seconds,
@@ -150,7 +153,7 @@ def simulate(
     *,
     delays: Sequence[str] = (),
     runs: int = 1000,
-    run: int | None = None,
+    run: int | str = "typical",
     **settings: Any,
 ) -> Result:
     """Execute a plan with delays.
@@ -164,7 +167,11 @@ def simulate(
 
     given, report = plan_of(parse_json(blobs[0].decode())), Progress(emit).report
     outcome = execute(given, list(delays) or [DEFAULT], runs, report=report, **settings)
-    played = outcome.typical() if run is None else run
+    named = {"typical": outcome.typical, "worst": outcome.worst}
+    played = named[run]() if isinstance(run, str) else run
+    if not played < outcome.runs:
+        message = f"{played} is not among the {outcome.runs} runs (0 is the first)"
+        raise InputError.at("run", message)
     payload = compact_json(payload_of(outcome.plan, actual=outcome.trace(played))).encode()
     data = {
         **measures(given.scenario),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rightofway.model import Grid, Roadmap
+from rightofway.model import Grid, Point, Roadmap
 from rightofway.model.resources import close_pairs
 from rightofway.viz.page.background import Background, background_data
 from rightofway.viz.placement import Plane, plane_of
@@ -70,6 +71,11 @@ def map_data(
         "zones": [
             [zone.name, [*zone.vertices], list(map(list, zone.edges))] for zone in roadmap.zones
         ],
+        "curves": [
+            [tail, head, *np.round(_drawn(plane, roadmap, points), decimals).ravel().tolist()]
+            for tail, head, points in drawing.curves
+            if not room  # robots with a size are judged on straight lanes
+        ],
         "stations": [list(station) for station in drawing.stations],
         "parking": list(drawing.parking),
         "charging": list(drawing.charging),
@@ -93,6 +99,13 @@ def _frame(plane: Plane, roadmap: Roadmap) -> dict[str, Any]:
     x, y = roadmap.frame.to_site((left, top))
     found = {"x": float(x), "y": float(y), "yUp": roadmap.frame.y_up, "unit": plane.unit}
     return {**found, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else found
+
+
+def _drawn(plane: Plane, roadmap: Roadmap, points: Sequence[Point]) -> NDArray[np.float64]:
+    """Return where points of the site are in the drawing; shape (n, 2)."""
+    at = [[float(part) for part in roadmap.frame.to_plane(point)] for point in points]
+    found: NDArray[np.float64] = (np.array(at) - plane.corner) / plane.unit
+    return found
 
 
 def _obstacles(roadmap: Roadmap, grid: Grid) -> dict[str, Any]:

@@ -32,7 +32,7 @@ from rightofway.model import (
     Tick,
     Track,
 )
-from rightofway.model.closures import Closure, pieces_of
+from rightofway.model.closures import Closure, ways_along
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.viz.motion import Trip, end_of, trips_of
 from rightofway.viz.page.background import Background
@@ -159,7 +159,7 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists) -> dict[str, Any]:
 def closure_data(closure: Closure, scenario: Scenario) -> dict[str, Any]:
     """Return the vertices of a closure, along a lane in order, and when it is."""
     tick = scenario.problem.clock.tick
-    places = [closure.at] if closure.edge is None else pieces_of(scenario.roadmap, closure.edge)
+    places = [closure.at] if closure.edge is None else ways_along(scenario.roadmap, closure.edge)[0]
     until = closure.until
     return {
         "vertices": list(places),

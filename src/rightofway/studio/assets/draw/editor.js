@@ -2,6 +2,7 @@
 
 import { Observable } from "../viewer/observable.js";
 import { RobotTool } from "../robots/tool.js";
+import { PickTool } from "./backdrop.js";
 import { groundOf } from "./ground.js";
 import { Hits } from "./hits.js";
 import { LaneTool, MarkTool, VertexTool } from "./network_tools.js";
@@ -22,7 +23,7 @@ export class Editor extends Observable {
     this.cursor = null; // of the keyboard, in units of the drawing
     this.isOn = true;
     this.message = "";
-    const tools = [SelectTool, BrushTool, BoxTool, LineTool, DoorTool, EraseTool, VertexTool, LaneTool, MarkTool, RobotTool];
+    const tools = [SelectTool, BrushTool, BoxTool, LineTool, DoorTool, EraseTool, VertexTool, LaneTool, MarkTool, RobotTool, PickTool];
     this.tools = new Map(tools.map((Tool) => [Tool.called, new Tool(this)]));
     this.tool = this.tools.get("select");
     store.on("survey", () => (this.done = null));
@@ -152,7 +153,7 @@ export class Editor extends Observable {
     if (this.#touches.size > 1) return this.#pinch(before, this.#span());
     if (event.pointerId !== this.#held) return;
     this.tool.drag(this.#point(event));
-    this.changed();
+    this.stage.ask();
   }
 
   #hover(event) {

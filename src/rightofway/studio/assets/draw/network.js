@@ -17,7 +17,8 @@ export function asMapping(lane) {
   return length === undefined ? { from, to } : { from, to, length };
 }
 
-const positionOf = (vertex) => (Array.isArray(vertex) ? vertex : vertex.at).map((length) => numberOf(length));
+/** Where a vertex is on the site, however it is written. */
+export const positionOf = (vertex) => (Array.isArray(vertex) ? vertex : vertex.at).map((length) => numberOf(length));
 
 const withRoadmap = (document, change) => ({ ...document, map: { ...document.map, roadmap: { ...document.map.roadmap, ...change } } });
 

@@ -2,22 +2,24 @@
 
 import { ring } from "../viewer/shapes.js";
 import { words } from "../words.js";
-import { addLane, addVertex, freeVertexName, nameStation, toggleUse } from "./network.js";
+import { addLane, addVertex, freeVertexName, nameStation, positionOf, toggleUse } from "./network.js";
 import { radiusAt } from "./overlay.js";
+import { rounded, toDrawing } from "./places.js";
 
 const ALIGNED = 8; // pixels within which a point keeps to the row or column of a vertex
 
-/** A point that keeps to rows and columns of vertices that are near, else to a round length; as it is with Alt. */
+/** Where on the site a point is: in line with vertices that are near, else at a round length; as it is with Alt. */
 export function snapped(point, editor) {
-  const { roadmap } = editor;
-  const { scale } = editor.stage.view.viewport;
-  if (point.isFree) return [point.x, point.y];
-  const step = 10 ** Math.floor(Math.log10((24 / scale) * roadmap.unit)) / roadmap.unit;
-  const keep = (value, others) => {
-    const near = others.reduce((best, other) => (Math.abs(other - value) < Math.abs(best - value) ? other : best), Infinity);
-    return Math.abs(near - value) < ALIGNED / scale ? near : Math.round(value / step) * step;
-  };
-  return [keep(point.x, roadmap.x), keep(point.y, roadmap.y)];
+  const { document, roadmap } = editor;
+  const there = roadmap.toSite(point.x, point.y);
+  if (point.isFree) return there;
+  const pixel = roadmap.unit / editor.stage.view.viewport.scale;
+  const step = 10 ** Math.floor(Math.log10(24 * pixel));
+  const known = Object.values(document.map.roadmap.vertices).map(positionOf);
+  return there.map((length, axis) => {
+    const near = known.reduce((best, at) => (Math.abs(at[axis] - length) < Math.abs(best - length) ? at[axis] : best), Infinity);
+    return Math.abs(near - length) < ALIGNED * pixel ? near : rounded(Math.round(length / step) * step);
+  });
 }
 
 class PointTool {
@@ -49,7 +51,7 @@ class PointTool {
     const vertex = editor.vertexAt(over);
     context.strokeStyle = theme.ink;
     context.lineWidth = 1.5 / scale;
-    const [x, y] = vertex >= 0 ? [editor.roadmap.x[vertex], editor.roadmap.y[vertex]] : snapped(over, editor);
+    const [x, y] = vertex >= 0 ? [editor.roadmap.x[vertex], editor.roadmap.y[vertex]] : toDrawing(editor.roadmap, ...snapped(over, editor));
     ring(context, x, y, vertex >= 0 ? radiusAt(editor.roadmap, vertex, scale) : 5 / scale);
   }
 }
@@ -63,7 +65,7 @@ export class VertexTool extends PointTool {
     if (editor.vertexAt(point) >= 0) return;
     const name = freeVertexName(editor.document);
     const [from] = editor.selection.of("vertex");
-    const at = editor.roadmap.toSite(...snapped(point, editor));
+    const at = snapped(point, editor);
     editor.store.change((document) => {
       const added = addVertex(document, name, at);
       return point.isMore && from ? addLane(added, from, name, true) : added;
@@ -111,7 +113,7 @@ export class LaneTool extends PointTool {
     const vertex = editor.vertexAt(point);
     if (vertex >= 0) return editor.roadmap.name(vertex);
     const name = freeVertexName(editor.document);
-    const at = editor.roadmap.toSite(...snapped(point, editor));
+    const at = snapped(point, editor);
     editor.store.change((document) => addVertex(document, name, at));
     return name;
   }

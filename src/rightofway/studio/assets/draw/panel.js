@@ -2,6 +2,7 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
+import { BackdropPanel } from "./backdrop.js";
 import { LanePanel, VertexPanel, ZoneList } from "./network_panel.js";
 import { withObstacles } from "./ground.js";
 import { numberOf } from "./places.js";
@@ -16,10 +17,12 @@ export function MapPanel({ studio }) {
         <button type="button" class="framed" onClick=${() => studio.inline()} disabled=${!store.survey.ok}>${words.drawOnIt}</button></div>`}
       <${Selected} studio=${studio} />
       <${Size} studio=${studio} />
-      ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} />`}
+      ${editor.fitting.includes("lane") && html`<${ZoneList} studio=${studio} /><${BackdropPanel} studio=${studio} />`}
       <${Faults} studio=${studio} />
       ${[...notes, ...store.survey.notes].length > 0 && html`<details class="notes"><summary>${words.notes}</summary><ul>${[...new Set([...notes, ...store.survey.notes])].map((note) => html`<li>${note}</li>`)}</ul></details>`}
-    </div>`;
+    </div>
+    ${Array.isArray(store.document.robots) && !store.document.robots.length && html`<div class="next">
+      <button type="button" class="framed strong" onClick=${() => studio.showTab("robots")}>${words.nextRobots}</button></div>`}`;
 }
 
 /** Faults, then findings, the worst first; pressing one lights its places. */

@@ -3,7 +3,7 @@
 import { addRobots, changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
 import { words } from "../words.js";
 import { withObstacles } from "./ground.js";
-import { addLane, addVertex, asMapping, endsOf, freeVertexName, isNetwork, lanesOf, moveVertices, removeLanes, removeVertices } from "./network.js";
+import { addLane, addVertex, asMapping, endsOf, freeVertexName, isNetwork, lanesOf, moveVertices, positionOf, removeLanes, removeVertices } from "./network.js";
 import { snapped } from "./network_tools.js";
 import { numberOf, placeOf, rounded, vertexOf } from "./places.js";
 
@@ -165,15 +165,14 @@ export class SelectTool {
     if (lost.length) editor.say(words.noVertexHere);
   }
 
-  /** How far vertices go, so that the one that was pressed lies on a round length. */
+  /** How far vertices go on the site, so that the one that was pressed lies in line, or at a round length. */
   #siteShift() {
     const { editor, hit, start, now } = this;
-    const { roadmap } = editor;
-    const pressed = hit.kind === "vertex" ? roadmap.vertexNamed(hit.id) : -1;
-    const from = pressed < 0 ? [start.x, start.y] : [roadmap.x[pressed], roadmap.y[pressed]];
-    const to = pressed < 0 ? [now.x, now.y] : snapped(now, editor);
-    const [one, other] = [roadmap.toSite(...from), roadmap.toSite(...to)];
-    return [other[0] - one[0], other[1] - one[1]];
+    const { roadmap, document } = editor;
+    const isVertex = hit.kind === "vertex";
+    const from = isVertex ? positionOf(document.map.roadmap.vertices[hit.id]) : roadmap.toSite(start.x, start.y);
+    const to = isVertex ? snapped(now, editor) : roadmap.toSite(now.x, now.y);
+    return [to[0] - from[0], to[1] - from[1]];
   }
 
   #moveObstacles(document, chosen, [right, down]) {

@@ -75,7 +75,8 @@ export function RobotPanel({ studio }) {
         : html`<p class="hint">${words.noRobots}</p>`}
       <label class="wide paste">${words.pasteTable}<textarea rows="1" aria-label=${words.pasteTable} onPaste=${(event) => paste(event, robots.length, 0)}></textarea></label>
       <${RandomFleet} studio=${studio} />
-    </div>`;
+    </div>
+    ${robots.length > 0 && html`<div class="next"><button type="button" class="framed strong" disabled=${!store.survey.ok} onClick=${() => studio.plan()}>${words.nextPlan}</button></div>`}`;
 }
 
 /** Rows of a spreadsheet, from a cell on; rows that are not there yet are added; headings are left out. */

@@ -8,6 +8,8 @@ import { Theme } from "./theme.js";
 import { VirtualList } from "./virtual_list.js";
 import { upperFirst } from "./words.js";
 
+const FEW_NOTES = 3; // of the reader, which stand open
+
 /** The page of an inspection: a level of the site at a time, what will hurt on it as a list. */
 class InspectPage {
   constructor(raw) {
@@ -67,6 +69,7 @@ class InspectPage {
     document.getElementById("level").replaceChildren(...levels.map(({ name }, index) => element("option", { value: String(index) }, name)));
     const box = document.getElementById("notes");
     box.hidden = !notes.length;
+    box.open = notes.length <= FEW_NOTES;
     box.querySelector("summary").textContent = `${counted(notes.length, "note")} of the reader: what was mended or left out`;
     box.querySelector("ul").replaceChildren(...notes.map((note) => element("li", {}, note)));
   }

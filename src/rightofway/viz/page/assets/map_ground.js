@@ -1,3 +1,4 @@
+import { pointAlong } from "./roadmap.js";
 import { chevron, disc, line } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
@@ -99,7 +100,11 @@ export class MapGround {
       context.strokeStyle = colour;
       context.lineWidth = this.#pixels(width);
       context.beginPath();
-      for (const [tail, head] of lanes) line(context, x[tail], y[tail], x[head], y[head]);
+      for (const [tail, head] of lanes) {
+        const curve = this.roadmap.curve(tail, head) ?? this.roadmap.curve(head, tail);
+        if (curve) curve.points.forEach(([atX, atY], i) => context[i ? "lineTo" : "moveTo"](atX, atY));
+        else line(context, x[tail], y[tail], x[head], y[head]);
+      }
       context.stroke();
     };
     context.lineCap = "round";
@@ -158,7 +163,11 @@ export class MapGround {
       const count = Math.max(Math.floor(length / ARROW_GAP), 1);
       for (let i = 0; i < count; i++) {
         const share = (i + 0.5) / count;
-        chevron(context, x[tail] + right * share, y[tail] + down * share, Math.atan2(down, right), this.#pixels(size));
+        const curve = this.roadmap.curve(tail, head);
+        const [atX, atY, angle] = curve
+          ? pointAlong(curve, share)
+          : [x[tail] + right * share, y[tail] + down * share, Math.atan2(down, right)];
+        chevron(context, atX, atY, angle, this.#pixels(size));
       }
     }
     context.stroke();

@@ -49,7 +49,7 @@ export class MapSpace {
 
   #encounter = null;
 
-  /** Write the distance beside the middle of that line, in pixels of the canvas. */
+  /** Write the distance above both robots, or below, in pixels of the canvas. */
   write(context, words) {
     if (!this.choice.space || !this.#encounter) return;
     const { left, top, scale } = this.viewport;
@@ -58,8 +58,11 @@ export class MapSpace {
     context.font = this.theme.font(13, 600);
     context.textAlign = "center";
     context.textBaseline = "bottom";
-    const [middleX, middleY] = [left + ((x[one] + x[other]) / 2) * scale, top + ((y[one] + y[other]) / 2) * scale];
-    haloed(context, words.apart(this.#encounter), middleX, middleY - 6, this.theme.ink, this.theme.paper, 4);
+    const middle = left + ((x[one] + x[other]) / 2) * scale;
+    const ends = [one, other].map((index) => [top + y[index] * scale, this.sizes.of(this.plan.robots[index])]);
+    const above = Math.min(...ends.map(([at, radius]) => at - radius)) - 8;
+    const below = Math.max(...ends.map(([at, radius]) => at + radius)) + 24;
+    haloed(context, words.apart(this.#encounter), middle, above < 20 ? below : above, this.theme.ink, this.theme.paper, 4);
   }
 
   /** The robot that is looked at with the one chosen, or the nearest one. */

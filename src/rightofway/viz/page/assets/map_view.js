@@ -1,7 +1,7 @@
 import { nearest } from "./arrays.js";
 import { Layer, fitCanvas } from "./canvas.js";
 import { Choice } from "./choice.js";
-import { element } from "./dom.js";
+import { element, link } from "./dom.js";
 import { MapBase } from "./map_base.js";
 import { MapNames } from "./map_names.js";
 import { MapRobots } from "./map_robots.js";
@@ -30,7 +30,7 @@ export class MapView {
     motion = new Motion(plan), ghosts = motion, clock = STILL, choice = new Choice(plan), words = new Words(plan),
     use = new Use(plan), bottleneck = null, tools = false,
   } = {}) {
-    Object.assign(this, { canvas, motion, choice, words, use, bottleneck });
+    Object.assign(this, { canvas, motion, clock, choice, words, use, bottleneck });
     this.context = canvas.getContext("2d");
     this.roadmap = plan.roadmap;
     this.viewport = new Viewport(canvas, plan.roadmap, plan.largestRadius / plan.roadmap.unit);
@@ -104,12 +104,29 @@ export class MapView {
     press("space", () => this.choice.toggleSpace());
     document.getElementById("space").hidden = !plan.hasSpace;
     this.choice.on("space", () => document.getElementById("space").setAttribute("aria-pressed", this.choice.space));
+    for (const event of ["space", "choice", "mode"]) this.choice.on(event, () => this.#showClosest());
     this.choice.on("corridor", () => {
       const { picked, corridor } = this.choice;
       document.getElementById("corridor").setAttribute("aria-pressed", Boolean(picked || corridor));
     });
     this.choice.on("heat", () => this.#showHeat());
     this.choice.on("mode", () => this.#showHeat());
+  }
+
+  /** The closest approach of the fleet, which one can go to, while no robot is chosen. */
+  #showClosest() {
+    const legend = document.getElementById("space-legend");
+    const closest = this.choice.space && !this.choice.robot ? this.space.closest : null;
+    legend.hidden = !closest;
+    if (!closest) return;
+    const { robot, other, tick } = closest;
+    const text = `${robot.name} and ${other.name}, ${this.words.apart(closest)}, at ${this.words.moment(tick)}`;
+    legend.replaceChildren("Closest approach:", link(text, () => {
+      this.clock.pause();
+      this.clock.seek(tick);
+      this.choice.chooseRobot(robot.index);
+      this.choice.lookAtPair(other.index);
+    }));
   }
 
   /** The scale of the heat map is linear, with its unit. */

@@ -1,5 +1,6 @@
 import { lastAtMost } from "./arrays.js";
 import { DRIVE } from "./phases.js";
+import { pointAlong } from "./roadmap.js";
 
 /** Where all robots are and what they do, at one instant. */
 export class Motion {
@@ -56,6 +57,11 @@ export class Motion {
     this.y[i] = y[here];
     if (activity !== DRIVE) return;
     const there = robot.vertices[visit + 1];
+    const curve = this.plan.roadmap.curve(here, there);
+    if (curve) {
+      [this.x[i], this.y[i]] = pointAlong(curve, share);
+      return;
+    }
     this.x[i] += (x[there] - x[here]) * share;
     this.y[i] += (y[there] - y[here]) * share;
   }

@@ -1,4 +1,4 @@
-import { fromDifferences, nearest } from "./arrays.js";
+import { fromDifferences, lastAtMost, nearest } from "./arrays.js";
 
 /**
  * The graph that robots drive on and what is marked on it, as map_data.py wrote it. It is laid out for
@@ -84,6 +84,15 @@ export class Roadmap {
     return this.vertexAt[row * this.width + column];
   }
 
+  #point(vertex) {
+    return [this.x[vertex], this.y[vertex]];
+  }
+
+  /** The curve of a lane, from tail to head or the other way round; undefined for a straight lane. */
+  curve(tail, head) {
+    return this.curves?.get(tail * this.size + head);
+  }
+
   /** The vertices that can be driven to from a vertex. */
   next(vertex) {
     this.#next ??= this.rows ? this.#besideEach() : this.#headsOfEach();
@@ -134,6 +143,10 @@ export class Roadmap {
     this.lengths = raw.lengths;
     this.sides = raw.sides ?? null; // of the square cell round each vertex, where the map is cut into squares
     this.lanes = this.#sortLanes();
+    this.curves = new Map((raw.curves ?? []).map(([tail, head, ...flat]) => {
+      const between = Array.from({ length: flat.length / 2 }, (_, i) => [flat[2 * i], flat[2 * i + 1]]);
+      return [tail * raw.names.length + head, measured([this.#point(tail), ...between, this.#point(head)])];
+    }));
     this.limits = this.#limitedLanes(raw.limits ?? []);
     this.usualLimit = (raw.limits ?? []).find(([, edges]) => 2 * edges.length > this.tails.length)?.[0] ?? null; // of most lanes
     this.close = { crossings: [], beside: [], vertices: [], ...raw.close }; // nearer than robots need
@@ -167,4 +180,21 @@ export class Roadmap {
     });
     return lanes;
   }
+}
+
+/** Points of a line with the share of its length at which each is. */
+function measured(points) {
+  const along = [0];
+  for (let i = 1; i < points.length; i++) {
+    along.push(along[i - 1] + Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]));
+  }
+  return { points, shares: along.map((length) => length / along.at(-1)) };
+}
+
+/** Where a share of a measured line is over: x, y and the direction there [rad]. */
+export function pointAlong({ points, shares }, share) {
+  const piece = Math.min(lastAtMost(shares, share), points.length - 2);
+  const [[x, y], [toX, toY]] = [points[piece], points[piece + 1]];
+  const part = (share - shares[piece]) / (shares[piece + 1] - shares[piece] || 1);
+  return [x + (toX - x) * part, y + (toY - y) * part, Math.atan2(toY - y, toX - x)];
 }

@@ -2,6 +2,7 @@ import { FleetMemo } from "./fleet_memo.js";
 import { DRIVE } from "./phases.js";
 
 const MOST_ENCOUNTERS = 5; // of a robot, in its card
+const MOST_COMPARED = 60; // robots; comparing all of more takes too long
 
 /** What robots book at the moment shown, which zones they hold, and how near they come to each other. */
 export class Space {
@@ -79,6 +80,15 @@ export class Space {
   #distance(one, other) {
     const { x, y } = this.motion;
     return Math.hypot(x[one] - x[other], y[one] - y[other]) * this.plan.roadmap.unit;
+  }
+
+  /** The closest approach of the whole fleet, with its two robots; null for points and for large fleets. */
+  get closest() {
+    const { robots } = this.plan;
+    if (!this.plan.largestRadius || robots.length > MOST_COMPARED) return null;
+    const [first] = robots.flatMap((robot) => this.encounters(robot).slice(0, 1).map((encounter) => ({ robot, ...encounter })))
+      .sort((one, other) => one.distance - one.room - (other.distance - other.room));
+    return first ?? null;
   }
 
   /** The closest approaches of a robot in the whole plan, the one with least room to spare first. */

@@ -1,0 +1,161 @@
+"""What robots with a size cost, against points that book ahead, on the same trips.
+
+``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
+``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
+writes it; its robots are replaced by a fleet of three sizes. Times are CPU seconds of one thread,
+medians of runs that take turns; only the first plan and the ratio on a layout are those of the
+default planner, by the clock on the wall.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+import rightofway
+from benchmarks.common import SEEDS, movingai_fleet, table
+from rightofway.metrics import measure
+from rightofway.model import Robot, Scenario, Stop, VertexId
+from rightofway.model.problem import problem_of
+from rightofway.planners import planning_problem
+from rightofway.search import FleetSearch, plan_by_lacam
+
+MAP, ROBOTS, RADIUS = "warehouse-10-20-10-2-1", 1000, Fraction("0.45")
+RUNS, NEIGHBOURHOODS, EFFORT = 3, 1000, 10**12
+
+LAYOUT_ROBOTS, SECONDS = (100, 200), 10
+RADII = [Fraction(2, 10), Fraction(3, 10), Fraction(4, 10)]
+SPEEDS = [Fraction(1), Fraction(3, 2), Fraction(1, 2)]
+
+Times = dict[str, float]
+
+
+def seconds(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Return the CPU time of some work, and its result."""
+    began = time.process_time()
+    found = work()
+    return time.process_time() - began, found
+
+
+def by_lacam(scenario: Scenario) -> None:
+    """Plan by the native search of `lacam`."""
+    assert plan_by_lacam(planning_problem(scenario), most_effort=EFFORT) is not None
+
+
+def in_turn(scenario: Scenario) -> FleetSearch:
+    """Return the search with a plan of robots one after another, shortest trips first."""
+    search = FleetSearch(planning_problem(scenario), threads=1)
+    order = np.argsort(search.alone(), kind="stable").tolist()
+    assert search.prioritize(order, searches=30 * len(order), time_limit=None)
+    return search
+
+
+def times_of(scenario: Scenario) -> Times:
+    """Return how long each part of planning takes [s]."""
+    roadmap, robots, rules = scenario.roadmap, scenario.robots, scenario.rules
+    found: Times = {}
+    found["problem in ticks"], _ = seconds(lambda: problem_of(roadmap, robots, rules))
+    found["LaCAM"], _ = seconds(lambda: by_lacam(scenario))
+    found["one after another"], search = seconds(lambda: in_turn(scenario))
+    found[f"{NEIGHBOURHOODS} neighbourhoods of LNS"], _ = seconds(
+        lambda: search.improve(NEIGHBOURHOODS, patience=10**9)
+    )
+    plan = rightofway.solve(scenario, "lacam", time_limit=None)
+    found["judge"], _ = seconds(lambda: rightofway.check(plan))
+    return found
+
+
+def cost_of_sizes(folder: Path) -> str:
+    """Return the table: points, robots with a radius, and how much longer these take."""
+    whole = movingai_fleet(folder, MAP, ROBOTS, 1)
+    points = replace(whole, rules=replace(whole.rules, occupancy="both"))
+    sized = replace(points, robots=tuple(replace(one, radius=RADIUS) for one in whole.robots))
+    runs = [(times_of(points), times_of(sized)) for _ in range(RUNS)]
+    lines = []
+    for name in runs[0][0]:
+        before, after = (median(run[column][name] for run in runs) for column in (0, 1))
+        lines.append((name, f"{before:.2f}", f"{after:.2f}", f"{after / before:.2f}"))
+    return table(("work", "points [s]", "radius 0.45 [s]", "ratio"), lines)
+
+
+def fleet_on(layout: Scenario, robots: int, seed: int) -> Scenario:
+    """Return robots of three sizes at random places of a layout, apart at start and end."""
+    draw, roadmap = random.Random(seed), layout.roadmap  # noqa: S311 (no secret depends on it)
+    radii = [RADII[k % len(RADII)] for k in range(robots)]
+    middle = roadmap.n_vertices // 2
+    inside = _reached(roadmap.indptr, roadmap.heads, middle)
+
+    def places() -> list[VertexId]:
+        taken: list[int] = []
+        for vertex in draw.sample(inside, len(inside)):
+            there = roadmap.positions[vertex]
+            apart = np.hypot(*(roadmap.positions[taken] - there).T)
+            needed = [float(radii[k] + radii[len(taken) % robots]) for k in range(len(taken))]
+            if len(taken) < robots and (apart > needed).all():
+                taken.append(vertex)
+        assert len(taken) == robots, "the layout is too small"
+        return [VertexId(vertex) for vertex in taken]
+
+    trips = zip(places(), places(), strict=True)
+    return replace(
+        layout,
+        robots=tuple(
+            Robot(
+                name=f"R{k}",
+                home=home,
+                stops=(Stop(at=target),),
+                speed=SPEEDS[k // len(RADII) % len(SPEEDS)],
+                radius=radii[k],
+            )
+            for k, (home, target) in enumerate(trips)
+        ),
+        rules=replace(layout.rules, occupancy=None, ends="none"),
+        clock=None,
+    )
+
+
+def _reached(indptr: Any, heads: Any, start: int) -> list[int]:
+    """Return the vertices that a robot can reach and come back from, where lanes lead both ways."""
+    seen, waiting = {start}, [start]
+    while waiting:
+        vertex = waiting.pop()
+        new = set(heads[indptr[vertex] : indptr[vertex + 1]].tolist()) - seen
+        seen |= new
+        waiting += new
+    return sorted(seen)
+
+
+def on_a_layout(path: Path) -> str:
+    """Return the table of a real layout: first plan of `auto`, and flowtime / lower bound."""
+    layout, lines = rightofway.load(path), []
+    for robots in LAYOUT_ROBOTS:
+        found = []
+        for seed in SEEDS:
+            plan = rightofway.solve(fleet_on(layout, robots, seed), time_limit=SECONDS)
+            metrics = measure(plan)
+            first = plan.run.first_plan_seconds
+            assert first is not None
+            found.append((first, metrics.flowtime / metrics.lower_bound))
+        first, ratio = map(median, zip(*found, strict=True))
+        lines.append((str(layout.roadmap.n_vertices), str(robots), f"{first:.2f}", f"{ratio:.3f}"))
+    return table(("vertices", "robots", "first plan [s]", f"ratio after {SECONDS} s"), lines)
+
+
+def main() -> None:
+    """Print the tables."""
+    print(cost_of_sizes(Path(sys.argv[1])))  # noqa: T201
+    for path in sys.argv[2:]:
+        print(on_a_layout(Path(path)))  # noqa: T201
+
+
+if __name__ == "__main__":
+    main()

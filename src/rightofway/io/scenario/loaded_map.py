@@ -1,0 +1,72 @@
+"""A map that a document names or draws, as its roadmap and what people want to know of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+
+from rightofway.model import Floor, Grid, Roadmap, Units, VertexId, decimal
+from rightofway.model.places import Place, vertex_at
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedMap:
+    """A roadmap, and what its document says beyond it."""
+
+    roadmap: Roadmap
+    lines: tuple[str, ...] = ()  # of a grid, as they were written
+    floor: Floor | None = None  # that the grid was cut from
+    file: Path | None = None  # that the grid was read from
+    rounding: str | None = None  # how many lengths are rounded up, and to which step
+    units: Units = field(default_factory=Units)
+    stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
+    chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
+    blocked: str = ""  # what all blocked cells are; else what the grid's characters say
+    keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
+    notes: tuple[str, ...] = ()  # of a layout's reader
+
+    def find(self, place: Place) -> VertexId:
+        """Return the vertex at a place, or raise an InputError that says what is there."""
+
+        def what_blocks(row: int, column: int) -> str:
+            grid, floor = self.roadmap.grid, self.floor
+            if floor is None or grid is None:
+                sign = self.lines[row][column]
+                return self.blocked or (
+                    "a space, as only '.' is free" if sign == " " else repr(sign)
+                )
+            if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
+                row = grid.rows - 1 - row
+            return _obstacle(row, column, floor, grid)
+
+        if isinstance(place, str) and place not in (self.roadmap.labels or ()):
+            place = self.stations.get(place, place)
+        return vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
+
+
+def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
+    """Return what stands on a cell of a floor."""
+    size = grid.cell_size
+    for index, it in enumerate(floor.obstacles):
+        if (
+            it.x < (column + 1) * size
+            and column * size < it.x + it.width
+            and it.y < (row + 1) * size
+            and row * size < it.y + it.height
+        ):
+            return it.name or f"obstacles[{index}]"
+    raise AssertionError("an obstacle blocked the cell")
+
+
+def joined_note(what: str, roadmap: Roadmap, cells: int, units: Units) -> str:
+    """Return a sentence on the squares that the smallest cells of a map have been joined to."""
+    assert roadmap.sides is not None, "the cells are squares"
+    least, most = (
+        Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
+    )
+    span = f"of {units.written_length(least)}"
+    if most > least:
+        span = f"of {decimal(least)} to {units.written_length(most)}"
+    return f"{what} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"

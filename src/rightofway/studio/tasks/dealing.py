@@ -1,0 +1,87 @@
+"""Fleets dealt out at random over a map: the same seed gives the same fleet."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from rightofway.errors import InputError
+from rightofway.io.faults import checked, under
+from rightofway.io.fields import positive
+from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.shape import MapDocument, UnitsDocument
+from rightofway.metrics.connectivity import strong_parts, ways_of
+from rightofway.model import Roadmap, Units
+from rightofway.studio.worker import Blobs, Emit
+
+Result = tuple[Any, ...]
+
+
+def dealt(
+    _emit: Emit,
+    _blobs: Blobs,
+    *,
+    document: dict[str, Any],
+    folder: str,
+    robots: int,
+    seed: int,
+    speeds: Sequence[Any],
+    work: tuple[int, int],
+) -> Result:
+    """Return robots with homes and targets in the largest part whose places reach each other.
+
+    No two have one home or one target. Speeds go round; work is drawn from the least to the most.
+    """
+    with under("speeds"):
+        rates = [_speed(speed) for speed in speeds]
+    roadmap = _roadmap(document, folder, rates)
+    part = strong_parts(ways_of(roadmap))[0]
+    if robots > len(part):
+        message = (
+            f"{robots} are more than the {len(part)} places that reach each other (give fewer)"
+        )
+        raise InputError.at("robots", message)
+    homes, targets = _drawn(part, f"homes {seed}"), _drawn(part, f"targets {seed}")
+    draw = random.Random(f"work {seed}")  # noqa: S311 (no secret depends on it)
+    least, most = work
+    fleet = []
+    for index, home in enumerate(islice(homes, robots)):
+        target = next(place for place in targets if place != home or len(targets) == 1)
+        targets.remove(target)
+        fleet.append(
+            {
+                "name": f"R{index + 1}",
+                "home": roadmap.name(home),
+                "target": roadmap.name(target),
+                "speed": speeds[index % len(speeds)],
+                "work": least + int(draw.random() * (most - least + 1)),
+            }
+        )
+    return ({"robots": fleet},)
+
+
+def _speed(given: Any) -> Fraction:
+    try:
+        return positive(given)
+    except ValueError as error:
+        raise InputError.at("", str(error)) from None
+
+
+def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
+    with under("units"):
+        units = checked(UnitsDocument, document.get("units") or {}).given("length", "time")
+    with under("map"):
+        shape = checked(MapDocument, document.get("map"))
+        found = map_of(shape, speeds, Path(folder), Units(**units), lambda: Fraction(0))
+    assert found is not None, "speeds are given"
+    return found.roadmap
+
+
+def _drawn(part: Sequence[int], what: str) -> list[int]:
+    """Return places in an order that depends on words alone, on every machine and every Python."""
+    draw = random.Random(what)  # noqa: S311 (no secret depends on it)
+    return sorted(part, key=lambda _: draw.random())

@@ -1,0 +1,99 @@
+"""Two judges that share no code find the same faults: in plans, broken plans and executions."""
+
+from __future__ import annotations
+
+import random
+from functools import cache
+from typing import Any
+
+import pytest
+
+import rightofway
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.model import Plan, Scenario
+from tests.builders.mixed import mixed, nudged
+from tests.builders.seeds import seeds
+from tests.builders.sizes import sized, sized_on_lanes, zoned
+from tests.oracles.judge import faults
+
+BETWEEN_ROBOTS = {
+    "vertex conflict": "booking",
+    "headway": "booking",
+    "space conflict": "booking",
+    "zone conflict": "booking",
+    "swap conflict": "swap",
+    "rotation": "rotation",
+    "too close": "meeting",
+    "closed": "closure",
+}
+"""What the second judge says instead; every other fault is one of a trip."""
+
+PLANNERS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("prioritized", {}),
+    ("two-level", {}),
+    ("lacam", {}),
+    ("lns", {"iterations": 30}),
+    ("auto", {"iterations": 30}),
+)
+
+
+def scenario(seed: int) -> Scenario:
+    """Return a random fleet on lanes, on lanes with sizes, on a grid with sizes, or with zones."""
+    if seed % 5 < 2:
+        return mixed(seed)
+    return (sized, sized_on_lanes, zoned)[seed % 5 - 2](seed)
+
+
+@cache
+def some_plan(seed: int) -> Plan:
+    name, options = PLANNERS[seed // 5 % 5]
+    try:
+        return rightofway.solve(scenario(seed), name, time_limit=10, **options)
+    except (NoPlanExists, GaveUp, InputError) as reason:
+        pytest.skip(f"no plan: {reason}")
+
+
+def found_by_the_judge(plan: Plan) -> set[tuple[str, tuple[int, ...]]]:
+    """Return the faults of trips; if there is none, those of robots with each other."""
+    found = {
+        (BETWEEN_ROBOTS.get(fault.kind, "trip"), fault.robots)
+        for fault in rightofway.check(plan, limit=10**6).faults
+    }
+    return {fault for fault in found if fault[0] == "trip"} or found
+
+
+def without_needless_swaps(
+    found: set[tuple[str, tuple[int, ...]]],
+) -> set[tuple[str, tuple[int, ...]]]:
+    """Leave out the swaps of robots whose bookings overlap, too."""
+    return {(kind, who) for kind, who in found if kind != "swap" or ("booking", who) not in found}
+
+
+@pytest.mark.parametrize("seed", seeds(400, 20))
+def test_both_judges_find_the_same_faults(seed: int) -> None:
+    plan, draw = some_plan(seed), random.Random(seed)  # noqa: S311
+    assert faults(plan) == set()
+    for _ in range(8):
+        broken = nudged(plan, draw)
+        judged = without_needless_swaps(found_by_the_judge(broken))
+        assert judged == without_needless_swaps(faults(broken))
+
+
+@pytest.mark.parametrize("seed", seeds(200, 4))
+@pytest.mark.parametrize("more", ["", "switch", "replan"])
+def test_late_robots_never_meet(seed: int, more: str) -> None:
+    plan = some_plan(seed)
+    try:
+        outcome = rightofway.simulate(
+            plan,
+            "chance:0.2x9",
+            runs=2,
+            seed=seed,
+            switch=more == "switch",
+            replan=more == "replan",
+        )
+    except InputError as refused:
+        pytest.skip(str(refused))
+    assert (outcome.collisions, outcome.deadlocks) == (0, 0)
+    for run in range(2):
+        assert faults(plan, outcome.trace(run)) == set()
