@@ -29,6 +29,7 @@ export function listenToKeys(studio) {
   };
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
+    if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches("input:not([type=range]), select, textarea, [contenteditable]");
     const isControl = event.ctrlKey || event.metaKey;
     if (isControl && isWriting && !["s", "Enter"].includes(event.key)) return;
