@@ -42,11 +42,16 @@ class StudioPage(Viewer):
         """Show a tab."""
         self.page.get_by_role("tab", name=name).click()
 
+    def where(self, place: Point) -> Point:
+        """Return where a place of the site is on the page [pixels]."""
+        x, y = self.page.evaluate(WHERE, list(place))
+        return x, y
+
     def press(self, place: Point, *keys: str) -> None:
         """Press at a place of the site, perhaps with keys held."""
         for key in keys:
             self.page.keyboard.down(key)
-        self.page.mouse.click(*self.page.evaluate(WHERE, list(place)))
+        self.page.mouse.click(*self.where(place))
         for key in keys:
             self.page.keyboard.up(key)
         self.settle()
@@ -54,9 +59,9 @@ class StudioPage(Viewer):
     def drag(self, start: Point, end: Point) -> None:
         """Drag from a place of the site to another one."""
         mouse = self.page.mouse
-        mouse.move(*self.page.evaluate(WHERE, list(start)))
+        mouse.move(*self.where(start))
         mouse.down()
-        mouse.move(*self.page.evaluate(WHERE, list(end)), steps=6)
+        mouse.move(*self.where(end), steps=6)
         mouse.up()
         self.settle()
 

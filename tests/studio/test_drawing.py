@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from rightofway import load, solve, write_plan
 from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
 from tests.viewer.conftest import ARGUMENTS, CHROMIUM
@@ -172,6 +173,7 @@ def test_a_column_is_filled_down_and_sorted(floor: StudioPage) -> None:
     floor.tab("Robots")
     floor.page.get_by_text("Robots at random").click()
     floor.button("Deal out").click()
+    floor.wait_for("studio.store.document.robots.length === 5")
     floor.settle()
     speed = floor.page.get_by_label("Speed, R1", exact=True)
     speed.fill("2")
@@ -189,15 +191,16 @@ def test_a_random_fleet_is_the_same_for_the_same_seed(floor: StudioPage) -> None
     floor.tab("Robots")
     floor.page.get_by_text("Robots at random").click()
     floor.button("Deal out").click()
-    floor.settle()
+    floor.wait_for("studio.store.document.robots.length === 5")
     first = floor.document["robots"]
     floor.page.locator("h1").click()
     floor.page.keyboard.press("Control+z")
     floor.settle()
     floor.page.get_by_label("Seed").fill("1")
     floor.button("Deal out").click()
-    floor.settle()
+    floor.wait_for("studio.store.document.robots.length === 5")
     assert floor.document["robots"] == first
+    floor.settle()
     assert floor.ask("studio.store.survey.ok")
 
 
@@ -288,3 +291,34 @@ def test_a_picture_below_a_roadmap_gets_scale_and_origin_by_presses(lanes: Studi
     lanes.press((1, 0))
     assert lanes.ask("studio.backdrop.place.left") == pytest.approx(left - 1, abs=0.02)
     assert lanes.complaints == []
+
+
+def test_a_plan_file_is_opened_played_and_its_scenario_changed(
+    studio: StudioPage, folder: Path
+) -> None:
+    write_plan(solve(load(folder / "door.yaml"), time_limit=2), folder / "door-plan.json")
+    studio.page.reload()
+    studio.page.get_by_role("button", name="door-plan.json").click()
+    studio.wait_for("studio.runs.losses !== null && studio.stage.isPlan")
+    assert studio.ask("studio.stage.plan.end") > 0
+    studio.tab("Map")
+    assert studio.document["map"]["grid"] == ["...", "@.@", "..."]
+    assert studio.complaints == []
+
+
+def test_a_finger_draws_and_a_floor_in_cells_of_the_paper_is_erased(
+    browser: Browser, folder: Path
+) -> None:
+    with running(folder, file="floor.yaml", keeps=False) as client:
+        context = browser.new_context(
+            locale="en-GB", has_touch=True, viewport={"width": 1024, "height": 768}
+        )
+        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        studio.opened()
+        studio.button("Erase").tap()
+        studio.page.touchscreen.tap(*studio.where((7.25, 6.25)))
+        studio.settle()
+        walls = [each["rect"] for each in studio.document["map"]["floor"]["obstacles"][:3]]
+        assert walls == [[7, 0, 0.5, 3], [7, 4, 0.5, 2], [7, 6.5, 0.5, 1.5]]
+        assert studio.complaints == []
+        context.close()

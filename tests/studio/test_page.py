@@ -108,8 +108,7 @@ def test_a_plan_opens_in_a_page_of_its_own(studio: StudioPage) -> None:
 
 def test_the_command_line_of_a_plan_is_shown(studio: StudioPage) -> None:
     plan(studio)
-    studio.button("Command line").click()
-    command = studio.page.locator(".command")
+    command = studio.page.locator(".command code")
     command.wait_for()
     assert command.inner_text().startswith("rightofway plan door.yaml --planner auto")
 

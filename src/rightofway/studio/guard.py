@@ -16,6 +16,7 @@ import sys
 from collections.abc import Awaitable, Callable, MutableMapping
 from contextlib import nullcontext
 from dataclasses import dataclass, field
+from html import escape
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import ip_address
 from typing import Any
@@ -229,11 +230,16 @@ class Guard:
         await answer.send(
             {
                 "type": "http.response.start",
-                "status": 303,
-                "headers": [(b"location", f"/{rest}".encode()), (b"set-cookie", cookie.encode())],
+                "status": 200,
+                "headers": [
+                    (b"content-type", b"text/html; charset=utf-8"),
+                    (b"set-cookie", cookie.encode()),
+                ],
             }
         )
-        await answer.send({"type": "http.response.body", "body": b""})
+        # Not a redirection: after a link on another page, a browser would go on without the cookie.
+        page = f'<!doctype html><meta http-equiv="refresh" content="0; url=/{escape(rest)}">'
+        await answer.send({"type": "http.response.body", "body": page.encode()})
         return True
 
     def _ask_token(self, request: _Request) -> None:

@@ -255,8 +255,9 @@ async def export_run(studio: InStudio, number: RunNumber, form: str) -> Response
 @router.get("/runs/{number}/document", tags=["plans"])
 async def run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return the document that a run was made from, so that it can be changed."""
-    found = json.loads(await studio.runs.blob(number, "arguments"))
-    if "document" not in found:
+    if studio.runs.get(number).kind in {"plan", "laps"}:
+        found = json.loads(await studio.runs.blob(number, "arguments"))
+    else:  # made from a plan, in which the scenario is whole
         plan = json.loads(await studio.runs.blob(number, "plan"))
         found = {"document": plan["scenario"], "folder": "."}
     return {"document": found["document"], "folder": found["folder"].removeprefix(".")}

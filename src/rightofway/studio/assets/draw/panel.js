@@ -13,7 +13,7 @@ export function MapPanel({ studio }) {
   const elsewhere = map.layout ?? map.file;
   return html`
     <div class="scroll">
-      ${elsewhere && html`<div class="note"><p>${words.mapElsewhere(elsewhere)}</p>
+      ${elsewhere && html`<div class="aside"><p>${words.mapElsewhere(elsewhere)}</p>
         <button type="button" class="framed" onClick=${() => studio.inline()} disabled=${!store.survey.ok}>${words.drawOnIt}</button></div>`}
       <${Selected} studio=${studio} />
       <${Size} studio=${studio} />
@@ -55,7 +55,7 @@ function Size({ studio }) {
   const setMap = (change) => store.change((document) => ({ ...document, map: { ...document.map, ...change } }));
   const unit = units.length ?? "";
   const place = map.floor ? "map.floor" : "map";
-  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value, "")}
+  const number = (text, value, set) => html`<label>${text}<span><input type="number" min="0.01" step="any" value=${numberOf(value) || ""} placeholder=${Number.isNaN(numberOf(value, 0)) ? value : ""}
     onChange=${({ target }) => target.reportValidity() && set(Number(target.value))} /> ${unit}</span></label>`;
   const wrong = store.faultsAt(place).concat(store.faultsAt("map.cell_size"));
   return html`

@@ -15,7 +15,7 @@ export function RobotPanel({ studio }) {
   const [shown, setShown] = useState(MOST_ROWS);
   const [cell, setCell] = useState(null); // the one that was written last: { row, column }
   if (!robots) {
-    return html`<div class="scroll"><div class="note"><p>${words.robotsElsewhere}</p><button type="button" class="framed" disabled=${!store.survey.ok} onClick=${() => studio.inline()}>${words.writeHere}</button></div></div>`;
+    return html`<div class="scroll"><div class="aside"><p>${words.robotsElsewhere}</p><button type="button" class="framed" disabled=${!store.survey.ok} onClick=${() => studio.inline()}>${words.writeHere}</button></div></div>`;
   }
   const faults = store.faults.filter(({ place }) => place.startsWith("robots"));
   const faultOf = (row, key) => faults.filter(({ place }) => place.startsWith(`robots[${row}]`) && columnOf(place) === key).map(({ message }) => message).join(" ");

@@ -20,7 +20,7 @@ export function PlanPanel({ studio }) {
     <div class="scroll">
       <${Settings} studio=${studio} />
       ${current && html`<${Curve} key=${current.number} run=${current} />`}
-      ${run && !runs.isOf(store.document) && html`<p class="note">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
+      ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
       <${Change} studio=${studio} />
       <${RunList} studio=${studio} />
       <${Report} studio=${studio} />
