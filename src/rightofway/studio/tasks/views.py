@@ -77,7 +77,7 @@ def summary(_emit: Emit, blobs: Blobs) -> Result:
 def compared(_emit: Emit, blobs: Blobs) -> Result:
     """Return what plans cost, and each robot's completion time in each of them [time unit].
 
-    Costs in ``time`` are in time units, too: plans of scenarios that differ have ticks of their own.
+    Costs in ``time`` are in time units, too: the ticks of two scenarios may differ.
     """
     plans = [read(blob) for blob in blobs]
     times: dict[str, list[float | None]] = {}
