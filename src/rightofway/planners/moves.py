@@ -31,7 +31,7 @@ from typing import NamedTuple
 
 from rightofway.errors import Blockage, GaveUp, NoPlanExists, listed
 from rightofway.model import NEVER, Tick, Track, VertexId, least_dwell
-from rightofway.planners.task import Draft, Task, planning_problem
+from rightofway.planners.task import Draft, Task, planning_headway, planning_problem
 from rightofway.search import Distances, FleetSearch
 
 MOST_STATES = 100_000
@@ -485,7 +485,7 @@ def _in_sequence(task: Task, moves: list[_Move]) -> list[Track]:
             ready += one.turning.of(edges[robot], edge)
         edges[robot] = edge
         now = max(now, ready) + one.edge_ticks[roadmap.length_class[edge]]
-        now += task.scenario.problem.headway
+        now += planning_headway(task.scenario)
         vertices[robot].append(VertexId(head))
         enter[robot].append(Tick(now))
     return [Track.of(*track) for track in zip(vertices, enter, strict=True)]
