@@ -33,6 +33,7 @@ SLOW = (
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "studio/test_attacks.py",  # thousands of requests
+    "studio/test_plans_page.py",  # a browser
     "studio/test_page.py",  # a browser
     "studio/test_drawing.py",  # a browser
     "studio/test_runs.py",  # plans

@@ -31,6 +31,7 @@ export function listenToKeys(studio) {
   for (const name of ["focusin", "change"]) document.addEventListener(name, ({ target }) => (atFocus = target.value));
   document.addEventListener("keydown", (event) => {
     if (studio.isStarting || event.defaultPrevented) return;
+    if (event.key !== "?" && document.querySelector("dialog[open]")) return; // its keys are its own
     const isWriting = event.target.matches("input:not([type=range]), select, textarea, [contenteditable]");
     const isControl = event.ctrlKey || event.metaKey;
     const isUndo = "zy".includes(event.key.toLowerCase()) && event.target.value === atFocus; // nothing in the field to undo

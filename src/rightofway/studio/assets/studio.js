@@ -249,7 +249,8 @@ export class Studio extends Observable {
 
   #planned() {
     const { runs, stage } = this;
-    if (this.tab !== "plan") return;
+    if (!runs.payload) this.showTab(this.tab);
+    if (this.tab !== "plan" || !runs.payload) return;
     this.editor.isOn = false;
     stage.show(runs.payload, { keeps: Boolean(stage.view) });
     if (this.#isPlaying) {

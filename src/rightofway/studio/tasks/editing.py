@@ -16,8 +16,8 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.sites import sites_of
 from rightofway.metrics import Site, inspect, sentences
 from rightofway.model import Units
+from rightofway.studio.messages import Blobs, Emit, fault_data
 from rightofway.studio.tasks.documents import loaded_of, plain
-from rightofway.studio.worker import Blobs, Emit, fault_data
 from rightofway.viz import site_data
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import closure_data

@@ -9,7 +9,7 @@ import { Curve } from "./curve.js";
 import { Exports } from "./exports.js";
 import { RunList } from "./list.js";
 import { Settings } from "./settings.js";
-import { Studies } from "./studies.js";
+import { Report, Studies } from "./studies.js";
 import { Waits } from "./waits.js";
 
 export function PlanPanel({ studio }) {
@@ -23,6 +23,7 @@ export function PlanPanel({ studio }) {
       ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
       <${Change} studio=${studio} />
       <${RunList} studio=${studio} />
+      <${Report} studio=${studio} />
       <${Comparison} studio=${studio} />
       ${runs.losses && html`<${Waits} studio=${studio} />`}
       ${runs.payload && html`<${Ask} studio=${studio} />`}

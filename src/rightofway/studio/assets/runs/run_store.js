@@ -10,7 +10,7 @@ const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const NO_CHOICES = { rules: {}, delays: { default: "", examples: {} }, formats: {} };
 const NOTHING_SHOWN = { shown: null, payload: null, losses: null, report: null, command: "", beside: null, comparison: null };
 
-/** Events: `runs` when any has changed, `payload` when another plan is to be shown, `refusal`. */
+/** Events: `runs` when any has changed, `payload` when another plan is to be shown or none, `refusal`. */
 export class RunStore extends Observable {
   runs = [];
   planners = { default: "auto", planners: [] };
@@ -113,7 +113,7 @@ export class RunStore extends Observable {
   hide() {
     this.#wanted++;
     Object.assign(this, NOTHING_SHOWN);
-    this.tell("runs");
+    this.tell("payload");
   }
 
   /** Compare the plan that is shown with that of another run; null to end that. */

@@ -17,7 +17,7 @@ export function Settings({ studio }) {
       event.preventDefault();
       studio.plan();
     }}>
-      <details open=${!runs.payload}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
+      <details open=${!runs.payload && !runs.running}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
       <div class="fields">
         <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
           ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary}>${name}</option>`)}</select></label>

@@ -10,16 +10,12 @@ export function Studies({ studio }) {
   const [delays, setDelays] = useState("");
   const [count, setCount] = useState(1000);
   const { seed, time_limit } = studio.settings;
-  const simulate = (played) => studio.study({
-    kind: "simulate", based_on: run.kind === "simulate" ? run.based_on : run.number, seed: Number(seed), ...(played ?? { runs: Number(count), delays: delays.trim() ? [delays.trim()] : [] }),
+  const given = delays.trim();
+  const simulate = () => studio.study({
+    kind: "simulate", based_on: run.kind === "simulate" ? run.based_on : run.number, seed: Number(seed), runs: Number(count), delays: given ? [given] : [],
   });
-  const worst = () => {
-    const { delays: given, runs: number, seed: start } = run.request;
-    simulate({ delays: given, runs: number, seed: start, run: runs.report.worst });
-  };
   return html`
     <section aria-labelledby="studies-title"><h2 id="studies-title">${words.studies}</h2>
-      ${runs.report?.text && html`<${Report} report=${runs.report} worst=${run?.kind === "simulate" && runs.report.worst !== runs.report.played ? worst : null} />`}
       <details class="laps"><summary>${words.lapsTitle}</summary>
         <form class="fields" onSubmit=${(event) => {
           event.preventDefault();
@@ -38,16 +34,24 @@ export function Studies({ studio }) {
           <label>${words.runCount}<input type="number" id="run-count" required min="1" max="100000" step="1" value=${count} onInput=${({ target }) => setCount(target.value)} /></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running)}>${words.simulate}</button>
           <datalist id="delay-examples">${Object.entries(choices.delays.examples).map(([example, means]) => html`<option value=${example}>${means}</option>`)}</datalist>
-        </form><p id="delay-summary" class="hint">${choices.delays.examples[delays.trim() || choices.delays.default]}</p></details>`}
+        </form><p id="delay-summary" class="hint">${choices.delays.examples[given || choices.delays.default]}</p></details>`}
     </section>`;
 }
 
-/** What the command says of it, and how flowtimes are spread over the runs. */
-function Report({ report, worst }) {
+/** What the command says of laps or delays, and how flowtimes are spread over the runs. */
+export function Report({ studio }) {
+  const { report, run } = studio.runs;
+  if (!report?.text) return null;
+  const playWorst = () => {
+    const { delays, runs, seed } = run.request;
+    studio.study({ kind: "simulate", based_on: run.based_on, delays, runs, seed, run: report.worst });
+  };
   return html`
-    ${report.spread && html`<${Spread} spread=${report.spread} />`}
-    <pre class="report" tabindex="0" aria-label=${words.studies}>${report.text}</pre>
-    ${worst && html`<button type="button" class="framed" onClick=${worst}>${words.playWorst(report.worst)}</button>`}`;
+    <section aria-labelledby="report-title"><h2 id="report-title">${words.report}</h2>
+      ${report.spread && html`<${Spread} spread=${report.spread} />`}
+      <pre class="report" tabindex="0" aria-labelledby="report-title">${report.text}</pre>
+      ${report.worst !== undefined && report.worst !== report.played && html`<button type="button" class="framed" onClick=${playWorst}>${words.playWorst(report.worst)}</button>`}
+    </section>`;
 }
 
 function Spread({ spread: { counts, planned, from, to, text } }) {
