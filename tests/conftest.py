@@ -33,9 +33,14 @@ SLOW = (
     "laws/test_untimed_lacam.py",
     "laws/test_workbook_fuzz.py",
     "studio/test_attacks.py",  # thousands of requests
+    "studio/test_plans_page.py",  # a browser
     "studio/test_page.py",  # a browser
+    "studio/test_drawing.py",  # a browser
     "studio/test_runs.py",  # plans
+    "studio/test_streams.py",  # a browser
+    "studio/test_stories.py",  # a browser
     "studio/test_survival.py",  # starts the command as a process, and kills it
+    "studio/test_worker.py",  # starts processes
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )

@@ -33,8 +33,7 @@ Returns
 -------
 tuple of (int, int32[R + 1], int32[N], int64[N])
     How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
-    and where and when each visit begins. For robots without sizes these are the earliest times that
-    keep the order at each vertex.)";
+    and where and when each visit begins.)";
 
 using Plan = std::tuple<int, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
@@ -61,7 +60,7 @@ Plan plan_by_lacam(const Problem& problem, bool spreads, std::uint64_t seed,
     {
         const nb::gil_scoped_release released;
         end = search();
-        if (end == SearchEnd::found && !problem.has_sizes()) {
+        if (end == SearchEnd::found) {
             retime(problem, tracks);  // once the tables of the search are gone
         }
     }

@@ -100,7 +100,7 @@ std::optional<Route> find_route(const PeriodicBookings& self, const ArrayIn<Edge
                                 std::optional<double> time_limit, std::int32_t first_row) {
     const Roads roads{{view(indptr), view(indices)}, view(length_class)};
     const VertexId home = stage_vertex.size() == 0 ? 0 : view(stage_vertex).back();
-    Trip trip{home, view(stage_vertex), view(stage_work), view(stage_turn), view(pace), {}};
+    Trip trip{home, view(stage_vertex), view(stage_work), view(stage_turn), view(pace), {}, {}, {}};
     for (std::size_t k = 0; k < stage_tables.size(); ++k) {
         require_length("stage_tables[" + std::to_string(k) + "]", stage_tables[k].size(),
                        indptr.size() == 0 ? 0 : indptr.size() - 1);

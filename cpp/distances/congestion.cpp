@@ -32,7 +32,7 @@ Congestion::Congestion(const Problem& problem, std::int64_t shares,
     }
 }
 
-std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const {
+std::int64_t Congestion::cost_of(EdgeId edge, VertexId target, Tick ticks) const {
     const VertexId head = problem_.graph().indices[edge];
     std::int64_t per_tick = shares_;
     if (head != target) {

@@ -48,7 +48,7 @@ class Congestion {
         std::int32_t next;
     };
 
-    std::int64_t cost_of(EdgeId edge, VertexId target, std::int32_t ticks) const;
+    std::int64_t cost_of(EdgeId edge, VertexId target, Tick ticks) const;
     void search(RobotId robot, VertexId start, VertexId target,
                 std::span<const std::int32_t> to_go);
     void reach(VertexId vertex, VertexId from, std::int64_t cost, std::int64_t to_go);

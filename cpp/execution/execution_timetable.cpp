@@ -202,9 +202,9 @@ Tick ExecutionTimetable::clear_of_closures(VisitId x, Tick start) const {
     }
     const Tick drive = plan_.drive(x);
     const Tick before = plan_.books_ahead() ? 0 : drive;  // of the drive, before the start
-    const Tick stay = plan_.is_last(x) ? never
-                                       : drive - before + plan_.dwell(x) + plan_.drive(x + 1) +
-                                             plan_.headway();
+    const Tick stay = plan_.is_last(x)
+                          ? never
+                          : drive - before + plan_.dwell(x) + plan_.drive(x + 1) + plan_.headway();
     for (Tick earlier = -1; earlier < start && start < never;) {
         earlier = start;
         start = closed.free_along(x, start - before, drive + plan_.headway());

@@ -41,8 +41,8 @@ std::uint64_t mix(std::uint64_t x) { return Random(x).next(); }
 FleetState::FleetState(const Problem& problem)
     : problem_(&problem),
       robots_(static_cast<std::size_t>(problem.n_robots())),
-      resources_(static_cast<std::size_t>(problem.has_sizes() ? problem.n_resources()
-                                                              : problem.n_vertices()),
+      resources_(static_cast<std::size_t>(problem.edges_exclude() ? problem.n_resources()
+                                                                  : problem.n_vertices()),
                  {nobody, nobody, -problem.rules().headway}) {
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         has_turns_ = has_turns_ || problem.turns(r).take_time();
@@ -122,7 +122,7 @@ void FleetState::decide(const Decision& decision) {
     take_off_list(robot);
     robots_[robot].to = decision.vertex;
     resources_[decision.vertex].comes = robot;
-    if (problem_->has_sizes()) {
+    if (problem_->edges_exclude()) {
         edge_of(robots_[robot]).here = robot;
     }
     set_busy(robot, decision.arrival);
@@ -148,7 +148,7 @@ bool FleetState::advance() {
         if (r.at != r.to) {
             resources_[r.at].here = nobody;
             resources_[r.at].left = now_;
-            if (problem_->has_sizes()) {
+            if (problem_->edges_exclude()) {
                 edge_of(r) = {nobody, nobody, now_};
             }
         }

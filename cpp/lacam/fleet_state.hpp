@@ -96,7 +96,7 @@ class FleetState {
     bool has_turns_ = false;
     Tick now_ = 0;
     std::vector<Robot> robots_;
-    std::vector<Resource> resources_;  // edges only where robots have sizes
+    std::vector<Resource> resources_;  // edges only where drives exclude more than their ends do
     std::vector<RobotId> undecided_;
     std::vector<Event> events_;  // a heap
     std::vector<RobotId> finished_;

@@ -22,6 +22,16 @@ struct Pibt::Choosing {
     const Graph& graph() const { return pibt.problem_.graph(); }
     VertexId at(RobotId robot) const { return now.at(robot); }
     RobotId here(VertexId vertex) const { return now.here(vertex); }
+    RobotId keeps_off(RobotId robot, VertexId vertex) const {
+        RobotId found = now.here(vertex);
+        if (found == nobody && pibt.problem_.has_sizes()) {
+            pibt.any_ahead(now, robot, vertex, [&](RobotId other) {
+                found = other;
+                return true;
+            });
+        }
+        return found;
+    }
     VertexId target(RobotId robot) const { return now.target(robot); }
     std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
     bool is_free(RobotId robot) const { return !now.is_busy(robot); }
@@ -35,8 +45,8 @@ Pibt::Pibt(const Problem& problem, StepTables& tables, const SpaceUtilization& p
       paths_(paths),
       outlook_(static_cast<std::size_t>(problem.n_robots())),
       draw_(seed),
-      claim_(static_cast<std::size_t>(problem.has_sizes() ? problem.n_resources()
-                                                          : problem.n_vertices()),
+      claim_(static_cast<std::size_t>(problem.edges_exclude() ? problem.n_resources()
+                                                              : problem.n_vertices()),
              nobody),
       next_(static_cast<std::size_t>(problem.n_robots()), nowhere),
       arrival_(static_cast<std::size_t>(problem.n_robots()), unsettled),
@@ -86,9 +96,9 @@ bool Pibt::choose_all(const FleetState& now, std::span<const RobotId> order) {
            });
 }
 
-// Calls `use` with the resources that robots may not hold or drive to if this robot is to drive to a
-// place, or stay there: use(resource, first row of the size class of these robots, whether only the
-// drive is near to it). Ends when `use` returns true.
+// Calls `use` with the resources that robots may not hold or drive to if this robot is to drive to
+// a place, or stay there: use(resource, first row of the size class of these robots, whether only
+// the drive is near to it). Ends when `use` returns true.
 template <class Use>
 bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
     if (!problem_.has_sizes()) {
@@ -98,12 +108,12 @@ bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const 
     const auto any_of = [&](std::int32_t own_row, bool is_drive) {
         const auto rows = problem_.excluded(own_row);
         return std::any_of(rows.begin(), rows.end(), [&](std::int32_t row) {
-            const std::int32_t resource = row % n_resources;
+            const std::int32_t resource = row < n_resources ? row : row % n_resources;
             return use(resource, row - resource, is_drive);
         });
     };
     return any_of(problem_.vertex_row(robot, place), false) ||
-           (place != now.at(robot) &&
+           (problem_.edges_exclude() && place != now.at(robot) &&
             any_of(problem_.edge_row(robot, edge_to(now, robot, place)), true));
 }
 
@@ -111,26 +121,29 @@ bool Pibt::any_near(const FleetState& now, RobotId robot, VertexId place, const 
 template <class Use>
 bool Pibt::any_ahead(const FleetState& now, RobotId robot, VertexId place, const Use& use) const {
     const auto n_vertices = problem_.n_vertices();
-    return any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool is_drive) {
-        const auto is_other = [&](RobotId other) {
-            return other != nobody && other != robot && problem_.first_row(other) == size;
-        };
-        const RobotId other = now.here(resource);
-        if (is_other(other) && use(other)) {
-            return true;
-        }
-        const RobotId crosses = resource < n_vertices ? nobody : claim_[resource];
-        return is_other(crosses) && (!is_drive || goes_first(now, crosses, robot)) && use(crosses);
-    });
+    return any_near(
+        now, robot, place, [&](std::int32_t resource, std::int32_t size, bool is_drive) {
+            const auto is_other = [&](RobotId other) {
+                return other != nobody && other != robot && problem_.first_row(other) == size;
+            };
+            const RobotId other = now.here(resource);
+            if (is_other(other) && use(other)) {
+                return true;
+            }
+            const RobotId crosses = resource < n_vertices ? nobody : claim_[resource];
+            return is_other(crosses) && (!is_drive || goes_first(now, crosses, robot)) &&
+                   use(crosses);
+        });
 }
 
 // Of two robots that chose edges near to each other: a robot whose vertex is in the way goes first,
 // else the robot that chose first.
 bool Pibt::goes_first(const FleetState& now, RobotId other, RobotId robot) const {
     const auto is_in_the_way_of = [&](RobotId one, RobotId mover) {
-        return any_near(now, mover, next_[mover], [&](std::int32_t resource, std::int32_t size, bool) {
-            return resource == now.at(one) && size == problem_.first_row(one);
-        });
+        return any_near(now, mover, next_[mover],
+                        [&](std::int32_t resource, std::int32_t size, bool) {
+                            return resource == now.at(one) && size == problem_.first_row(one);
+                        });
     };
     return !is_in_the_way_of(robot, other) &&
            (is_in_the_way_of(other, robot) || rank_[other] < rank_[robot]);
@@ -145,7 +158,7 @@ void Pibt::take(const FleetState& now, RobotId robot, VertexId vertex) {
     }
     claim_[vertex] = robot;
     next_[robot] = vertex;
-    if (problem_.has_sizes() && moves(now, robot)) {
+    if (problem_.edges_exclude() && moves(now, robot)) {
         claim_[problem_.n_vertices() + edge_to(now, robot, vertex)] = robot;
     }
 }
@@ -156,7 +169,7 @@ void Pibt::release(const FleetState& now, RobotId robot) {
     if (claim_[place] == robot) {
         claim_[place] = nobody;
     }
-    if (problem_.has_sizes() && moves(now, robot)) {
+    if (problem_.edges_exclude() && moves(now, robot)) {
         claim_[problem_.n_vertices() + edge_to(now, robot, place)] = nobody;
     }
 }
@@ -338,9 +351,8 @@ Tick Pibt::soonest(const FleetState& now, RobotId robot, VertexId place, Tick dr
     Tick left = -problem_.rules().headway;
     any_near(now, robot, place, [&](std::int32_t resource, std::int32_t size, bool) {
         const RobotId other = now.here(resource);
-        const bool is_held =
-            other != nobody && other != robot && problem_.first_row(other) == size;
-        left = std::max(left, !is_held               ? now.left(resource)
+        const bool is_held = other != nobody && other != robot && problem_.first_row(other) == size;
+        left = std::max(left, !is_held             ? now.left(resource)
                               : now.is_busy(other) ? now.ready(other)
                                                    : 0);
         return false;
@@ -463,8 +475,7 @@ bool Pibt::settle_queue(const FleetState& now, RobotId last) {
             left = std::max(left, now.is_busy(other) ? now.ready(other) : arrival_[other]);
             return false;
         });
-        arrival_[robot] =
-            std::max(turned(now, robot, edge) + drive, left + problem_.gap(drive));
+        arrival_[robot] = std::max(turned(now, robot, edge) + drive, left + problem_.gap(drive));
     }
     return true;
 }
@@ -491,7 +502,7 @@ void Pibt::forget(const FleetState& now) {
     for (const RobotId robot : chosen_) {
         claim_[next_[robot]] = nobody;
         claim_[now.at(robot)] = nobody;
-        if (problem_.has_sizes() && moves(now, robot)) {
+        if (problem_.edges_exclude() && moves(now, robot)) {
             claim_[problem_.n_vertices() + edge_to(now, robot, next_[robot])] = nobody;
         }
         next_[robot] = nowhere;

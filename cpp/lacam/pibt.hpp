@@ -8,9 +8,9 @@
 // front of each queue to its end; a rotation arrives at one instant, the arrival of its slowest
 // robot. Turns on the spot delay arrivals, but no robot prefers a place for them.
 //
-// Robots with sizes: a place is blocked, or held, by the robots near to it, and near to the edge that
-// leads there. A robot pushes each of them, and waits for each of them to leave. For points the only
-// such place is the vertex itself.
+// Robots with sizes: a place is blocked, or held, by the robots near to it, and near to the edge
+// that leads there. A robot pushes each of them, and waits for each of them to leave. For points
+// the only such place is the vertex itself.
 //
 // With one speed, no work and no booking ahead this is PIBT (references: untimed_pibt.hpp).
 #pragma once
@@ -108,20 +108,20 @@ class Pibt {
     const SpaceUtilization& paths_;
     std::vector<StepTables::TableId> stage_table_;
     std::vector<Tick> pace_;
-    std::vector<Turns> turns_;  // of each robot
+    std::vector<Turns> turns_;                // of each robot
     std::vector<Outlook> outlook_;            // of each robot, at its latest choice
     std::size_t most_heads_ = 0;              // greatest out-degree
     std::vector<std::int32_t> steps_beside_;  // per robot: most_heads_ neighbours
     std::uint64_t draw_;                      // state of the random numbers for ties
-    std::vector<RobotId> claim_;  // of each resource (FleetState): robot that chose it now
-    std::vector<VertexId> next_;              // of each robot: its choice
-    std::vector<Tick> arrival_;               // of each robot, once computed
-    std::vector<RobotId> chosen_;             // robots with a choice
+    std::vector<RobotId> claim_;      // of each resource (FleetState): robot that chose it now
+    std::vector<VertexId> next_;      // of each robot: its choice
+    std::vector<Tick> arrival_;       // of each robot, once computed
+    std::vector<RobotId> chosen_;     // robots with a choice
     std::vector<std::int32_t> rank_;  // of each robot with a choice: its index in chosen_
     std::vector<RobotId> queue_;
     std::vector<std::int64_t> seen_by_;  // of each robot: the latest search for a circle
     std::int64_t n_circles_ = 0;         // searches
-    std::vector<Place> places_;  // a stack: candidates of each robot that is choosing
+    std::vector<Place> places_;          // a stack: candidates of each robot that is choosing
     std::vector<Fixed> fixed_;
     std::vector<Decision> decisions_;
     std::int64_t n_choices_ = 0;

@@ -20,6 +20,7 @@ concept ChoosingFleet = requires(const F& fleet, RobotId robot, VertexId vertex)
     { fleet.graph() } -> std::convertible_to<const Graph&>;
     { fleet.at(robot) } -> std::same_as<VertexId>;
     { fleet.here(vertex) } -> std::same_as<RobotId>;
+    { fleet.keeps_off(robot, vertex) } -> std::same_as<RobotId>;  // points: the robot here
     { fleet.target(robot) } -> std::same_as<VertexId>;
     { fleet.way(robot, vertex) } -> std::same_as<std::int32_t>;  // edges to the target
     { fleet.is_free(robot) } -> std::same_as<bool>;              // can choose or has chosen
@@ -32,19 +33,20 @@ class Swaps {
     explicit Swaps(const F& fleet) : fleet_(fleet) {}
 
     // The robot to swap with: the robot at the wanted vertex, or a robot behind this one that has
-    // to pass it; `nobody` if no swap is needed or possible.
+    // to pass it; `nobody` if no swap is needed or possible. A robot that is too near to a vertex
+    // counts as at this vertex.
     RobotId partner(RobotId robot, VertexId wanted) const {
         const VertexId here = fleet_.at(robot);
         if (wanted == here) {
             return nobody;
         }
-        const RobotId ahead = fleet_.here(wanted);
+        const RobotId ahead = fleet_.keeps_off(robot, wanted);
         if (ahead != nobody && fleet_.is_idle(ahead) && must_swap({robot, ahead, here, wanted}) &&
             can_swap(wanted, here)) {
             return ahead;
         }
         for (const VertexId place : fleet_.graph().heads(here)) {
-            const RobotId behind = fleet_.here(place);
+            const RobotId behind = fleet_.keeps_off(robot, place);
             if (behind != nobody && place != wanted && fleet_.is_free(behind) &&
                 must_swap({behind, robot, here, wanted}) && can_swap(wanted, here)) {
                 return behind;

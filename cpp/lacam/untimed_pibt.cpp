@@ -23,6 +23,7 @@ struct UntimedPibt::Choosing {
     const Graph& graph() const { return pibt.problem_.graph(); }
     VertexId at(RobotId robot) const { return now.at[robot]; }
     RobotId here(VertexId vertex) const { return pibt.here_[vertex]; }
+    RobotId keeps_off(RobotId, VertexId vertex) const { return here(vertex); }
     VertexId target(RobotId robot) const { return pibt.problem_.stage_vertex(now.stage[robot]); }
     std::int32_t way(RobotId robot, VertexId vertex) const { return pibt.way(now, robot, vertex); }
     bool is_free(RobotId) const { return true; }

@@ -94,10 +94,8 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
 }
 
 void FleetPlan::retime() {
-    Tracks all = problem_->has_sizes() ? retimed_with_sizes() : tracks();
-    if (!problem_->has_sizes()) {
-        rightofway::retime(*problem_, all);
-    }
+    Tracks all = tracks();
+    rightofway::retime(*problem_, all);
     FleetPlan retimed(*problem_);
     for (RobotId robot = 0; robot < n_robots(); ++robot) {
         TimedTrack one = track(robot);
@@ -108,69 +106,6 @@ void FleetPlan::retime() {
         retimed.exchange(robot, one);
     }
     *this = std::move(retimed);
-}
-
-// One sweep in the order in which the bookings start: a visit begins when its robot is ready and
-// all earlier bookings of other robots that exclude it are over. These are known, because the robot
-// that ends a booking started to drive off earlier.
-Tracks FleetPlan::retimed_with_sizes() const {
-    struct Latest {  // ends of bookings: the latest end, and the latest of any other robot
-        Tick end = 0;
-        Tick end_of_others = 0;
-        RobotId robot = nobody;
-    };
-    Tracks all = tracks();
-    std::vector<Latest> latest(static_cast<std::size_t>(problem_->n_rows()));
-    std::vector<Tick> least(all.enter.size(), 0);  // from this enter to the next
-    std::vector<std::pair<Tick, VisitId>> drives;
-    std::vector<RobotId> robot_of(all.enter.size());
-    std::vector<std::int32_t> stage_after;
-    for (RobotId robot = 0; robot < n_robots(); ++robot) {
-        const auto& visits = track(robot).visits;
-        const VisitId first = all.first_visit[robot];
-        completion(problem_->itinerary(robot), visits, &stage_after);
-        for (std::size_t k = 1; k < visits.size(); ++k) {
-            const VisitId x = first + static_cast<VisitId>(k);
-            least[x - 1] = visits[k].turn + visits[k].drive;
-            for (std::int32_t stage = k == 1 ? 0 : stage_after[k - 2]; stage < stage_after[k - 1];
-                 ++stage) {
-                least[x - 1] += problem_->stage_dwell(problem_->first_stage(robot) + stage);
-            }
-            drives.emplace_back(visits[k].enter - visits[k].drive, x);
-            robot_of[x] = robot;
-        }
-    }
-    std::sort(drives.begin(), drives.end());
-    for (const auto& [start, x] : drives) {
-        const RobotId robot = robot_of[x];
-        const auto k = static_cast<std::size_t>(x - all.first_visit[robot]);
-        const TimedTrack& old = track(robot);
-        const Tick drive = old.visits[k].drive;
-        Tick enter = all.enter[x - 1] + least[x - 1];
-        for_each_row(robot, old, k, [&](std::int32_t row, const Booking&) {
-            const Latest& one = latest[row];
-            const Tick end = one.robot == robot ? one.end_of_others : one.end;
-            enter = std::max(enter, end + drive);
-        });
-        all.enter[x] = enter;
-        const auto end_booking = [&](std::int32_t row) {
-            for_each_mark(row, [&](std::int32_t mark) {
-                Latest& one = latest[mark];
-                const Tick end = enter + problem_->rules().headway;
-                if (one.robot == robot) {
-                    one.end = std::max(one.end, end);
-                } else if (end > one.end) {
-                    one = {end, one.end, robot};
-                } else {
-                    one.end_of_others = std::max(one.end_of_others, end);
-                }
-            });
-        };
-        end_booking(problem_->vertex_row(robot, old.visits[k - 1].vertex));
-        end_booking(problem_->edge_row(
-            robot, problem_->graph().edge(old.visits[k - 1].vertex, old.visits[k].vertex)));
-    }
-    return all;
 }
 
 void FleetPlan::hold_home(RobotId robot, Tick until) {

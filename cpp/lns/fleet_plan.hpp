@@ -60,7 +60,6 @@ class FleetPlan {
     void for_each_mark(std::int32_t row, const Use& use) const;
     template <class Found>
     void meet(RobotId robot, const TimedTrack& track, const Found& found) const;
-    Tracks retimed_with_sizes() const;
 
     const Problem* problem_;
     BookingTable bookings_;

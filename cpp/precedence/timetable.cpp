@@ -1,6 +1,7 @@
 #include "precedence/timetable.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -458,9 +459,65 @@ void Timetable::restore_enters(std::size_t trail_length) {
     }
 }
 
+namespace {
+
+// A visit begins when its robot is ready and all earlier bookings of other robots that exclude it
+// are over. In the order in which drives start these are known, because the robot that ends a
+// booking started to drive off earlier. `edge` is driven out of each visit; `least` are the ticks
+// from its enter to the next.
+void retime_with_sizes(const Problem& problem, std::span<const EdgeId> edge,
+                       std::span<const Tick> least, std::span<const Tick> approach,
+                       Tracks& tracks) {
+    struct Latest {  // ends of bookings: the latest end, and the latest of any other robot
+        Tick end = 0;
+        Tick end_of_others = 0;
+        RobotId robot = nobody;
+    };
+    struct Drive {
+        Tick start;
+        VisitId visit;  // that it leads to
+        RobotId robot;
+        auto operator<=>(const Drive&) const = default;
+    };
+    std::vector<Latest> latest(static_cast<std::size_t>(problem.n_rows()));
+    std::vector<Drive> drives;
+    for (RobotId r = 0; r < problem.n_robots(); ++r) {
+        for (VisitId x = tracks.first_visit[r] + 1; x < tracks.first_visit[r + 1]; ++x) {
+            drives.push_back({tracks.enter[x] - approach[x], x, r});
+        }
+    }
+    std::sort(drives.begin(), drives.end());
+    for (const auto& [start, x, robot] : drives) {
+        const std::int32_t along = problem.edge_row(robot, edge[x - 1]);
+        Tick enter = tracks.enter[x - 1] + least[x - 1];
+        for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[x]), along}) {
+            const Latest& one = latest[row];
+            const Tick end = one.robot == robot ? one.end_of_others : one.end;
+            enter = std::max(enter, end + approach[x]);
+        }
+        tracks.enter[x] = enter;
+        const Tick end = enter + problem.rules().headway;
+        for (const std::int32_t row : {problem.vertex_row(robot, tracks.vertex[x - 1]), along}) {
+            for (const std::int32_t mark : problem.excluded(row)) {
+                Latest& one = latest[mark];
+                if (one.robot == robot) {
+                    one.end = std::max(one.end, end);
+                } else if (end > one.end) {
+                    one = {end, one.end, robot};
+                } else {
+                    one.end_of_others = std::max(one.end_of_others, end);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
 void retime(const Problem& problem, Tracks& tracks) {
     std::vector<Tick> least(tracks.vertex.size(), 1);
     std::vector<Tick> approach(tracks.vertex.size(), 0);
+    std::vector<EdgeId> edges(tracks.vertex.size(), -1);  // driven out of each visit
     for (RobotId r = 0; r < problem.n_robots(); ++r) {
         const Itinerary itinerary = problem.itinerary(r);
         std::size_t stage = 0;
@@ -470,7 +527,7 @@ void retime(const Problem& problem, Tracks& tracks) {
             const Tick drive = problem.drive(r, edge);
             const Tick turn = itinerary.turns.between(before, edge);
             const Tick spare = tracks.enter[x + 1] - tracks.enter[x] - drive - turn;
-            before = edge;
+            before = edges[x] = edge;
             least[x] = turn + drive;
             for (const std::size_t end = itinerary.stage_after(stage, tracks.vertex[x], spare);
                  stage < end; ++stage) {
@@ -478,6 +535,10 @@ void retime(const Problem& problem, Tracks& tracks) {
             }
             approach[x + 1] = problem.rules().books_ahead ? drive : 0;
         }
+    }
+    if (problem.has_sizes()) {
+        retime_with_sizes(problem, edges, least, approach, tracks);
+        return;
     }
     const std::vector<std::uint8_t> active(static_cast<std::size_t>(problem.n_robots()), 1);
     const Routes routes({tracks.first_visit, tracks.vertex, least, approach,

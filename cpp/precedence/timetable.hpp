@@ -136,7 +136,8 @@ class Timetable : private RaiseSearch<Timetable, VisitId> {
 };
 
 // Shifts each visit of the tracks to the earliest time that keeps the order of visits at every
-// vertex, in one sweep. Precondition: no conflicts. No visit becomes later.
+// vertex, or of bookings that exclude each other where robots have sizes, in one sweep.
+// Precondition: no conflicts. No visit becomes later.
 void retime(const Problem& problem, Tracks& tracks);
 
 }  // namespace rightofway

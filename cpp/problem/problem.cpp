@@ -111,7 +111,7 @@ void Problem::check_turns() const {
     }
 }
 
-void Problem::check_resources() const {
+void Problem::check_resources() {
     require_length("size_of", resources_.size_of.size(), arrays_.home.size());
     const std::int32_t n_sizes = n_rows() / n_resources();
     require_length("first", resources_.first.size(),
@@ -129,6 +129,9 @@ void Problem::check_resources() const {
     require_length("excluded", resources_.excluded.size(),
                    static_cast<std::size_t>(resources_.first.back()));
     require_ids("excluded", resources_.excluded, n_rows());
+    edges_exclude_ =
+        std::any_of(resources_.excluded.begin(), resources_.excluded.end(),
+                    [this](std::int32_t row) { return row % n_resources() >= n_vertices(); });
     if (!rules_.books_ahead) {
         throw std::invalid_argument("books_ahead: is false, but robots with sizes book ahead");
     }

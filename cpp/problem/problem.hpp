@@ -95,8 +95,8 @@ struct Itinerary {
     std::size_t n_stages() const { return stage_vertex.size(); }
 
     // The first stage not served after a visit, where `stage` is the first not served before it.
-    // `spare` is the duration of the visit without the turn and the drive that follow. A visit serves as many
-    // stages as fit into `spare`; only the last visit serves the last stage.
+    // `spare` is the duration of the visit without the turn and the drive that follow. A visit
+    // serves as many stages as fit into `spare`; only the last visit serves the last stage.
     std::size_t stage_after(std::size_t stage, VertexId vertex, Tick spare) const {
         while (stage + 1 < n_stages() && stage_vertex[stage] == vertex &&
                spare >= stage_work[stage] + stage_turn[stage]) {
@@ -182,6 +182,9 @@ class Problem {
     std::int32_t edge_row(RobotId robot, EdgeId edge) const {
         return first_row(robot) + n_vertices() + edge;
     }
+    // Whether a drive along some edge excludes robots from more than its ends do. If not, no list
+    // of excluded rows has a row of an edge.
+    bool edges_exclude() const { return edges_exclude_; }
     // Vertices, and edges after them. Only where robots have sizes, edges are booked.
     std::int32_t n_resources() const {
         return n_vertices() + static_cast<std::int32_t>(arrays_.heads.size());
@@ -213,7 +216,7 @@ class Problem {
 
   private:
     void check_robots() const;
-    void check_resources() const;
+    void check_resources();
     void check_turns() const;
     void check_closures();
 
@@ -224,6 +227,7 @@ class Problem {
     TurnArrays turns_;
     Closures closures_;
     bool closes_edges_ = false;
+    bool edges_exclude_ = false;
     bool is_barred_ = false;
 };
 

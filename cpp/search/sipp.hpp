@@ -1,9 +1,9 @@
 // Safe interval path planning (SIPP): the best track of one robot among bookings of other robots.
 //
 // A state is (vertex, gap, stage); for a robot that turns in some time, the edge driven in, which
-// gives the heading, stands for the vertex. In one gap an earlier enter is never worse than a later one,
-// because the robot can wait. The itinerary is a list of stages (stops, work, turns, way home); a
-// move of the search drives, waits or serves the next stage.
+// gives the heading, stands for the vertex. In one gap an earlier enter is never worse than a later
+// one, because the robot can wait. The itinerary is a list of stages (stops, work, turns, way
+// home); a move of the search drives, waits or serves the next stage.
 //
 // With prices, a track may overlap the bookings of another robot and pays the price of that robot.
 // The search minimizes completion time plus prices. Example: with prices far above any time, it

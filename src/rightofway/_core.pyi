@@ -291,8 +291,7 @@ def plan_by_lacam(problem: Problem, spreads: bool, seed: int, most_effort: int, 
     -------
     tuple of (int, int32[R + 1], int32[N], int64[N])
         How it ended (0: found, 1: a stage cannot be reached, 2: stopped), which visits each robot owns,
-        and where and when each visit begins. For robots without sizes these are the earliest times that
-        keep the order at each vertex.
+        and where and when each visit begins.
     """
 
 def untimed_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int, most_steps: int | None, time_limit: float | None) -> tuple[int, Annotated[NDArray[numpy.int32], dict(shape=(None, None))]]:

@@ -72,10 +72,21 @@ def _replace(target: Path, content: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())  # or a machine that goes down could leave an empty file
         beside.replace(target)
+        with suppress(OSError):  # some systems cannot open a directory, or need not
+            _synchronize(target.parent)
     except BaseException:
         with suppress(OSError):
             beside.unlink()
         raise
+
+
+def _synchronize(directory: Path) -> None:
+    """Wait until the names in a directory are on the disk."""
+    opened = os.open(directory, os.O_RDONLY)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)
 
 
 def _why_unwritable(error: Exception, target: Path) -> str:

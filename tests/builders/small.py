@@ -23,6 +23,7 @@ RULES = {
     "two laps": Rules(laps=2),
     "no rotations": Rules(rotations=False),
     "no turning": Rules(turn=Fraction(0)),
+    "turn rate": Rules(turn_rate=Fraction(60)),
 }
 
 SMALL: dict[str, Scenario] = {

@@ -36,18 +36,26 @@ PATIENCE = 30.0
 """How long a run may take in a test [s]."""
 
 
+class Client(httpx.Client):
+    """A client that knows the studio behind the server, in the same process."""
+
+    studio: Any
+
+
 @contextmanager
-def running(folder: Path, access: Access | None = None, **settings: Any) -> Iterator[httpx.Client]:
+def running(folder: Path, access: Access | None = None, **settings: Any) -> Iterator[Client]:
     """Serve a folder, and yield a client of version 1 of the API."""
     with closing(bound("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
-        app = create_app(Studio(folder, **settings), access or Access.on("127.0.0.1", port))
+        studio = Studio(folder, **settings)
+        app = create_app(studio, access or Access.on("127.0.0.1", port))
         server = uvicorn.Server(uvicorn.Config(app, log_level="critical", access_log=False))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
         try:
             base = f"http://127.0.0.1:{port}/api/v1"
-            with httpx.Client(base_url=base, timeout=PATIENCE) as client:
+            with Client(base_url=base, timeout=PATIENCE) as client:
+                client.studio = studio
                 yield client
         finally:
             server.should_exit = True

@@ -10,7 +10,8 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io.scenario.reader import scenario_of
+from rightofway.io.movingai import write_scen
+from rightofway.io.scenario.reader import read_scenario, scenario_of
 from rightofway.io.scenario.writer import dump_scenario, write_scenario
 
 DOCUMENT: dict[str, Any] = {
@@ -131,3 +132,18 @@ def test_the_builder_names_what_is_wrong(call: dict[str, Any], message: str) -> 
     with pytest.raises(InputError) as refused:
         fleet.add_closure(**call)
     assert str(refused.value).startswith(message)
+
+
+def test_a_type_that_is_nearly_one_of_the_map_is_noted() -> None:
+    robot = {**DOCUMENT["robots"][0], "type": "heavvy"}
+    loaded = read_scenario({**DOCUMENT, "robots": [robot]}, None)
+    note = "nothing is barred for robots of type 'heavvy' (did you mean 'heavy'?)"
+    assert note in loaded.notes
+    assert not any("barred" in note for note in read_scenario(DOCUMENT, None).notes)
+
+
+def test_conversion_to_scen_says_that_closures_are_left_out(tmp_path: Path) -> None:
+    fleet = rightofway.FleetBuilder(grid=["..."]).add_robot("R1", home="N0", target="N2")
+    scenario = fleet.add_closure(at="N1", until=1).scenario()
+    notes = write_scen(scenario, tmp_path / "a.scen", map_name="a.map")
+    assert "closures are left out" in notes

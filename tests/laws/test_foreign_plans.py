@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
 from rightofway.io.foreign import planviz
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track, VertexId
-from rightofway.model.roadmap import roadmap_of_grid
+from rightofway.model.grid import roadmap_of_grid
 from tests.oracles.planviz import visits_step_by_step
 
 HALL = roadmap_of_grid([".....", ".@...", "....."])

@@ -144,7 +144,7 @@ def test_a_lane_beside_a_vertex_is_too_near() -> None:
 
 def test_cells_smaller_than_the_robots_are_one_finding() -> None:
     site = Site(roadmap=roadmap_of_grid(["....."]), robots=(robot("R1", 0, 4, "0.6"),))
-    (finding,) = found(site, "too near")
+    _walls, finding = found(site, "too near")
     assert finding.fact.startswith("The middles of cells are 1 length unit apart; robots of")
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import accumulate
 from math import ceil, floor
 
-from rightofway.model import Closure, Plan, Scenario, Track
+from rightofway.model import Closure, Plan, Route, Scenario, Track
 from tests.oracles.space import FAR_AWAY, Shape, drive, square_between
+
+LATE = 100_000
+"""No closure ends so late, but for those that never do [ticks]."""
 
 
 def shuts(scenario: Scenario, closure: Closure, robot: int, shape: Shape) -> bool:
@@ -65,3 +69,52 @@ def _booked(
         ticks = drive(scenario, robot, vertices[k - 1], vertices[k])
         yield (vertices[k],), enter[k] - ticks * ahead, ends[k]
         yield (vertices[k - 1], vertices[k]), enter[k] - ticks, ends[k - 1]
+
+
+def earliest_times(
+    scenario: Scenario, routes: Sequence[Route], rights: Iterable[tuple[int, int]], headway: int
+) -> list[int] | None:
+    """Return the earliest enter of each visit, None where there is none; by repeated raising.
+
+    Visits are numbered robot by robot; each right of way is (first, second).
+    """
+    first = [0, *accumulate(map(len, routes))]
+    robot_of = [robot for robot, route in enumerate(routes) for _ in range(len(route))]
+    enter, ahead = [0] * first[-1], scenario.rules.occupancy == "both"
+    given, before = list(rights), list[int]()
+    while enter != before:
+        before = list(enter)
+        for visit, robot in enumerate(robot_of):
+            index, route = visit - first[robot], routes[robot]
+            if index:
+                enter[visit] = max(enter[visit], enter[visit - 1] + route.least(index - 1))
+            gap = headway + (route.drive[index] if ahead else 0)
+            enter[visit] = max(
+                [enter[visit], *(enter[a + 1] + gap for a, b in given if b == visit)]
+            )
+            leave = FAR_AWAY if index == len(route) - 1 else Fraction(enter[visit + 1])
+            stay = {"index": index, "leave": leave, "headway": headway}
+            while not _is_free(scenario, robot, route, enter=enter[visit], **stay):  # type: ignore[arg-type]
+                enter[visit] += 1
+                if not index or enter[visit] > LATE:
+                    return None
+    return enter
+
+
+def _is_free(
+    scenario: Scenario,
+    robot: int,
+    route: Route,
+    *,
+    index: int,
+    enter: int,
+    leave: Fraction,
+    headway: int,
+) -> bool:
+    """Tell whether a visit's vertex and the edge driven in are open while they are booked."""
+    at, drive = route.vertices[index], route.drive[index]
+    start = Fraction(enter - drive if scenario.rules.occupancy == "both" else enter)
+    if is_shut(scenario, robot, (at,), start, max(leave, Fraction(enter)) + headway):
+        return False
+    edge, begin, end = (route.vertices[index - 1], at), Fraction(enter - drive), enter + headway
+    return not index or not is_shut(scenario, robot, edge, begin, Fraction(end))

@@ -112,9 +112,9 @@ def test_a_body_that_does_not_fit_is_refused_in_the_same_words(client: httpx.Cli
 def test_a_document_is_inspected_drawn_and_converted(client: httpx.Client) -> None:
     body = {"document": DOOR}
     assert client.post("/inspect", json=body).json()["places"] == 4
-    drawn = client.post("/draw", json=body).json()
-    assert drawn["map"]["rows"] == ["...", "@.@", "..."]
-    assert [robot["name"] for robot in drawn["robots"]] == ["R1", "R2"]
+    site = client.post("/survey", json=body).json()["site"]
+    assert site["map"]["rows"] == ["...", "@.@", "..."]
+    assert [robot["name"] for robot in site["robots"]] == ["R1", "R2"]
     written = client.post("/convert", json={**body, "name": "door.yaml"}).text
     assert written.startswith("format: rightofway-scenario/1")
 
@@ -187,3 +187,35 @@ def test_a_fleet_that_cannot_be_dealt_is_refused(
     refused = client.post("/deal", json=body)
     assert refused.status_code == 422
     assert refused.json()["error"]["faults"][0]["place"] == place
+
+
+def test_a_survey_has_the_faults_and_the_robots_without_one(client: httpx.Client) -> None:
+    document = {**DOOR, "robots": [{"name": "R1", "home": "N99"}, *DOOR["robots"]]}
+    found = client.post("/survey", json={"document": document}).json()
+    assert not found["ok"]
+    assert [fault["place"] for fault in found["faults"]] == ["robots[0].home"]
+    assert [robot["index"] for robot in found["site"]["robots"]] == [1, 2]
+
+
+def test_a_survey_of_a_map_without_robots_has_the_map(client: httpx.Client) -> None:
+    found = client.post("/survey", json={"document": {**DOOR, "robots": []}}).json()
+    assert found["site"]["map"]["rows"] == DOOR["map"]["grid"]
+    assert found["site"]["robots"] == []
+
+
+def test_an_inlined_document_needs_no_other_file(client: httpx.Client, folder: Path) -> None:
+    (folder / "door.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    robots = [{"name": "R1", "home": "N0", "target": "N2"}]
+    document = {"format": DOOR["format"], "map": {"file": "door.map"}, "robots": robots}
+    found = client.post("/inline", json={"document": document}).json()["document"]
+    assert found["map"]["grid"] == ["..."]
+    assert found["robots"][0]["target"] == "N2"
+
+
+def test_a_survey_without_inspection_has_the_map_and_no_findings(client: httpx.Client) -> None:
+    request = {"document": DOOR, "inspects": False}
+    found = client.post("/survey", json=request).json()
+    assert found["ok"]
+    assert len(found["site"]["robots"]) == 2
+    assert found["findings"] == []
+    assert client.post("/survey", json={"document": DOOR}).json()["findings"] != []

@@ -1,4 +1,4 @@
-"""The page of the studio in a browser: open, plan, watch; nothing from elsewhere or inline."""
+"""The page of the studio in a browser: open, plan, ask; nothing from elsewhere, nothing inline."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.builders.drawing import StudioPage
 from tests.builders.studios import running
 from tests.viewer.conftest import ARGUMENTS, CHROMIUM, Viewer
 
@@ -27,58 +28,92 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def studio(browser: Browser, folder: Path) -> Iterator[Viewer]:
+def studio(browser: Browser, folder: Path) -> Iterator[StudioPage]:
     """Return the page of a studio that opens a door."""
     with running(folder, file="door.yaml", keeps=False) as client:
         context = browser.new_context(locale="en-GB", reduced_motion="reduce")
-        viewer = Viewer(context.new_page())
-        viewer.page.goto(str(client.base_url).removesuffix("api/v1/"))
-        viewer.wait_for("Boolean(window.stage?.view)")
-        yield viewer
+        studio = StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        studio.opened()
+        yield studio
         context.close()
 
 
-def test_a_file_is_opened_planned_and_played(studio: Viewer) -> None:
-    page = studio.page
-    assert studio.ask("stage.plan.robots.map(({ name }) => name)") == ["R1", "R2"]
-    page.fill("input[type=number]", "1")
-    page.get_by_role("button", name="Plan", exact=True).click()
-    page.get_by_text("done").wait_for()
-    studio.wait_for("stage.plan.end > 5")
-    assert "time units" in studio.text(".curve")
-    page.get_by_role("button", name="Play or pause").click()
-    studio.wait_for("stage.clock.tick > 0")
+def plan(studio: StudioPage, seconds: str = "1") -> None:
+    """Plan what is shown."""
+    studio.tab("Plan")
+    studio.page.fill("#limit", seconds)
+    studio.button("Plan").click()
+    studio.planned()
+
+
+def test_a_file_is_opened_planned_and_played(studio: StudioPage) -> None:
+    assert studio.ask("studio.stage.plan.robots.map(({ name }) => name)") == ["R1", "R2"]
+    plan(studio)
+    assert "19 time units" in studio.text(".curve")
+    studio.button("Play").click()
+    studio.wait_for("studio.stage.clock.tick > 0")
     assert studio.complaints == []
 
 
-def test_another_file_is_opened_from_the_list(studio: Viewer) -> None:
+def test_another_file_is_opened_from_the_list(studio: StudioPage) -> None:
+    studio.button("Files").click()
     studio.page.get_by_role("button", name="bay.yaml").click()
-    studio.wait_for("stage.plan.robots.length === 3")
+    studio.wait_for("studio.stage.plan.robots.length === 3")
 
 
-def test_faults_of_a_file_are_listed_with_their_places(studio: Viewer, folder: Path) -> None:
+def test_faults_of_a_file_stand_in_the_list_and_at_the_field(
+    studio: StudioPage, folder: Path
+) -> None:
     (folder / "wrong.yaml").write_text(
         "format: rightofway-scenario/1\nmap: {grid: ['...']}\nrobots: [{name: R1, home: N9}]\n"
     )
-    studio.page.reload()
+    studio.button("Files").click()
     studio.page.get_by_role("button", name="wrong.yaml").click()
-    listed = studio.page.get_by_role("alert")
-    listed.wait_for()
-    assert "robots[0] (R1): home" in listed.inner_text()
+    fault = studio.page.locator(".findings").get_by_text("robots[0] (R1): home")
+    fault.click()
+    field = studio.page.get_by_label("Home, R1")
+    field.wait_for()
+    assert field.get_attribute("aria-invalid") == "true"
+    assert "outside the map" in (field.get_attribute("title") or "")
 
 
-def test_a_plan_opens_in_a_page_of_its_own(studio: Viewer) -> None:
-    page = studio.page
-    page.fill("input[type=number]", "1")
-    page.get_by_role("button", name="Plan", exact=True).click()
-    with page.context.expect_page() as opened:
-        page.get_by_role("link", name="Open the plan").first.click()
+def test_a_wait_is_explained_and_the_right_of_way_flipped(studio: StudioPage) -> None:
+    plan(studio)
+    waits = studio.page.locator(".waits")
+    assert "waits 1 time unit in N0 at time 0, for R2 to leave N1" in waits.inner_text()
+    studio.button("Let R1 go first").click()
+    studio.wait_for("studio.runs.comparison !== null")
+    assert "was 19 time units" in studio.text(".change")
+
+
+def test_a_change_is_planned_at_once_and_compared(studio: StudioPage) -> None:
+    plan(studio)
+    studio.page.get_by_label("Plan again at each change").check()
+    studio.tab("Robots")
+    speed = studio.page.get_by_label("Speed, R1")
+    speed.fill("2")
+    speed.press("Enter")
+    studio.wait_for("studio.runs.comparison !== null")
+    assert "Gain: R1" in studio.text(".status .change")
+
+
+def test_a_plan_opens_in_a_page_of_its_own(studio: StudioPage) -> None:
+    plan(studio)
+    with studio.page.context.expect_page() as opened:
+        studio.page.get_by_role("link", name="Page", exact=True).click()
     played = Viewer(opened.value)
     played.wait_for("frames.count > 0")
     assert played.ask("origin") == "null"  # its scripts cannot use the API
 
 
-def test_everything_is_the_studios_own(studio: Viewer) -> None:
+def test_the_command_line_of_a_plan_is_shown(studio: StudioPage) -> None:
+    plan(studio)
+    command = studio.page.locator(".command code")
+    command.wait_for()
+    assert command.inner_text().startswith("rightofway plan door.yaml --planner auto")
+
+
+def test_everything_is_the_studios_own(studio: StudioPage) -> None:
     base = studio.ask("location.origin")
     assert [url for url in studio.requests if not url.startswith((base, "data:"))] == []
     studio.ask("document.body.append(Object.assign(document.createElement('script'),"
@@ -86,11 +121,40 @@ def test_everything_is_the_studios_own(studio: Viewer) -> None:
     assert studio.ask("window.injected") is None
 
 
-def test_the_page_speaks_german_to_a_german_browser(browser: Browser, folder: Path) -> None:
+def test_the_page_speaks_german_to_a_german_browser_and_english_on_request(
+    browser: Browser, folder: Path
+) -> None:
     with running(folder, keeps=False) as client:
         context = browser.new_context(locale="de-DE")
         page = context.new_page()
         page.goto(str(client.base_url).removesuffix("api/v1/"))
-        page.get_by_text("Zum Anfangen eine Datei öffnen.").wait_for()
+        page.get_by_text("Neuer Boden").wait_for()
         assert page.locator("html").get_attribute("lang") == "de"
+        page.get_by_label("Sprache").select_option("en")
+        page.get_by_text("New floor").wait_for()
         context.close()
+
+
+def test_both_languages_have_the_same_texts(studio: StudioPage) -> None:
+    shape = """(async () => {
+      const { setLanguage } = await import('/assets/words.js');
+      const module = await import('/assets/words.js');
+      const shape = (texts) => (typeof texts === 'object'
+        ? Object.entries(texts).map(([key, value]) => [key, shape(value)]) : typeof texts);
+      return ['en', 'de'].map((code) => { setLanguage(code); return shape(module.words); });
+    })()"""
+    english, german = studio.ask(shape)
+    assert english == german
+
+
+def test_every_button_and_field_has_a_name(studio: StudioPage) -> None:
+    plan(studio)
+    for tab in ("Map", "Robots", "Plan"):
+        studio.tab(tab)
+        nameless = studio.ask(
+            "[...document.querySelectorAll('button, input, select, textarea, a')]"
+            ".filter((each) => each.checkVisibility())"
+            ".filter((each) => !(each.ariaLabel || each.textContent.trim() || each.labels?.length))"
+            ".map((each) => each.outerHTML)"
+        )
+        assert nameless == []

@@ -27,6 +27,12 @@ def begun(client: httpx.Client, **request: Any) -> int:
     return number
 
 
+def flowtime(client: httpx.Client, run: dict[str, Any]) -> int:
+    """Return the sum of completion times of the execution that a run plays."""
+    floor = client.get(f"/runs/{run['number']}/payload").json()["floor"]
+    return sum(robot["completion"] for robot in floor["robots"])
+
+
 def test_a_plan_is_made_kept_and_played(client: httpx.Client) -> None:
     run = planned(client, planner="two-level", name="door")
     assert (run["state"], run["name"], run["kind"]) == ("done", "door", "plan")
@@ -48,6 +54,24 @@ def test_events_tell_the_flowtime_as_it_falls_and_end_with_the_run(client: httpx
     assert revisions == sorted(set(revisions))
     assert (heard[-1][0], heard[-1][1]["state"]) == ("run", "done")
     assert events(client, number) == heard[-1:]
+
+
+def test_one_stream_tells_of_all_runs(client: httpx.Client) -> None:
+    heard: list[tuple[str, Any]] = []
+    with client.stream("GET", "/events") as stream:
+        lines = stream.iter_lines()
+        heard.append((next(lines)[7:], json.loads(next(lines)[6:])))
+        run = planned(client, planner="two-level")
+        client.delete(f"/runs/{run['number']}")
+        for line in lines:
+            if line.startswith("event: "):
+                heard.append((line[7:], json.loads(next(lines)[6:])))
+            if heard[-1][0] == "deleted":
+                break
+    assert heard[0][0] == "runs"
+    states = [data["state"] for name, data in heard if name == "run"]
+    assert states == ["queued", "running", "done"]
+    assert {data["number"] for _, data in heard[1:]} == {run["number"]}
 
 
 def test_stop_keeps_the_best_plan(client: httpx.Client) -> None:
@@ -121,8 +145,18 @@ def test_plans_are_improved_and_executed(client: httpx.Client) -> None:
     late = client.post("/runs", json={"kind": "simulate", "based_on": number, "runs": 20})
     done = over(client, late.json()["number"])
     assert done["state"] == "done"
-    assert client.get(f"/runs/{done['number']}/report").json()["runs"] == 20
+    report = client.get(f"/runs/{done['number']}/report").json()
+    assert report["runs"] == sum(report["spread"]["counts"]) == 20
+    assert "right of way  no collisions, no deadlocks" in report["text"]
+    assert report["spread"]["from"] <= report["spread"]["to"]
     assert "floor" in client.get(f"/runs/{done['number']}/payload").json()
+    body = {"kind": "simulate", "based_on": number, "runs": 20, "run": "worst"}
+    worst = over(client, client.post("/runs", json=body).json()["number"])
+    played = client.get(f"/runs/{worst['number']}/report").json()["played"]
+    assert played == report["worst"]
+    typical = client.get(f"/runs/{done['number']}/report").json()["played"]
+    assert 0 <= played < 20
+    assert flowtime(client, worst) > flowtime(client, done) or played == typical
 
 
 def test_laps_have_a_period(client: httpx.Client) -> None:
@@ -131,6 +165,7 @@ def test_laps_have_a_period(client: httpx.Client) -> None:
     assert run["state"] == "done"
     report = client.get(f"/runs/{run['number']}/report").json()
     assert report["groups"][0]["period"]
+    assert "period" in report["text"]
     assert client.get(f"/runs/{run['number']}/payload").json()["steady"]
 
 
@@ -179,6 +214,15 @@ def test_a_plan_is_exported(client: httpx.Client, form: str) -> None:
     assert exported.content
 
 
+def test_a_run_is_repeated_with_the_same_result(client: httpx.Client) -> None:
+    run = planned(client, planner="two-level", options={"routes": "shortest"}, name="door")
+    again = over(client, client.post(f"/runs/{run['number']}/again").json()["number"])
+    assert again["number"] != run["number"]
+    assert (again["name"], again["request"]) == (run["name"], run["request"])
+    exports = [client.get(f"/runs/{each['number']}/export/json").text for each in (run, again)]
+    assert exports[0] == exports[1]
+
+
 def test_a_run_is_named_and_deleted(client: httpx.Client) -> None:
     number = planned(client, planner="two-level")["number"]
     assert client.patch(f"/runs/{number}", json={"name": "mine"}).json()["name"] == "mine"
@@ -196,3 +240,28 @@ def test_a_changed_document_is_planned_at_once_beside_a_long_plan(client: httpx.
     assert changed["based_on"] == first["number"]
     client.post(f"/runs/{long}/cancel")
     assert changed["figures"]["makespan"] > first["figures"]["makespan"]
+
+
+def test_costs_are_compared_in_time_units_where_ticks_differ(client: httpx.Client) -> None:
+    first, *others = DOOR["robots"]
+    faster = {**DOOR, "robots": [{**first, "speed": 1.5}, *others]}
+    runs = [planned(client, document)["number"] for document in (DOOR, faster)]
+    found = client.get("/compare", params={"run": runs}).json()
+    for place, plan in enumerate(found["plans"]):
+        completions = [robot["completion"][place] for robot in found["robots"]]
+        assert plan["time"] == pytest.approx(
+            {"flowtime": sum(completions), "makespan": max(completions)}
+        )
+    ticks = [plan["flowtime"] / plan["time"]["flowtime"] for plan in found["plans"]]
+    assert ticks[0] != ticks[1]
+
+
+def test_rules_delays_and_formats_are_listed_and_can_be_used(client: httpx.Client) -> None:
+    choices = client.get("/choices").json()
+    number = planned(client)["number"]
+    for rule in choices["rules"]:
+        started = client.post("/runs", json={"kind": "laps", "document": DOOR, "rule": rule})
+        assert over(client, started.json()["number"])["state"] == "done"
+    for form in choices["formats"]:
+        assert client.get(f"/runs/{number}/export/{form}").status_code == 200
+    assert choices["delays"]["default"] in choices["delays"]["examples"]

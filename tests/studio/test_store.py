@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -10,6 +11,7 @@ from rightofway.errors import InputError
 from rightofway.studio.errors import Refused
 from rightofway.studio.store import FILE, Store
 from rightofway.studio.workspace import Workspace
+from tests.builders.studios import planned, running
 
 
 def test_what_is_kept_is_there_when_the_file_is_opened_again(tmp_path: Path) -> None:
@@ -90,3 +92,47 @@ def test_a_file_in_a_folder_that_is_not_there_is_refused_in_the_words_of_the_lib
 ) -> None:
     with pytest.raises(InputError, match="there is no directory"):
         Workspace(tmp_path).write("a/b.yaml", b"")
+
+
+def test_a_list_of_a_large_folder_has_what_is_near_and_says_that_it_is_cut(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rightofway.studio.workspace.MAX_FOLDERS", 3)
+    for name in ("a/deep/far.yaml", "b/near.yaml", "top.yaml"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    entries, is_whole = Workspace(tmp_path).files()
+    assert ([entry.path for entry in entries], is_whole) == (["b/near.yaml", "top.yaml"], False)
+
+
+def test_a_full_disk_is_refused_with_words_and_leaves_what_was_there(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.put_draft("hall", {"walls": 1})
+    store._database.execute("PRAGMA max_page_count = 10")
+    with pytest.raises(Refused, match="disk is full") as refused:
+        store.put_draft("hall", {"walls": "x" * 10**6})
+    assert refused.value.status == 507
+    found = store.draft("hall")
+    assert found
+    assert found["document"] == {"walls": 1}
+    store.close()
+
+
+def test_a_run_that_cannot_be_kept_fails_and_the_next_one_is_planned(tmp_path: Path) -> None:
+    """The disk is full while a plan is saved, and has room again afterwards."""
+    with running(tmp_path) as client:
+        studio = client.studio
+        put, is_full = studio.store.put_run, [True]
+
+        def fails(number: int, data: Any, blobs: Any = ()) -> None:
+            if is_full[0] and any(kind == "plan" for kind, _ in blobs):
+                raise Refused("drafts and runs cannot be kept: full (free some space)", 507)
+            put(number, data, blobs)
+
+        studio.store.put_run = fails
+        first = planned(client, planner="two-level")
+        assert first["state"] == "failed"
+        assert "cannot be kept" in first["error"]["message"]
+        is_full[0] = False
+        assert planned(client, planner="two-level")["state"] == "done"

@@ -59,9 +59,12 @@ def test_whatever_was_answered_is_there_after_a_kill(tmp_path: Path) -> None:
         assert kept["figures"]["flowtime"] <= best
         played = client.get(f"/runs/{running}/payload").json()
         assert played["faults"]["count"] == 0
-        again = {"kind": "improve", "based_on": running, "time_limit": 0.5}
-        better = over(client, client.post("/runs", json=again).json()["number"])
+        improve = {"kind": "improve", "based_on": running, "time_limit": 0.5}
+        better = over(client, client.post("/runs", json=improve).json()["number"])
         assert better["figures"]["flowtime"] <= kept["figures"]["flowtime"]
+        again = client.post(f"/runs/{running}/again").json()
+        assert again["request"] == kept["request"]
+        until(client, again["number"], lambda run: run["has_plan"])
 
 
 def test_a_file_is_whole_whenever_the_server_is_killed(tmp_path: Path) -> None:

@@ -72,7 +72,8 @@ TEST_CASE("a bad request is refused with the entry that is wrong") {
     CHECK_THROWS_WITH(triangle().to(3, Ints{1, 1, 1}), "target: 3 is not in 0..2");
     CHECK_THROWS_WITH(triangle().to(-1, Ints{1, 1, 1}), "target: -1 is not in 0..2");
     CHECK_THROWS_WITH(triangle().to(0, Ints{1, 1}), "edge_ticks: its length is 2, but must be 3");
-    CHECK_THROWS_WITH(triangle().to(0, Ints{1, 0, 1}), "edge_ticks[1]: 0 is neither positive nor -1");
+    CHECK_THROWS_WITH(triangle().to(0, Ints{1, 0, 1}),
+                      "edge_ticks[1]: 0 is neither positive nor -1");
 }
 
 }  // namespace

@@ -296,7 +296,7 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
         CHECK(plans[k].cost() == plans[0].cost());
     }
     for (RobotId robot = 0; robot < distances.problem().n_robots(); ++robot) {
-        CHECK(plans[0].track(robot).cost == plans[2].track(robot).completion);
+        CHECK(plans[0].track(robot).cost == plans[2].track(robot).cost);
     }
 }
 
@@ -334,7 +334,7 @@ TEST_CASE("a plan that is stuck gets better among others, whatever the number of
         CHECK(is_sound(distances, plans[k]));
         CHECK(plans[k].cost() < stuck.cost());
         for (RobotId robot = 0; robot < distances.problem().n_robots(); ++robot) {
-            CHECK(plans[k].track(robot).cost == plans[0].track(robot).completion);
+            CHECK(plans[k].track(robot).cost == plans[0].track(robot).cost);
         }
     }
 }

@@ -98,6 +98,59 @@ TEST_CASE("headway and booking ahead keep robots apart") {
     CHECK(enter[1] == 2);
 }
 
+// Two lanes that cross, for robots with sizes: A-B and C-D. The rows are the vertices 0 to 3, then
+// the edges A-B, B-A, C-D and D-C.
+struct CrossingLanes {
+    std::vector<std::int32_t> first{0, 1, 2, 3, 4, 6, 8, 10, 12};
+    std::vector<std::int32_t> excluded{0, 1, 2, 3, 6, 7, 6, 7, 4, 5, 4, 5};
+    Ticks dwell{0, 0};
+    Ticks drive{4, 4};
+    std::vector<std::int32_t> a_and_b{0, 1};
+    std::vector<std::int32_t> c_and_d{2, 3};
+    std::vector<std::int32_t> into_a_and_b{5, 4};
+    std::vector<std::int32_t> into_c_and_d{7, 6};
+
+    PeriodicBookings circle(Tick period) const { return {8, period, 0, true, {first, excluded}}; }
+    Visits one() const { return {a_and_b, dwell, drive, into_a_and_b}; }
+    Visits other() const { return {c_and_d, dwell, drive, into_c_and_d}; }
+};
+
+TEST_CASE("drives along lanes that cross take turns") {
+    const CrossingLanes lanes;
+    PeriodicBookings circle = lanes.circle(16);
+    REQUIRE(circle.add(0, lanes.one(), Ticks{0, 4}));  // drives from 0 to 4 and from 12 to 16
+    Ticks enter;
+    REQUIRE(circle.search(lanes.other(), 0, enter, no_deadline));
+    CHECK(enter == Ticks{-4, 8});  // to D from 4 to 8, to C from 8 to 12
+    CHECK(circle.add(1, lanes.other(), enter));
+    PeriodicBookings shorter = lanes.circle(15);
+    REQUIRE(shorter.add(0, lanes.one(), Ticks{0, 4}));
+    CHECK_FALSE(shorter.search(lanes.other(), 0, enter, no_deadline));
+}
+
+TEST_CASE("marks of two robots in one row are joined, and leave with their robots") {
+    const std::vector<std::int32_t> first{0, 2, 4, 6};  // row 2 is excluded by rows 0 and 1, too
+    const std::vector<std::int32_t> excluded{0, 2, 1, 2, 2, 2};
+    PeriodicBookings line(3, std::nullopt, 0, true, {first, excluded});
+    const Ticks dwell{0};
+    const Ticks drive{1};
+    const std::vector<std::int32_t> zero{0};
+    const std::vector<std::int32_t> one{1};
+    line.add(0, {zero, dwell, drive, zero}, Ticks{3}, 20);  // row 2 from 2 to 20
+    line.add(1, {one, dwell, drive, one}, Ticks{5}, 8);     // and from 4 to 8
+    std::vector<Tick> starts;
+    const auto note = [&starts](const PeriodicBookings::Gap& gap) {
+        starts.push_back(gap.start);
+        return true;
+    };
+    line.for_each_gap(2, 6, 100, note);
+    CHECK(starts == std::vector<Tick>{20});
+    line.remove(0);
+    starts.clear();
+    line.for_each_gap(2, 6, 100, note);
+    CHECK(starts == std::vector<Tick>{8});
+}
+
 TEST_CASE("what overlaps, or is no round, is refused and books nothing") {
     PeriodicBookings circle(4, 6, 0, false);
     const Trip one({0, 2});

@@ -41,7 +41,7 @@ struct Case {
         for (const VertexId stage : stages) {
             tables.push_back(roads.table(stage));
         }
-        Trip trip{home, stages, work, turn, pace, {}};
+        Trip trip{home, stages, work, turn, pace, {}, {}, {}};
         for (const auto& one : tables) {
             trip.to_stage.emplace_back(one.data(), 1);
         }
@@ -306,7 +306,7 @@ TEST_CASE("one object serves many searches") {
     const auto table = roads.table(2);
     const Vertices stage{2};
     const Ticks nothing{0};
-    const Trip trip{0, stage, nothing, nothing, pace, {{table.data(), 1}}};
+    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {{table.data(), 1}}};
     SafeIntervalSearch search({roads.graph(), classes}, {0, false});
     BookingTable bookings(4);
     for (Tick k = 0; k < 1500; ++k) {  // the table of states has to grow on the way
@@ -333,7 +333,7 @@ TEST_CASE("where somebody else comes to the end late, the search does not look a
     }
     const Vertices stage{5};
     const Ticks nothing{0};
-    const Trip trip{0, stage, nothing, nothing, pace, {{table.data(), 1}}};
+    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {{table.data(), 1}}};
     SafeIntervalSearch search({{indptr, heads}, classes}, {0, false});
     BookingTable bookings(n);
     for (Tick k = 10; k < 100; ++k) {

@@ -11,12 +11,14 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.check.faults import Fault, FaultCollector, Names
 from rightofway.check.visits import Visits
-from rightofway.model import Closure, Plan, Roadmap, Tick, VertexId
+from rightofway.model import NEVER, Closure, Plan, Roadmap, Tick, VertexId
 
 Place = tuple[int, int]
 """A vertex, twice; or the ends of an edge, the lower number first."""
@@ -25,13 +27,15 @@ Vector = tuple[Fraction, Fraction]
 
 
 def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> None:
-    """Find drives along edges that are barred for the robot's type."""
+    """Find drives along edges that are barred for the robot's type, or too near to a wall."""
     following = np.roll(visits.vertex, -1)
     for visit in np.flatnonzero(visits.barred).tolist():
         robot, tail, head = (
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
-        kind = names.scenario.robots[robot].type
+        why = f"is barred for type {names.scenario.robots[robot].type}"
+        if names.scenario.roadmap.widest:
+            why = "is nearer to a wall than the robot's radius"
         collector.add(
             Fault(
                 kind="barred",
@@ -39,7 +43,7 @@ def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> Non
                 vertices=(VertexId(tail), VertexId(head)),
                 tick=Tick(int(visits.leave[visit])),
                 message=f"{names.robot(robot)} drives from {names.vertex(tail)} to"
-                f" {names.vertex(head)}, which is barred for type {kind} (choose another way)",
+                f" {names.vertex(head)}, which {why} (choose another way)",
             )
         )
 
@@ -52,43 +56,60 @@ def judge_closures(plan: Plan, visits: Visits, names: Names, collector: FaultCol
     """
     if not plan.scenario.closures:
         return
-    tick = plan.scenario.problem.clock.tick
-    stays = list(_bookings(plan, visits))
+    tick, booked = plan.scenario.problem.clock.tick, _bookings(plan, visits)
+    reaches = [robot.radius + plan.scenario.rules.clearance for robot in plan.scenario.robots]
+    sizes = sorted(set(reaches))
+    size = np.array([sizes.index(reach) for reach in reaches])[booked.robot]
+    n = plan.scenario.roadmap.n_vertices
+    codes, kind = np.unique((booked.places @ [n, 1]) * len(sizes) + size, return_inverse=True)
     for closure in plan.scenario.closures:
         shut = _Shut(closure, plan.scenario.roadmap)
         begin = floor(closure.from_ / tick)
         end = None if closure.until is None else ceil(closure.until / tick)
-        is_shut: dict[tuple[Place, Fraction], bool] = {}
-        for robot, place, start, until in stays:
-            if (until is not None and until <= begin) or (end is not None and start >= end):
-                continue
-            reach = plan.scenario.robots[robot].radius + plan.scenario.rules.clearance
-            key = (place, reach)
-            if key not in is_shut:
-                is_shut[key] = shut.holds(place, reach)
-            if is_shut[key]:
-                moment = max(start, begin)
-                collector.add(_fault(robot, place, moment, end, names))
+        at_the_time = booked.end > begin
+        if end is not None:
+            at_the_time &= booked.start < end
+        at_once = np.flatnonzero(at_the_time.astype(bool))
+        is_shut = np.zeros(len(codes), bool)
+        present = np.unique(kind[at_once])
+        if closure.radius is None:
+            present = present[np.isin(codes[present] // len(sizes), shut.own_codes(n))]
+        for index in present.tolist():
+            place, own = divmod(int(codes[index]), len(sizes))
+            is_shut[index] = shut.holds(divmod(place, n), sizes[own])
+        for k in at_once[is_shut[kind[at_once]]].tolist():
+            one, other = booked.places[k].tolist()
+            moment = max(int(booked.start[k]), begin)
+            collector.add(_fault(int(booked.robot[k]), (one, other), moment, end, names))
 
 
-def _bookings(plan: Plan, visits: Visits) -> list[tuple[int, Place, int, int | None]]:
-    """Return robot, place, start and end of all bookings [ticks]; a last visit has no end."""
-    headway, found = plan.scenario.problem.headway, []
+class _Booked(NamedTuple):
+    """All bookings of a plan: robots, places and times [ticks]; arrays of n rows."""
+
+    robot: NDArray[np.int64]
+    places: NDArray[np.int64]
+    start: NDArray[Any]
+    end: NDArray[Any]
+
+
+def _bookings(plan: Plan, visits: Visits) -> _Booked:
+    """Return what robots book: vertices, and edges while they drive along them."""
+    headway = plan.scenario.problem.headway
     ahead = plan.scenario.rules.occupancy == "both"
-    robot, vertex = visits.robot.tolist(), visits.vertex.tolist()
-    enter, leave = visits.enter.tolist(), visits.leave.tolist()
-    drive, last, edge = visits.drive.tolist(), visits.last.tolist(), visits.edge.tolist()
-    approach = 0
-    for k, at in enumerate(vertex):
-        if visits.known[k]:
-            end = None if last[k] else leave[k] + headway
-            found.append((robot[k], (at, at), enter[k] - approach, end))
-        if not last[k] and edge[k] >= 0:
-            head = vertex[k + 1]
-            place = (min(at, head), max(at, head))
-            found.append((robot[k], place, leave[k] - drive[k], leave[k] + headway))
-        approach = drive[k] if ahead and not last[k] else 0
-    return found
+    approach = np.where(np.roll(visits.last, 1), 0, np.roll(visits.drive, 1)) if ahead else 0
+    never = max(visits.leave.max(), NEVER) + headway
+    stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
+    tails, heads = visits.vertex[drives], np.roll(visits.vertex, -1)[drives]
+    lanes = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
+    ends = np.where(visits.last, never, visits.leave + headway)
+    return _Booked(
+        robot=np.concatenate((visits.robot[stays], visits.robot[drives])),
+        places=np.concatenate((visits.vertex[stays][:, None].repeat(2, axis=1), lanes)),
+        start=np.concatenate(
+            ((visits.enter - approach)[stays], (visits.leave - visits.drive)[drives])
+        ),
+        end=np.concatenate((ends[stays], ends[drives])),
+    )
 
 
 class _Shut:
@@ -134,6 +155,10 @@ class _Shut:
         joints = {(vertex, vertex) for way in self.ways for vertex in way[1:-1]}
         lanes = (ends for way in self.ways for ends in pairwise(way))
         return joints | {(min(ends), max(ends)) for ends in lanes}
+
+    def own_codes(self, n: int) -> list[int]:
+        """Return the closure's own places as one number each, of n vertices."""
+        return [one * n + other for one, other in self._inside]
 
     def holds(self, place: Place, reach: Fraction) -> bool:
         """Return whether a robot of a radius, clearance included, may not book a place."""

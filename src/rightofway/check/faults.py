@@ -52,7 +52,7 @@ FaultKind = Literal[
 ``too close``        two robots come nearer to each other than their sizes and the clearance allow
 ``zone conflict``    two robots book one zone at the same time
 ``closed``           a robot books a vertex or an edge while that is closed
-``barred``           a robot drives along an edge that is barred for its type
+``barred``           a robot drives along an edge that is barred for its type, or into a wall
 ===================  ===============================================================================
 """
 

@@ -6,6 +6,7 @@ the plane there is no turn.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from math import atan2, ceil, degrees
 from typing import Any
@@ -17,9 +18,6 @@ from rightofway.model import Plan, Roadmap
 
 MICRO = 10**6
 """Angles are whole numbers of 1e-6 degrees."""
-
-Corner = tuple[int, int, int]
-"""Three vertices that a robot visits one after another."""
 
 
 def turns_of(
@@ -42,38 +40,54 @@ def turns_of(
     """
     rules, clock = plan.scenario.rules, plan.scenario.problem.clock
     rates = [rules.turn_rate if r.turn_rate is None else r.turn_rate for r in plan.scenario.robots]
-    angle, ticks = np.zeros(len(vertex), np.int64), np.zeros(len(vertex), object)
+    angle = np.zeros(len(vertex), np.int64)
+    if not any(rates):
+        return angle, angle
+    ticks = np.zeros(len(vertex), object)
     turns = np.array([rate is not None for rate in rates])[robot]
     is_corner = turns[1:] & (edge[:-1] >= 0) & (edge[1:] >= 0) & (robot[:-1] == robot[1:])
-    known: dict[Corner, int] = {}
-    durations: dict[tuple[int, Fraction], int] = {}
-    for visit in (np.flatnonzero(is_corner) + 1).tolist():
-        corner = (int(vertex[visit - 1]), int(vertex[visit]), int(vertex[visit + 1]))
-        if corner not in known:
-            known[corner] = _angle(plan.scenario.roadmap, corner)
-        rate = rates[robot[visit]]
-        assert rate is not None, "or it is no corner"
-        turn = (known[corner], rate)
-        if turn not in durations:
-            durations[turn] = ceil(Fraction(known[corner], MICRO) / rate / clock.tick)
-        angle[visit], ticks[visit] = known[corner], durations[turn]
+    visit = np.flatnonzero(is_corner) + 1
+    corners = edge[visit - 1] * max(plan.scenario.roadmap.n_edges, 1) + edge[visit]
+    _, first, which = np.unique(corners, return_index=True, return_inverse=True)
+    angles = list(_angles(plan.scenario.roadmap, [vertex[at - 1 : at + 2] for at in visit[first]]))
+    angle[visit] = np.array(angles, np.int64)[which.reshape(-1)]
+    of_rate = {rate: number for number, rate in enumerate(dict.fromkeys(rates))}
+    number = np.array([of_rate[rate] for rate in rates])[robot[visit]]
+    _, first, which = np.unique(
+        angle[visit] * len(of_rate) + number, return_index=True, return_inverse=True
+    )
+    durations = [
+        ceil(Fraction(int(angle[at]), MICRO) / rate / clock.tick)
+        for at in visit[first].tolist()
+        if (rate := rates[robot[at]]) is not None
+    ]
+    ticks[visit] = np.array(durations, object)[which.reshape(-1)]
     return angle, ticks
 
 
-def _angle(roadmap: Roadmap, corner: Corner) -> int:
-    """Return the angle between two straight drives, the shorter way round [1e-6 degrees]."""
-    (x, y), (at_x, at_y), (to_x, to_y) = (_place(roadmap, vertex) for vertex in corner)
-    in_x, in_y, out_x, out_y = at_x - x, at_y - y, to_x - at_x, to_y - at_y
+def _angles(roadmap: Roadmap, corners: Iterable[NDArray[np.int64]]) -> Iterator[int]:
+    """Yield the angle between the drives along three vertices, the shorter way [1e-6 degrees]."""
+    known: dict[tuple[Fraction | int, ...], int] = {}
+    for corner in corners:
+        (x, y), (at_x, at_y), (to_x, to_y) = (_place(roadmap, vertex) for vertex in corner.tolist())
+        drives = (at_x - x, at_y - y, to_x - at_x, to_y - at_y)
+        if drives not in known:
+            known[drives] = _angle(*(Fraction(way) for way in drives))
+        yield known[drives]
+
+
+def _angle(in_x: Fraction, in_y: Fraction, out_x: Fraction, out_y: Fraction) -> int:
     if in_x == in_y == 0 or out_x == out_y == 0:
         return 0
     along, across = in_x * out_x + in_y * out_y, in_x * out_y - in_y * out_x
     largest = max(abs(along), abs(across))
-    return round(degrees(atan2(abs(across) / largest, along / largest)) * MICRO)
+    sine, cosine = Fraction(abs(across), largest), Fraction(along, largest)
+    return round(degrees(atan2(sine, cosine)) * MICRO)
 
 
-def _place(roadmap: Roadmap, vertex: int) -> tuple[Fraction, Fraction]:
+def _place(roadmap: Roadmap, vertex: int) -> tuple[Fraction | int, Fraction | int]:
     if roadmap.grid is not None:
         row, column = roadmap.grid.cell(vertex)
-        return Fraction(column), Fraction(row)
+        return column, row  # whole cells: fractions are slow to compare
     x, y = roadmap.positions[vertex].tolist()
     return Fraction(str(x)), Fraction(str(y))

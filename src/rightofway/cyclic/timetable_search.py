@@ -166,6 +166,7 @@ def _by_groups(
 
     excluded = [excluded_by(group) for group in groups]
     uses = Counter(chain.from_iterable(excluded))
+    taken = set(uses)
     found: dict[int, GroupResult] = {}
     left = len(fleet)
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
@@ -173,19 +174,21 @@ def _by_groups(
         if report is not None:
             report(f"{len(found)} of {len(groups)} groups done, next {len(group)} robots")
         uses.subtract(excluded[index])
-        taken = frozenset(row for row, count in uses.items() if count)
+        taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
         problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
         left -= len(group)
         found[index] = _choose(problem, rounds, params)
-        uses.update(excluded_by(found[index].context.routes))
+        after = excluded_by(found[index].context.routes)
+        uses.update(after)
+        taken |= after
     return [found[index] for index in range(len(groups))]
 
 
 def _part(
     fleet: CyclicProblem,
     group: Sequence[CyclicRoute],
-    taken: frozenset[int],
+    taken: set[int],
     draw: random.Random,
     params: ChoiceParams,
 ) -> CyclicProblem:
@@ -207,14 +210,14 @@ def _part(
         context=GroupContext(scenario=scenario, routes=tuple(group)),
         ways=tuple(ways),
         round_trips=trips,
-        forbidden=taken,
+        forbidden=frozenset(taken),
         weights=tuple(fleet.weights[robot] for robot in robots),
         draw=draw,
     )
 
 
 def _round_trip(
-    scenario: Scenario, robot: int, distances: Distances, taken: frozenset[int]
+    scenario: Scenario, robot: int, distances: Distances, taken: set[int]
 ) -> RoundTrip | None:
     """Return a round trip of a robot that keeps clear of rows; for points these are vertices.
 

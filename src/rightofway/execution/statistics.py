@@ -302,9 +302,16 @@ class Outcome:
 
     def typical(self) -> int:
         """Return the median run, ordered by the number of robots that complete, then flowtime."""
+        return int(self._from_best()[(self.runs - 1) // 2])
+
+    def worst(self) -> int:
+        """Return the last run in the same order."""
+        return int(self._from_best()[-1])
+
+    def _from_best(self) -> NDArray[np.intp]:
         never = (self.completion < 0).sum(axis=1)
         flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
-        return int(np.lexsort((flowtime, never))[(self.runs - 1) // 2])
+        return np.lexsort((flowtime, never))
 
     def as_dict(self) -> dict[str, Any]:
         """Return all results except single runs, as plain data for JSON; times in ticks."""

@@ -229,6 +229,10 @@ def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
         yield "speeds and the size of cells are left out; .scen robots drive one cell a tick"
     if any(robot.stops[0].work for robot in robots):
         yield "work times are left out"
+    if any(robot.radius for robot in robots):
+        yield "radii are left out; .scen robots are points"
+    if scenario.closures:
+        yield "closures are left out"
     if scenario.roadmap.frame != roadmap_of_grid(["."], cell_size=grid.cell_size).frame:
         yield "y and origin of the map are left out"
     if any((robot.ends or scenario.rules.ends) == "home" for robot in robots):

@@ -4,14 +4,14 @@ Where all edges are equally long and few lead into each vertex, a breadth-first 
 edges between the places of 256 legs at once: each vertex keeps one bit for each leg, set as soon as
 the vertex is within reach of the first place of that leg, and takes over its neighbours' bits in
 every step. On other roadmaps Dijkstra's algorithm runs once for each pace and place; for a robot
-that turns in some time it runs over edges instead of vertices, from each place of the trip with the
+that turns in some time A* runs over edges instead of vertices, from each place of the trip with the
 least ticks of every edge into that place.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from heapq import heapify, heappop, heappush
 from itertools import chain, count, groupby, pairwise
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import Blockage, NoPlanExists
-from rightofway.model import Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
+from rightofway.model import NEVER, Itinerary, Roadmap, Scenario, Tick, VertexId, least_dwell
 from rightofway.model.turning import Turning
 
 Leg = tuple[VertexId, VertexId]
@@ -30,9 +30,6 @@ Pace = tuple[Tick, ...]
 """Ticks of each length class of edges; robots of one speed have one pace."""
 
 Indices = NDArray[np.int64]
-
-NO_EDGE = -1
-"""Stands for the edge into the home before the first drive."""
 
 WORD = 64
 """Bits in a word."""
@@ -87,17 +84,17 @@ def alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     ]
     if blockages:
         raise NoPlanExists(blockages)
-    return tuple(
-        Tick(
-            (
-                sum(ways[itinerary.edge_ticks][leg] for leg in _legs(itinerary))
-                if itinerary.turning is None
-                else _drives_and_turns(roadmap, itinerary, itinerary.turning)
-            )
-            + least_dwell_of_trip(itinerary)
-        )
-        for itinerary in itineraries
-    )
+    turns: dict[tuple[Pace, Turning], _Turns] = {}
+
+    def moving(itinerary: Itinerary) -> int:
+        pace, turning = itinerary.edge_ticks, itinerary.turning
+        if turning is None:
+            return sum(ways[pace][leg] for leg in _legs(itinerary))
+        if (pace, turning) not in turns:
+            turns[pace, turning] = _Turns(roadmap, pace, turning)
+        return _drives_and_turns(itinerary, turns[pace, turning])
+
+    return tuple(Tick(moving(one) + least_dwell_of_trip(one)) for one in itineraries)
 
 
 def _legs(itinerary: Itinerary) -> Iterable[Leg]:
@@ -162,32 +159,74 @@ def _dijkstra(
     return {target: settled[target] for target in targets if target in settled}
 
 
-def _drives_and_turns(roadmap: Roadmap, itinerary: Itinerary, turning: Turning) -> int:
-    """Return the least ticks of all drives of a trip and the turns between them."""
-    into: defaultdict[int, list[int]] = defaultdict(list)
-    for edge, head in enumerate(roadmap.heads.tolist()):
-        into[head].append(edge)
-    reached = {NO_EDGE: 0}  # least ticks by the edge driven in
+class _Turns:
+    """Edges that follow each other, with turn and drive [ticks]; as lists, for speed."""
+
+    def __init__(self, roadmap: Roadmap, pace: Pace, turning: Turning) -> None:
+        self.heads: list[int] = roadmap.heads.tolist()
+        self.longest = int(turning.ticks.max(initial=0))
+        self._first: list[int] = roadmap.indptr.tolist()
+        self._drive = [pace[each] for each in roadmap.length_class.tolist()]
+        self._offset: list[int] = turning.angles.offset.tolist()
+        self._turn: list[int] = turning.ticks[turning.angles.kind].tolist()
+        self._cells = None
+        if roadmap.grid is not None:
+            self._cells = [roadmap.grid.cell(vertex) for vertex in range(roadmap.n_vertices)]
+            self._quickest = min((ticks for ticks in pace if ticks > 0), default=0)
+
+    def first(self, vertex: int) -> Iterator[tuple[int, int]]:
+        """Yield each edge out of a vertex and the ticks of its drive."""
+        for edge in range(self._first[vertex], self._first[vertex + 1]):
+            if self._drive[edge] > 0:  # it is not barred
+                yield edge, self._drive[edge]
+
+    def after(self, edge: int) -> Iterator[tuple[int, int]]:
+        """Yield each edge that follows an edge, and the ticks of the turn and the drive."""
+        for following, drive in self.first(self.heads[edge]):
+            yield following, self._turn[self._offset[edge] + following] + drive
+
+    def least(self, edge: int, target: int) -> int:
+        """Return a lower bound of the ticks from the end of an edge to a vertex."""
+        if self._cells is None:
+            return 0
+        (row, column), (to_row, to_column) = self._cells[self.heads[edge]], self._cells[target]
+        return self._quickest * (abs(row - to_row) + abs(column - to_column))
+
+
+def _drives_and_turns(itinerary: Itinerary, turns: _Turns) -> int:
+    """Return the least ticks of all drives of a trip and the turns between them.
+
+    A* from leg to leg. It ends when each heading at the end of the leg is reached, or when any
+    other heading would take longer than to turn there.
+    """
+    reached: dict[int, int] | None = None  # least ticks by the edge driven in; None: at home
     for place, target in _legs(itinerary):
-        settled: dict[int, int] = {}
-        missing = set(into[target])
-        heap = [(ticks, edge) for edge, ticks in reached.items()]
+        if reached is None:
+            begin = list(turns.first(place))
+        else:
+            begin = [
+                (after, ticks + more)
+                for edge, ticks in reached.items()
+                for after, more in turns.after(edge)
+            ]
+        heap = [(ticks + turns.least(edge, target), ticks, edge) for edge, ticks in begin]
         heapify(heap)
-        while heap and missing:
-            ticks, edge = heappop(heap)
+        settled: set[int] = set()
+        reached, limit = {}, NEVER
+        while heap and heap[0][0] <= limit:
+            _, ticks, edge = heappop(heap)
             if edge in settled:
                 continue
-            settled[edge] = ticks
-            missing.discard(edge)
-            here = place if edge == NO_EDGE else int(roadmap.heads[edge])
-            if here == target:
+            settled.add(edge)
+            if turns.heads[edge] == target:
+                reached[edge] = ticks
+                limit = min(limit, Tick(ticks + turns.longest))
                 continue
-            for after in range(int(roadmap.indptr[here]), int(roadmap.indptr[here + 1])):
-                drive = itinerary.edge_ticks[roadmap.length_class[after]]
-                if after not in settled and drive > 0:
-                    heappush(heap, (ticks + turning.of(edge, after) + drive, after))
-        reached = {edge: settled[edge] for edge in into[target] if edge in settled}
-    return min(reached.values())
+            for after, more in turns.after(edge):
+                if after not in settled:
+                    ahead = ticks + more
+                    heappush(heap, (ahead + turns.least(after, target), ahead, after))
+    return min(reached.values()) if reached else 0
 
 
 def _by_edges(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:

@@ -10,7 +10,6 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import dist
 
 from rightofway.errors import listed
 from rightofway.metrics.connectivity import (
@@ -24,17 +23,9 @@ from rightofway.metrics.connectivity import (
     strong_parts,
     ways_of,
 )
+from rightofway.metrics.nearness import nearness, rounded_distance, smallest_cell
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, trip_of
 from rightofway.model import Roadmap, decimal
-from rightofway.model.geometry import squared_distance
-from rightofway.model.resources import ClosePairs, close_pairs
-from rightofway.model.spacing import along_one_lane
-
-TOUCHING = Fraction(1, 10**6)
-"""Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
-
-ROUNDED = 10**6
-"""Distances in sentences are rounded to this part of a length unit."""
 
 MOST_PLACES = 200
 """The most places that are compared; of a longer list, this number spread over it."""
@@ -72,7 +63,7 @@ def inspect(site: Site) -> Inspection:
     findings = [
         *_impossible_trips(site, ways, parts),
         *_outside(site, ways, parts),
-        *_near(site),
+        *nearness(site),
         *_on_the_way(site, ways, main, apart, load=load, total=total),
         *_corridors(site, ways, main, load, total),
         *_bottlenecks(site, ways, load, total, named=len(places) > 1),
@@ -147,7 +138,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
         ("unreachable", behind & rest, "{} can be left and not reached", "a lane to it"),
         ("cut off", rest - ahead - behind, "No lane joins {} to the largest part", "lanes"),
     )
-    has_cells = _smallest_cell(site.roadmap) is not None
+    has_cells = smallest_cell(site.roadmap) is not None
     for kind, found, fact, remedy in kinds:
         pieces, seen = list[list[int]](), set[int]()
         beside = {vertex: ways.beside(vertex) & found for vertex in sorted(found)}
@@ -176,99 +167,6 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
             )
 
 
-def _near(site: Site) -> Iterator[Finding]:
-    """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
-    roadmap, room = site.roadmap, site.room
-    length = site.units.written_length
-    need = ""
-    if room:
-        sizes = " and ".join(length(each) for each in dict.fromkeys(site.radii))
-        with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
-        need = f"robots of radius {sizes}{with_room} need {length(room)}"
-    size = _smallest_cell(roadmap)
-    if size is not None:
-        cells = "cells" if roadmap.sides is None else "the smallest cells"
-        if size < room:
-            yield Finding(
-                kind="too near",
-                severity="warning",
-                fact=f"The middles of {cells} are {length(size)} apart; {need}",
-                remedy="take larger cells, or smaller robots",
-            )
-        return
-    pairs = close_pairs(roadmap, room or TOUCHING)
-    yield from _near_vertices(site, pairs, need)
-    for vertex, (tail, head) in pairs.beside:
-        if along_one_lane(site.names((vertex, tail, head))):
-            continue
-        lane = f"the lane {roadmap.name(tail)} to {roadmap.name(head)}"
-        beside = (
-            f"{site.name(vertex)} is too near to {lane}; {need}"
-            if need
-            else f"{site.name(vertex)} lies on {lane} and is no end of it"
-        )
-        yield Finding(
-            kind="too near",
-            severity="warning",
-            fact=beside,
-            remedy="a robot on one blocks the other; move one" if need else "split the lane there",
-            vertices=site.names((vertex, tail, head)),
-        )
-    for lanes in pairs.crossings:
-        one, other = (" to ".join(site.names(lane)) for lane in lanes)
-        yield Finding(
-            kind="crossing",
-            severity="note" if need else "warning",
-            fact=f"The lanes {one} and {other} cross without a vertex",
-            remedy="robots wait for each other there; a vertex lets them wait nearer"
-            if need
-            else "draw a vertex there, or give robots a radius: without one they do not give way",
-            vertices=site.names(vertex for lane in lanes for vertex in lane),
-        )
-
-
-def _smallest_cell(roadmap: Roadmap) -> Fraction | None:
-    """Return the side of the smallest cells, None where vertices are no cells."""
-    if roadmap.grid is not None:
-        return roadmap.grid.cell_size
-    return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
-
-
-def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:
-    roadmap = site.roadmap
-    for one, other in pairs.vertices:
-        if along_one_lane(site.names((one, other))):
-            continue
-        apart = site.units.written_length(_distance(roadmap, one, other))
-        both_homes = _homes_clash(site, one, other)
-        is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
-        are_places = one in site.places and other in site.places
-        if need:
-            fact = f"{site.name(one)} and {site.name(other)} are {apart} apart; {need}"
-        else:
-            fact = f"{site.name(one)} and {site.name(other)} are the same point"
-        yield Finding(
-            kind="too near",
-            severity="error"
-            if both_homes
-            else "note"
-            if is_joined and not are_places
-            else "warning",
-            fact=fact,
-            remedy="move one, or use smaller robots" if need else "make them one vertex",
-            vertices=site.names((one, other)),
-        )
-
-
-def _homes_clash(site: Site, one: int, other: int) -> bool:
-    """Whether robots live at two vertices that are nearer than just these robots need."""
-    radius = {int(robot.home): robot.radius for robot in site.robots}
-    if not {one, other} <= radius.keys() or not radius[one] + radius[other]:
-        return False
-    at = site.roadmap.point(one), site.roadmap.point(other)
-    return squared_distance(*at) < (radius[one] + radius[other] + site.rules.clearance) ** 2
-
-
 def _on_the_way(
     site: Site,
     ways: Ways,
@@ -292,7 +190,7 @@ def _on_the_way(
         if spot is None:
             return "let no other robot need the way while one stands there, or add a way round"
         taken.add(spot)
-        away = site.units.written_length(_distance(site.roadmap, vertex, spot))
+        away = site.units.written_length(rounded_distance(site.roadmap, vertex, spot))
         place = f"{site.roadmap.name(spot)}, {away} away"
         return f"park at {place}, which no route needs, or add a way round"
 
@@ -326,12 +224,6 @@ def _on_the_way(
 def _is_busy(load: Mapping[int, float], total: float, vertex: int) -> bool:
     """Whether many shortest routes pass a vertex, two at least."""
     return load.get(vertex, 0) >= max(float(BUSY) * total, 2)
-
-
-def _distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
-    """Return the distance of two vertices, rounded for people [length unit]."""
-    away = dist(roadmap.positions[one].tolist(), roadmap.positions[other].tolist())
-    return Fraction(round(away * ROUNDED), ROUNDED)
 
 
 def _corridors(

@@ -2,20 +2,16 @@
 
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.clustering import Floor, Obstacle, cluster, node_length, steps_per_unit
+from rightofway.model.edges import Edge, roadmap_of_edges
 from rightofway.model.geometry import Frame, Point, rounding_step, squared_distance, straight_length
+from rightofway.model.grid import roadmap_of_grid
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.plan import Decision, Improvement, Plan, PlannerRun, Reroute, RobotPlan, Wait
 from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
 from rightofway.model.quantities import Quantities, Units, decimal
 from rightofway.model.resources import Resources
-from rightofway.model.roadmap import (
-    Edge,
-    Grid,
-    Roadmap,
-    roadmap_of_edges,
-    roadmap_of_grid,
-)
-from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn
+from rightofway.model.roadmap import Grid, Roadmap
+from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (
     Lap,
     Route,
@@ -81,6 +77,7 @@ __all__ = [
     "Units",
     "VertexId",
     "Wait",
+    "Walls",
     "checked_time_limit",
     "choose_clock",
     "cluster",

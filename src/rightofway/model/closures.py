@@ -6,9 +6,10 @@ A closure is a booking of nobody. It takes *rows*, as robots of each size class 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -24,6 +25,9 @@ from rightofway.model.values import coerced, number, optional, vertex
 
 Lane = tuple[VertexId, VertexId]
 """The two ends of a lane, whichever way it is driven."""
+
+Segment = tuple[Point, Point]
+"""Both ends of a straight line; of a point, the point twice."""
 
 LEEWAY = 1e-9
 """Distances in floating point leave out only what is farther off by this part of the roadmap."""
@@ -221,7 +225,7 @@ def closures_of(
     if not closures:
         return None
     sizes, n_rows = sorted(set(radii)), roadmap.n_vertices + roadmap.n_edges
-    found = list[_Closed]()
+    found, plane = list[_Closed](), _Plane(roadmap)
     for closure in closures:
         start = Tick(closure.from_ // clock.tick)
         end = NEVER if closure.until is None else clock.ticks(closure.until)
@@ -229,7 +233,7 @@ def closures_of(
             reach = None if closure.radius is None else radius + closure.radius + clearance
             found += [
                 _Closed(size * n_rows + resource, start, end)
-                for resource in _closed_resources(roadmap, closure, reach)
+                for resource in _closed_resources(plane, closure, reach)
             ]
     merged = list[_Closed]()
     for one in sorted(found):
@@ -247,45 +251,68 @@ def closures_of(
     )
 
 
-def _closed_resources(roadmap: Roadmap, closure: Closure, reach: Fraction | None) -> set[int]:
+class _Plane:
+    """Where the vertices and edges of a roadmap lie, computed when a closure has a radius."""
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self.roadmap = roadmap
+
+    @cached_property
+    def exact(self) -> list[Point]:
+        """The exact position of each vertex."""
+        return exact_positions(self.roadmap)
+
+    @cached_property
+    def drawn(self) -> NDArray[np.float64]:
+        """The same in floating point; shape (V, 2)."""
+        grid = self.roadmap.grid
+        if grid is None:
+            return self.roadmap.positions
+        rows, columns = np.divmod(grid.cells, grid.columns)
+        return np.column_stack((columns, rows)) * float(grid.cell_size)
+
+    @cached_property
+    def tails(self) -> NDArray[np.int64]:
+        """The tail of each edge; shape (E,)."""
+        return np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
+
+    def near(
+        self, segments: Sequence[Segment], reach: Fraction, kept: Collection[int]
+    ) -> Iterator[int]:
+        """Yield vertices and edges nearer than a distance to segments, but for some vertices.
+
+        Edges are numbered after the vertices; those from and to the vertices kept are left out.
+        """
+        at, heads = self.exact, self.roadmap.heads
+        for place in _boxed(self.drawn, self.drawn, segments, reach):
+            if place not in kept and _nearer((at[place], at[place]), segments, reach):
+                yield place
+        for edge in _boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
+            tail, head = int(self.tails[edge]), int(heads[edge])
+            if not {tail, head} & set(kept) and _nearer((at[tail], at[head]), segments, reach):
+                yield self.roadmap.n_vertices + edge
+
+
+def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -> set[int]:
     """Return the vertices and edges that are closed for robots; edges are numbered after vertices.
 
     ``reach`` is the distance below which what is near is closed, too; None for nothing.
     """
+    roadmap = plane.roadmap
     ways = [] if closure.edge is None else ways_along(roadmap, closure.edge)
-    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-    edges = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
     own = {ends for way in ways for pair in pairwise(way) for ends in (pair, pair[::-1])}
-    closed = {roadmap.n_vertices + edge for edge, ends in enumerate(edges) if ends in own}
+    edges = (roadmap.edge(*ends) for ends in own)
+    closed: set[int] = {roadmap.n_vertices + edge for edge in edges if edge is not None}
     closed.update(place for way in ways for place in way[1:-1])
     if closure.at is not None:
         closed.add(closure.at)
-    if not reach:
-        return closed
-    kept, at = set(closure.edge or ()), exact_positions(roadmap)
-    segments = [(at[one], at[other]) for way in ways for one, other in pairwise(way)]
-    if closure.at is not None:
-        segments.append((at[closure.at], at[closure.at]))
-    drawn = _drawn(roadmap)
-    for place in _boxed(drawn, drawn, segments, reach):
-        if place not in kept and _nearer((at[place], at[place]), segments, reach):
-            closed.add(place)
-    for edge in _boxed(drawn[tails], drawn[roadmap.heads], segments, reach):
-        tail, head = edges[edge]
-        if not kept & {tail, head} and _nearer((at[tail], at[head]), segments, reach):
-            closed.add(roadmap.n_vertices + edge)
+    if reach:
+        at = plane.exact
+        segments = [(at[one], at[other]) for way in ways for one, other in pairwise(way)]
+        if closure.at is not None:
+            segments.append((at[closure.at], at[closure.at]))
+        closed.update(plane.near(segments, reach, closure.edge or ()))
     return closed
-
-
-Segment = tuple[Point, Point]
-
-
-def _drawn(roadmap: Roadmap) -> NDArray[np.float64]:
-    """Return the positions in floating point; shape (V, 2)."""
-    if roadmap.grid is None:
-        return roadmap.positions
-    rows, columns = np.divmod(roadmap.grid.cells, roadmap.grid.columns)
-    return np.column_stack((columns, rows)) * float(roadmap.grid.cell_size)
 
 
 def _boxed(

@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 from rightofway.errors import InputError, listed, nearest, shown
 from rightofway.model.drawing import Drawing, Picture
+from rightofway.model.edges import Edge, roadmap_of_edges
 from rightofway.model.geometry import Point
-from rightofway.model.roadmap import Edge, Roadmap, roadmap_of_edges
+from rightofway.model.roadmap import Roadmap
 from rightofway.model.spacing import SplitLanes, split_lanes
 from rightofway.model.zones import NamedZone
 

@@ -15,6 +15,9 @@ from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import Turning, turnings_of
 from rightofway.model.units import Clock, Tick, VertexId, choose_clock
 
+LARGEST_SURCHARGE = 2**27
+"""Routes are chosen as if no edge had a larger surcharge [ticks]."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stage:
@@ -61,11 +64,14 @@ class Itinerary:
 
     @property
     def weights(self) -> tuple[Tick, ...]:
-        """Ticks and surcharge of an edge of each length class; -1 where the robot is barred."""
+        """Ticks and surcharge of an edge of each length class; -1 where the robot is barred.
+
+        A surcharge counts up to `LARGEST_SURCHARGE`, so that weights of paths fit 32 bits.
+        """
         if not self.surcharges:
             return self.edge_ticks
         return tuple(
-            Tick(ticks + more) if ticks > 0 else ticks
+            Tick(ticks + min(more, LARGEST_SURCHARGE)) if ticks > 0 else ticks
             for ticks, more in zip(self.edge_ticks, self.surcharges, strict=True)
         )
 
@@ -239,7 +245,7 @@ def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
 
 def _durations(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
     for length_class, duration in enumerate(roadmap.durations(robot.speed)):
-        if not roadmap.is_barred(length_class, robot.type):
+        if not roadmap.is_barred(length_class, robot.type, robot.radius):
             yield duration
     yield turning_time(roadmap, robot, rules)
     yield from (stop.work for stop in robot.stops)
@@ -256,7 +262,9 @@ def _itinerary(
         home=robot.home,
         stages=tuple(lap * (robot.laps or rules.laps)),
         edge_ticks=tuple(
-            Tick(-1) if roadmap.is_barred(length_class, robot.type) else clock.ticks(duration)
+            Tick(-1)
+            if roadmap.is_barred(length_class, robot.type, robot.radius)
+            else clock.ticks(duration)
             for length_class, duration in enumerate(roadmap.durations(robot.speed))
         ),
         surcharges=tuple(map(clock.ticks, roadmap.surcharges)),

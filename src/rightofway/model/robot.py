@@ -30,6 +30,10 @@ Occupancy = Literal["one", "both"]
 """What a moving robot books: the vertex it leaves (``one``), or the one it drives to as well."""
 
 
+Walls = Literal["free", "strict"]
+"""Whether robots wider than a cell keep out of the walls of a grid."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stop:
     """A place to work at.
@@ -151,6 +155,9 @@ class Rules:
     turn_rate
         How fast robots turn on the spot [degrees per time unit], positive. None: a change of
         heading takes no time.
+    walls
+        ``strict``: on a grid, robots do not drive where they reach into a blocked cell or over the
+        border. ``free``: robots with a radius above half a cell may.
 
     Raises
     ------
@@ -166,6 +173,7 @@ class Rules:
     rotations: bool = True
     clearance: Fraction = Fraction(0)
     turn_rate: Fraction | None = None
+    walls: Walls = "free"
 
     def __post_init__(self) -> None:
         coerced(
@@ -179,6 +187,7 @@ class Rules:
             rotations=truth,
             clearance=number,
             turn_rate=optional(number),
+            walls=word_of(Walls),
         )
 
     @property

@@ -15,6 +15,7 @@ from rightofway.model.resources import too_short_edges
 from rightofway.model.roadmap import Roadmap
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock, VertexId
+from rightofway.model.walls import clear_of_walls, reaches_walls
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +59,9 @@ class Scenario:
             object.__setattr__(self, "robots", tuple(self.robots))
             object.__setattr__(self, "closures", tuple(self.closures))
             object.__setattr__(self, "rules", _resolved(self))
+            if self.rules.walls == "strict" and self.roadmap.grid is not None:
+                radii = [robot.radius for robot in self.robots]
+                object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
             for index, closure in enumerate(self.closures):
                 found = closure_faults(closure, self.roadmap)
@@ -148,6 +152,9 @@ def _turn_faults(turn: Turn | None, place: str, roadmap: Roadmap) -> Iterator[In
 def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     """Yield what does not fit to robots that have a size, or to a fleet in which none has."""
     rules = scenario.rules
+    if rules.walls == "strict" and scenario.roadmap.grid is None:
+        message = "'strict' needs a grid or a floor in cells of one size (take it out)"
+        yield InputFault("rules.walls", message)
     if rules.clearance < 0:
         yield InputFault("rules.clearance", f"{rules.clearance} is negative (give 0 or more)")
     if scenario.roadmap.zones and rules.occupancy == "one":
@@ -241,3 +248,10 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
             message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
             yield InputFault(place, f"{message} (give the robot another place, or another type)")
+    if roadmap.widest:
+        known = [(place, vertex) for place, vertex in places if 0 <= vertex < n_vertices]
+        reaches = reaches_walls(roadmap, robot.radius) if known else ()
+        for place, vertex in known:
+            if reaches[vertex]:
+                message = f"{roadmap.name(vertex)} is too near to a wall for a radius of"
+                yield InputFault(place, f"{message} {decimal(robot.radius)} (move it)")

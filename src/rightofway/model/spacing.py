@@ -11,13 +11,13 @@ from math import ceil
 from typing import NamedTuple
 
 from rightofway.errors import InputError
+from rightofway.model.edges import Edge
 from rightofway.model.geometry import (
     COARSE,
     Point,
     squared_distance,
     straight_length,
 )
-from rightofway.model.roadmap import Edge
 
 PIECE = re.compile("(.+)/[1-9][0-9]*")
 """The name of a vertex between two pieces of a lane."""

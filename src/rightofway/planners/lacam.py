@@ -62,7 +62,8 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
             return found
     if scenario.problem.resources is not None:
         task.report("no end by instants: planning the order of single moves")
-        return plan_by_moves(task, _search(task))
+        search = FleetSearch(planning_problem(scenario), seed=task.seed, alone=task.alone)
+        return plan_by_moves(task, search)
     if not scenario.problem.is_open:
         _refuse_or_give_up(task)
     task.report("no end by instants: planning the order of moves without clocks")
@@ -129,17 +130,8 @@ def plan_by_instants(
         raise
     if tracks is None:
         return None
-    if scenario.problem.resources is not None:
-        search = _search(task)
-        search.start(tracks)
-        search.retime()
-        tracks = list(search.tracks())
     task.has_plan()
     return Draft(tracks=tuple(tracks), status="instant by instant")
-
-
-def _search(task: Task) -> FleetSearch:
-    return FleetSearch(planning_problem(task.scenario), seed=task.seed, alone=task.alone)
 
 
 def timetable_of(scenario: Scenario, steps: NDArray[np.int32]) -> list[Track]:

@@ -47,6 +47,9 @@ BETWEEN_REPORTS = 0.5
 RETIMING = 0.9e-6
 """The time that the last step takes for each visit of the plan, `FleetSearch.retime` [s]."""
 
+RETIMING_AMONG_CLOSURES = 15e-6
+"""The same with closures, where a precedence graph does it [s]."""
+
 UNLIMITED = 2**62
 
 
@@ -75,7 +78,9 @@ def improved(task: Task, search: FleetSearch, *, first: Draft | None = None) -> 
     elif problem.resources is None:
         found = (first, _together(task), plan_in_turn(task, search, "shortest"))
     else:
-        found = (first, _quickly_together(task), plan_in_turn(task, search, "shortest"))
+        together = _quickly_together(task)
+        has_plan = first is not None or together is not None
+        found = (first, together, plan_in_turn(task, search, "shortest", has_plan=has_plan))
     plans = [plan for plan in found if plan is not None]
     if not plans and (problem.resources is not None or not problem.is_open):
         plans = [plan_fleet(task)]
@@ -121,7 +126,9 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     search.start(spaced)
-    deadline = task.deadline.earlier(RETIMING * sum(map(len, spaced)))
+    is_open = task.scenario.problem.closures is None
+    retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
+    deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
     bound, before = int(search.alone().sum()), search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
@@ -170,7 +177,8 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     LNS replaces tracks, not waits. The search cannot take all of these tracks back: it has every
     visit between two edges of a zone in the zone.
     """
-    if task.scenario.problem.closures is None:
+    problem = task.scenario.problem
+    if problem.closures is None:
         search.retime()
         return search.tracks()
     graph = graph_of(task.scenario, search.tracks(), headway=planning_headway(task.scenario))

@@ -369,10 +369,10 @@ class _Floor:
         for move, state in self.successors(timed.state):
             for enter, leave_by in self._enters(timed, move):
                 robot, all_served = move.robot, state.stages[move.robot]
-                before = timed.state.stages[robot]
-                least = before if leave_by < NEVER else all_served
+                before = timed.state.stages  # others that have passed a stop have not served it
+                least = before[robot] if leave_by < NEVER else all_served
                 for served in range(least, all_served + 1):
-                    stages = (*state.stages[:robot], served, *state.stages[robot + 1 :])
+                    stages = (*before[:robot], served, *before[robot + 1 :])
                     after = _State(state.places, stages)
                     yield self._moved(timed, move, after, enter, leave_by)
 

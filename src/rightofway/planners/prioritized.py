@@ -39,8 +39,9 @@ Fleets that find a plan at their own speeds need fewer than two searches per rob
 pace is quicker where more are needed, and finds a plan for more fleets.
 """
 
-SEARCHES_WITH_SIZES, SHARE_WITH_SIZES = 30, 0.3
-"""The same for robots with a size or among closures, and the part of the time left for that."""
+SEARCHES_WITH_SIZES, SHARE_WITH_SIZES, SHARE_WITH_PLAN = 30, 0.7, 0.3
+"""The same for robots with a size or among closures, and the parts of the time left for that:
+without a plan, and with one."""
 
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
@@ -67,7 +68,9 @@ def fleet_search(task: Task) -> FleetSearch:
     return search
 
 
-def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
+def plan_in_turn(
+    task: Task, search: FleetSearch, order: str, *, has_plan: bool = False
+) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
     None if no plan was found, or no time is left; that proves nothing.
@@ -77,7 +80,7 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     turns = _in_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
     if problem.resources is not None or problem.closures is not None:
-        return _patiently(task, search, turns)
+        return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
@@ -93,13 +96,13 @@ def plan_in_turn(task: Task, search: FleetSearch, order: str) -> Draft | None:
     return min(there, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
 
 
-def _patiently(task: Task, search: FleetSearch, turns: Sequence[int]) -> Draft | None:
+def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
     """Plan robots one after another at their own speeds only.
 
     One pace gains nothing for robots with a size, which book ahead; and closures are at times.
     """
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _part(task.deadline, SHARE_WITH_SIZES)
+    limit = _part(task.deadline, share)
     found = search.prioritize(turns, searches=searches, time_limit=limit)
     return _at_own_speeds(task, search) if found else None
 
@@ -110,7 +113,9 @@ def _part(deadline: Deadline, share: float) -> float | None:
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.tracks()
-    if task.scenario.problem.closures is not None:  # a robot may have waited for a kept home
+    problem = task.scenario.problem
+    is_exact = problem.resources is None or problem.resources.is_exact
+    if problem.closures is not None and is_exact:  # a robot may have waited for a kept home
         headway = planning_headway(task.scenario)
         tracks = tuple(graph_of(task.scenario, tracks, headway=headway).tracks())
     task.has_plan()

@@ -27,6 +27,9 @@ from rightofway.errors import GaveUp
 from rightofway.model import Lap, Tick, visits_of_laps
 from rightofway.precedence.graph import BookedRows
 
+MOST_ANSWERS = 1 << 21
+"""Ends of visits that are looked up at once where robots have a size; bounds the memory."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicSchedule:
@@ -259,31 +262,56 @@ class TimedEventGraph:
         places = np.repeat(np.arange(len(found)), ends - begins) * n + rank[visit[order]]
         # Each start asks all rows that exclude it, and there each other robot.
         first, excluded = rows.first, rows.excluded
-        asks, at = _ranges(first[row], first[row + 1])
-        again, of = _ranges(
-            np.searchsorted(of_row, excluded[at]), np.searchsorted(of_row, excluded[at], "right")
-        )
-        asks = asks[again]
-        is_other = found[of] % n_robots != self.robot[visit[asks]]
-        asks, of = asks[is_other], of[is_other]
-        before = np.searchsorted(places, of * n + rank[visit[asks]]) - 1
-        is_earlier_round = before < begins[of]
-        ended = visit[order][np.where(is_earlier_round, ends[of] - 1, before)]
-        rounds = turn[visit[asks]] - turn[ended] - is_earlier_round
-        tail, head = self.after[ended], start[asks]
-        height = later[asks] - rounds - self.wraps[ended]
-        n_visits = np.diff(self.first)[self.robot[ended]]
-        when = tail - self.first[self.robot[ended]] - height * n_visits
-        in_order = np.lexsort((when, self.robot[ended], head))
-        pair = head[in_order] * np.int64(n_robots) + self.robot[ended[in_order]]
-        kept = in_order[np.append(pair[1:] != pair[:-1], np.ones(min(len(pair), 1), np.bool_))]
+        robots_at = np.searchsorted(of_row, [excluded, excluded + 1])
+        n_asked = np.append(0, np.cumsum(robots_at[1] - robots_at[0]))
+        before = np.empty(n, np.int64)
+        before[self.after] = np.arange(n)
+        by_start = np.column_stack((np.arange(n), n + before)).ravel()
+        n_answers = np.cumsum((n_asked[first[row + 1]] - n_asked[first[row]])[by_start])[1::2]
+        parts = []
+        for some in np.split(by_start, 2 * _parts(n_answers, MOST_ANSWERS)):
+            of_asked, at = _ranges(first[row[some]], first[row[some] + 1])
+            again, of = _ranges(robots_at[0][at], robots_at[1][at])
+            asks = some[of_asked[again]]
+            is_other = found[of] % n_robots != self.robot[visit[asks]]
+            asks, of = asks[is_other], of[is_other]
+            place = np.searchsorted(places, of * n + rank[visit[asks]]) - 1
+            is_earlier_round = place < begins[of]
+            ended = visit[order][np.where(is_earlier_round, ends[of] - 1, place)]
+            rounds = turn[visit[asks]] - turn[ended] - is_earlier_round
+            height = later[asks] - rounds - self.wraps[ended]
+            parts.append(self._latest_ends(start[asks], ended, height))
+        head, ended, height = (np.concatenate(column) for column in zip(*parts, strict=True))
         return Arcs(
-            tail=tail[kept],
-            head=head[kept].astype(np.int32),
-            length=int(self.headway) + self.drive[head[kept]],
-            height=height[kept].astype(np.int32),
-            first=ended[kept].astype(np.int32),
+            tail=self.after[ended],
+            head=head.astype(np.int32),
+            length=int(self.headway) + self.drive[head],
+            height=height.astype(np.int32),
+            first=ended.astype(np.int32),
         )
+
+    def _latest_ends(
+        self, head: NDArray[np.int64], ended: NDArray[np.int64], height: NDArray[np.int64]
+    ) -> tuple[NDArray[np.int64], ...]:
+        """Return, of arcs from ends to starts, for each start the latest end of each robot.
+
+        Without those ends that an earlier start of the same robot in the period waits for.
+        """
+        own, other = self.robot[head].astype(np.int64), self.robot[ended]
+        n_visits = np.diff(self.first)[other]
+        when = self.after[ended] - self.first[other] - height * n_visits
+        pair = own * len(self.timetable.laps) + other
+        in_order = np.lexsort((-when, head, pair))
+        pair, when = pair[in_order], when[in_order]
+        if not len(when):
+            return head, ended, height
+        # The latest end so far: no end of one pair of robots is as late as those of the next pair.
+        span = int(when.max() - when.min()) + 1
+        reached = np.maximum.accumulate(
+            np.cumsum(np.diff(pair, prepend=pair[0]) != 0) * span + when
+        )
+        kept = in_order[np.diff(reached, prepend=reached[0] - 1) > 0]
+        return head[kept], ended[kept], height[kept]
 
     def has_swaps(self) -> bool:
         """Tell whether two robots would exchange two vertices: each waits for the other to go.
@@ -377,6 +405,12 @@ class TimedEventGraph:
         parts = np.split(times, self.first[1:-1])
         enter = tuple(part - part[0] // ticks * ticks for part in parts)
         return replace(self.timetable, period=period, enter=enter)
+
+
+def _parts(counts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    """Return where to cut a sequence with these running totals, into parts of about ``most``."""
+    cuts = np.searchsorted(counts, np.arange(most, int(counts[-1]) + 1, most))
+    return np.unique(cuts)
 
 
 def _ranges(

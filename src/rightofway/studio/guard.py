@@ -8,12 +8,15 @@ send. Where the server listens to other machines, each request also needs the to
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import secrets
 import sys
 from collections.abc import Awaitable, Callable, MutableMapping
+from contextlib import nullcontext
 from dataclasses import dataclass, field
+from html import escape
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import ip_address
 from typing import Any
@@ -28,6 +31,12 @@ MAX_BODY = 20_000_000
 
 LONGEST_PATH = 2000
 """The longest path of a request, with its query [bytes]."""
+
+LARGE_BODY, MOST_LARGE = 1_000_000, 8
+"""So many requests with a body of more bytes are worked on at once; the others wait."""
+
+HTTP = 80
+"""The port that an address does not name."""
 
 COOKIE = "rightofway-token"
 """Where a browser keeps the token."""
@@ -88,7 +97,8 @@ class Access:
         """
         if is_loopback(host):
             names = ("127.0.0.1", "localhost", "[::1]", host)
-            return cls(hosts=frozenset(f"{name}:{port}" for name in names))
+            usual = names if port == HTTP else ()
+            return cls(hosts=frozenset([*usual, *(f"{name}:{port}" for name in names)]))
         return cls(hosts=None, token=secrets.token_urlsafe(24))
 
 
@@ -115,6 +125,12 @@ class _Request:
                 raise Refused(f"the header {name.decode()} stands twice (send it once)")
             self.headers[name] = value
 
+    @property
+    def is_large(self) -> bool:
+        """Whether its body is large, or may be."""
+        length = self.header("content-length")
+        return bool(self.header("transfer-encoding")) or int(length or 0) > LARGE_BODY
+
     def header(self, name: str) -> str:
         """Return a header, empty where there is none."""
         return self.headers.get(name.encode(), b"").decode("latin-1")
@@ -134,6 +150,7 @@ class Guard:
     def __init__(self, app: App, access: Access) -> None:
         self._app = app
         self._access = access
+        self._large = asyncio.Semaphore(MOST_LARGE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request."""
@@ -150,7 +167,8 @@ class Guard:
             if await self._signs_in(request, answer):
                 return
             self._ask_token(request)
-            await self._app(scope, _Body(receive).receive, answer.send)
+            async with self._large if request.is_large else nullcontext():
+                await self._app(scope, _Body(receive).receive, answer.send)
         except StudioError as refused:
             await answer.refuse(refused.status, refused.error)
         except Exception as error:  # noqa: BLE001 (a defect of ours: one line, and the server goes on)
@@ -212,11 +230,16 @@ class Guard:
         await answer.send(
             {
                 "type": "http.response.start",
-                "status": 303,
-                "headers": [(b"location", f"/{rest}".encode()), (b"set-cookie", cookie.encode())],
+                "status": 200,
+                "headers": [
+                    (b"content-type", b"text/html; charset=utf-8"),
+                    (b"set-cookie", cookie.encode()),
+                ],
             }
         )
-        await answer.send({"type": "http.response.body", "body": b""})
+        # Not a redirection: after a link on another page, a browser would go on without the cookie.
+        page = f'<!doctype html><meta http-equiv="refresh" content="0; url=/{escape(rest)}">'
+        await answer.send({"type": "http.response.body", "body": page.encode()})
         return True
 
     def _ask_token(self, request: _Request) -> None:

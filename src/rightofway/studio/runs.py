@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import json
 import time
 from collections.abc import AsyncGenerator, Mapping
@@ -12,8 +11,9 @@ from typing import Any, Literal
 
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.errors import Busy, Refused, StudioError
+from rightofway.studio.events import Event, Listeners
+from rightofway.studio.messages import as_error
 from rightofway.studio.store import Store
-from rightofway.studio.worker import as_error
 
 MAX_QUEUED = 100
 """Runs that may wait."""
@@ -21,14 +21,8 @@ MAX_QUEUED = 100
 MAX_KEPT = 1000
 """Runs that are kept."""
 
-MAX_LISTENERS = 64
-"""Browsers that may watch at once."""
-
 MAX_POINTS = 500
 """Points of the curve of flowtime over time; of more, every second one is left out."""
-
-MAX_BEHIND = 1000
-"""Events that a slow listener may be behind before it is hung up on."""
 
 GRACE = 10.0
 """A worker that was asked to stop is killed after that time [s]."""
@@ -39,16 +33,11 @@ QUICK = 2.0
 SPARE = 30.0
 """A worker is killed that long after half as much again as its time limit [s]."""
 
-HEARTBEAT = 15.0
-"""So often a listener hears something [s]."""
-
 State = Literal["queued", "running", "done", "stopped", "cancelled", "failed", "interrupted"]
 Kind = Literal["plan", "improve", "laps", "simulate", "flip", "opened"]
 
 OVER = {"done", "stopped", "cancelled", "failed", "interrupted"}
 """States that are not left any more."""
-
-Event = tuple[str, dict[str, Any]]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -113,7 +102,7 @@ class _Work:
     job: Job | None = None
     wants: Literal["", "stopped", "cancelled"] = ""  # how the user has it end
     is_saving: asyncio.Lock = field(default_factory=asyncio.Lock)
-    plan: bytes | None = None  # that waits to be saved
+    plan: tuple[bytes, dict[str, Any]] | None = None  # that waits to be saved, with its figures
     tasks: set[asyncio.Task[None]] = field(default_factory=set)
 
 
@@ -138,8 +127,9 @@ class Runs:
         self._work: dict[int, _Work] = {}
         self._queue: asyncio.Queue[int] = asyncio.Queue()
         self._quick: asyncio.Queue[int] = asyncio.Queue()
-        self._listeners: dict[int, set[asyncio.Queue[Event | None]]] = {}
+        self._listeners = Listeners()
         self._consumers: list[asyncio.Task[None]] = []
+        self._adding = asyncio.Lock()
         self._saving = asyncio.Lock()
 
     async def start(self) -> None:
@@ -172,9 +162,7 @@ class Runs:
 
     def hang_up(self) -> None:
         """End all streams of events."""
-        for listeners in self._listeners.values():
-            for listener in listeners:
-                listener.put_nowait(None)
+        self._listeners.hang_up()
 
     def all(self) -> list[Run]:
         """Return all runs, the latest first."""
@@ -204,18 +192,44 @@ class Runs:
         Busy
             If too many runs wait, or are kept.
         """
-        waiting = sum(each.state == "queued" for each in self._runs.values())
-        if waiting >= MAX_QUEUED:
-            raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
-        await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
+        async with self._adding:
+            waiting = sum(each.state == "queued" for each in self._runs.values())
+            if waiting >= MAX_QUEUED:
+                raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
+            await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
         self._queue_of(run).put_nowait(run.number)
         return run
+
+    async def again(self, number: int) -> Run:
+        """Queue the same as a new run.
+
+        Raises
+        ------
+        Refused
+            For a plan that was opened, or made by a question.
+        Busy
+            As `submit`.
+        """
+        old = self.get(number)
+        if old.kind in {"opened", "flip"}:
+            raise Refused(f"run {number} was not planned here (improve it instead)", 409)
+        arguments = json.loads(await self.blob(number, "arguments"))
+        given = await asyncio.to_thread(self._store.blob, number, "given")
+        run = Run(
+            name=old.name,
+            kind=old.kind,
+            request=old.request,
+            source=old.source,
+            based_on=old.based_on,
+        )
+        return await self.submit(run, arguments, None if given is None else {"given": given})
 
     async def add_done(self, run: Run, plan: bytes) -> Run:
         """Keep a plan that was made elsewhere as a run that is done."""
         run.state = "done"
         run.started = run.ended = run.created
-        await self._add(run, {"plan": plan})
+        async with self._adding:
+            await self._add(run, {"plan": plan})
         return run
 
     async def _add(self, run: Run, blobs: Mapping[str, bytes]) -> None:
@@ -224,12 +238,14 @@ class Runs:
         run.number = await asyncio.to_thread(self._store.add_run, asdict(run))
         self._runs[run.number] = run
         await self._save(run, blobs)
+        self._listeners.tell(run.number, "run", self.data(run))
 
     async def rename(self, number: int, name: str) -> Run:
         """Give a run a name."""
         run = self.get(number)
         run.name = name
         await self._save(run)
+        self._listeners.tell(number, "run", self.data(run))
         return run
 
     async def stop(self, number: int) -> Run:
@@ -259,6 +275,7 @@ class Runs:
         await self.cancel(number)
         self._runs.pop(number, None)
         await asyncio.to_thread(self._store.delete_run, number)
+        self._listeners.tell(number, "deleted", {})
 
     @staticmethod
     def data(run: Run) -> dict[str, Any]:
@@ -268,15 +285,21 @@ class Runs:
     async def _consume(self, queue: asyncio.Queue[int], crew: Crew) -> None:
         while True:
             run = self._runs.get(await queue.get())
-            if run is not None and run.state == "queued":
+            if run is None or run.state != "queued":
+                continue
+            try:
                 await self._execute(run, crew)
+            except Exception as error:  # noqa: BLE001 (not even its end can be kept: go on)
+                run.state, run.error = "failed", as_error(error)
+                self._listeners.tell(run.number, "run", self.data(run))
+                self._listeners.end(run.number)
 
     async def _execute(self, run: Run, crew: Crew) -> None:
         work = self._work[run.number] = _Work()
         try:
             run.state, run.started = "running", time.time()
             await self._save(run)
-            self._tell(run, "run", self.data(run))
+            self._listeners.tell(run.number, "run", self.data(run))
             await self._finish(run, work, crew)
         except StudioError as failed:
             await asyncio.gather(*work.tasks)
@@ -293,9 +316,8 @@ class Runs:
         """Keep how a run ended, and hang up."""
         run.ended = time.time()
         await self._save(run)
-        self._tell(run, "run", self.data(run))
-        for listener in self._listeners.get(run.number, ()):
-            listener.put_nowait(None)
+        self._listeners.tell(run.number, "run", self.data(run))
+        self._listeners.end(run.number)
 
     async def _finish(self, run: Run, work: _Work, crew: Crew) -> None:
         """Have the task of a run done, and note how it ended."""
@@ -328,71 +350,65 @@ class Runs:
             run.has_payload = True
         if left:
             kept["plan"] = left.pop(0)
-        run.figures = result.get("figures", run.figures)
+        figures = result.get("figures")
         run.status = result.get("status") or run.status
-        if run.kind in {"plan", "improve"} and run.figures and run.started:
-            run.add_point(round(time.time() - run.started, 3), run.figures["flowtime"])
-        await self._save(run, kept)
+        if run.kind in {"plan", "improve"} and figures and run.started:
+            run.add_point(round(time.time() - run.started, 3), figures["flowtime"])
+        await self._save(run, kept, figures)
 
     def _note(self, run: Run, work: _Work, event: dict[str, Any], blobs: list[bytes]) -> None:
         """Note progress, and tell listeners."""
         if "flowtime" in event:
             run.add_point(event["seconds"], event["flowtime"])
-        self._tell(run, "progress", {key: event[key] for key in event if key != "figures"})
+        progress = {key: event[key] for key in event if key != "figures"}
+        self._listeners.tell(run.number, "progress", progress)
         if blobs:
-            work.plan, run.figures = blobs[0], event["figures"]
+            work.plan = blobs[0], event["figures"]
             saving = asyncio.create_task(self._save_plan(run, work))
             work.tasks.add(saving)
             saving.add_done_callback(work.tasks.discard)
 
     async def _save_plan(self, run: Run, work: _Work) -> None:
         async with work.is_saving:
-            plan, work.plan = work.plan, None
-            if plan is None:
+            found, work.plan = work.plan, None
+            if found is None:
                 return  # a later one is saved already
-            await self._save(run, {"plan": plan})
-        self._tell(run, "plan", {"revision": run.revision, "figures": run.figures})
+            plan, figures = found
+            try:
+                await self._save(run, {"plan": plan}, figures)
+            except StudioError:
+                return  # a later one may find room; the last one says why there is none
+        made = {"revision": run.revision, "figures": figures}
+        self._listeners.tell(run.number, "plan", made)
 
-    async def _save(self, run: Run, blobs: Mapping[str, bytes] | None = None) -> None:
+    async def _save(
+        self,
+        run: Run,
+        blobs: Mapping[str, bytes] | None = None,
+        figures: dict[str, Any] | None = None,
+    ) -> None:
         """Keep a run, one after the other; with a plan it has a new revision from then on."""
         async with self._saving:
+            run.figures = figures or run.figures
             revision = run.revision + ("plan" in (blobs or {}))
             data, listed = {**asdict(run), "revision": revision}, list((blobs or {}).items())
             await asyncio.to_thread(self._store.put_run, run.number, data, listed)
             run.revision = revision
 
-    def _tell(self, run: Run, event: str, data: dict[str, Any]) -> None:
-        for listener in self._listeners.get(run.number, ()):
-            if listener.qsize() < MAX_BEHIND:
-                listener.put_nowait((event, data))
-            else:
-                listener.put_nowait(None)
-
-    async def listen(self, number: int) -> AsyncGenerator[Event | None]:
-        """Yield the events of a run: first all that is known; None from time to time.
-
-        It ends when the run is over, or the server closes.
+    def listen(self, number: int) -> AsyncGenerator[Event | None]:
+        """Yield the events of a run until it is over: first all that is known.
 
         Raises
         ------
+        Refused
+            If there is none of that number.
         Busy
             If too many listen already.
         """
         run = self.get(number)
-        if sum(map(len, self._listeners.values())) >= MAX_LISTENERS:
-            raise Busy(f"{MAX_LISTENERS} browsers watch already (close some)")
-        listener: asyncio.Queue[Event | None] = asyncio.Queue()
-        self._listeners.setdefault(number, set()).add(listener)
-        try:
-            yield "run", self.data(run)
-            while run.state not in OVER or number in self._work:
-                event: Event | None = None
-                with contextlib.suppress(TimeoutError):
-                    event = await asyncio.wait_for(listener.get(), HEARTBEAT)
-                    if event is None:
-                        return
-                yield event
-        finally:
-            self._listeners[number].discard(listener)
-            if not self._listeners[number]:
-                del self._listeners[number]
+        is_over = run.state in OVER and number not in self._work
+        return self._listeners.listen(number, ("run", self.data(run)), is_over=is_over)
+
+    def listen_to_all(self) -> AsyncGenerator[Event | None]:
+        """Yield the events of all runs for ever: first the list of runs."""
+        return self._listeners.listen(None, ("runs", {"runs": list(map(self.data, self.all()))}))

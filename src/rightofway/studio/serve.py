@@ -113,7 +113,8 @@ def bound(host: str, port: int | None) -> socket.socket:
             listener.close()
             if port is not None or candidate == 0:
                 reason = getattr(error, "strerror", None) or str(error)
-                message = f"{host}:{port or ''} cannot be listened on: {reason} (give another)"
+                where = host if port is None else f"{host}:{port}"
+                message = f"{where} cannot be listened on: {reason} (give another)"
                 raise InputError.at("--host, --port", message) from None
         else:
             return listener

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from rightofway.studio.errors import Refused
+
 FILE = ".rightofway-studio.sqlite"
 """The name of the file in the folder of the studio."""
 
@@ -67,8 +69,12 @@ class Store:
 
     @contextmanager
     def _work(self) -> Iterator[sqlite3.Connection]:
-        with self._lock, self._database:
-            yield self._database
+        try:
+            with self._lock, self._database:
+                yield self._database
+        except sqlite3.OperationalError as error:
+            message = f"drafts and runs cannot be kept: {error} (free some space, delete some runs)"
+            raise Refused(message, 507) from None
 
     def close(self) -> None:
         """Close the file."""

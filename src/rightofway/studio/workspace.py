@@ -6,7 +6,7 @@ import hashlib
 import os
 import re
 import threading
-from collections.abc import Iterator
+from collections import deque
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -17,8 +17,8 @@ from rightofway.studio.errors import Refused
 MAX_FILES = 2000
 """Files that a list holds; the folder may have more."""
 
-MAX_DEPTH = 6
-"""Folders inside each other that a list goes into."""
+MAX_FOLDERS = 1000
+"""Folders that a list looks into."""
 
 MAX_FILE = 20_000_000
 """The largest file that is opened or uploaded [bytes]."""
@@ -157,26 +157,38 @@ class Workspace:
         path = self.path(name)
         return revision_of(path.read_bytes()) if path.is_file() else None
 
-    def files(self) -> list[Entry]:
-        """Return the files that may be opened, in the order of their paths."""
-        found = sorted(self._files(self.folder, MAX_DEPTH), key=lambda entry: entry.path)
-        return found[:MAX_FILES]
+    def files(self) -> tuple[list[Entry], bool]:
+        """Return the files that may be opened, in the order of their paths, and whether all.
 
-    def _files(self, folder: Path, depth: int) -> Iterator[Entry]:
+        Folders near the top come first; a list that is not whole lacks files far inside.
+        """
+        found, folders, seen = list[Entry](), deque([self.folder]), 0
+        while folders and len(found) < MAX_FILES and seen < MAX_FOLDERS:
+            files, inside = self._listed(folders.popleft())
+            found += files
+            folders += inside
+            seen += 1
+        found.sort(key=lambda entry: entry.path)
+        return found[:MAX_FILES], not folders and len(found) <= MAX_FILES
+
+    def _listed(self, folder: Path) -> tuple[list[Entry], list[Path]]:
+        """Return the files of one folder that may be opened, and the folders in it."""
+        files, folders = list[Entry](), list[Path]()
         try:
             inside = sorted(os.scandir(folder), key=lambda each: each.name)
         except OSError:
-            return  # a folder that may not be read has nothing to open
+            return [], []  # a folder that may not be read has nothing to open
         for each in inside:
             if each.name.startswith(".") or each.is_symlink():
                 continue
             kind = KINDS.get(Path(each.name).suffix.lower())
-            if each.is_dir(follow_symlinks=False) and depth:
-                yield from self._files(Path(each.path), depth - 1)
+            if each.is_dir(follow_symlinks=False):
+                folders.append(Path(each.path))
             elif kind and each.is_file(follow_symlinks=False):
                 stat = each.stat(follow_symlinks=False)
                 name = Path(each.path).relative_to(self.folder).as_posix()
-                yield Entry(name, kind, stat.st_size, stat.st_mtime)
+                files.append(Entry(name, kind, stat.st_size, stat.st_mtime))
+        return files, folders
 
 
 def _resolved(path: Path) -> Path | None:

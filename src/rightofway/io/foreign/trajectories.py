@@ -23,7 +23,7 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.model import Grid, Plan, PlannerRun, Scenario, Track
-from rightofway.model.roadmap import FREE
+from rightofway.model.grid import FREE
 
 Cell = tuple[int, int]
 """Row and column, from 0."""

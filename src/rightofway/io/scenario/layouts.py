@@ -101,7 +101,12 @@ def _cut(
     if 2 * radius > size:
         blocked += f", or beside it for a radius of {units.written_length(radius)}"
     return LoadedMap(
-        roadmap=roadmap, lines=lines, units=units, blocked=blocked, notes=(*found.notes, cells)
+        roadmap=roadmap,
+        lines=lines,
+        units=units,
+        blocked=blocked,
+        keeps_clear=True,
+        notes=(*found.notes, cells),
     )
 
 

@@ -24,6 +24,7 @@ class LoadedMap:
     stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
     chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
+    keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
     notes: tuple[str, ...] = ()  # of a layout's reader
 
     def find(self, place: Place) -> VertexId:

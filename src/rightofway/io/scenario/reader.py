@@ -7,39 +7,39 @@ A file becomes plain data (`document_of`), the data become checked parts (`shape
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault, shown
-from rightofway.io.faults import Faults, blaming, checked, under
+from rightofway.errors import InputError, InputFault, nearest, shown
+from rightofway.io.faults import Faults, blaming, checked
 from rightofway.io.formats import SCENARIO_FORMAT, checked_format
-from rightofway.io.movingai import ScenRow, load_scen
-from rightofway.io.robot_table import Located, robots_of_csv
 from rightofway.io.scenario.crossings import crossing_note
-from rightofway.io.scenario.homes import HOMELESS, housed
+from rightofway.io.scenario.fleet import (
+    Placed,
+    largest_radius,
+    placed_robots,
+    robots_in_table,
+    speeds_of,
+    types_of,
+    written_robots,
+)
 from rightofway.io.scenario.loaded_map import LoadedMap
-from rightofway.io.scenario.maps import file_beside, map_of
-from rightofway.model import Roadmap, Robot, Rules, Scenario, Stop, Units, VertexId
+from rightofway.io.scenario.maps import map_of
+from rightofway.model import Roadmap, Rules, Scenario, Units
 from rightofway.model.closures import Closure, closure_faults
-from rightofway.model.places import kinds_of_places
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 
 if TYPE_CHECKING:
-    from rightofway.io.scenario.shape import FleetDocument, TripDocument
+    pass
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
 
 MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
-
-DEFAULT_SPEED = Fraction(1)
-
-HOME = f"the place it starts from: {kinds_of_places(None)}"
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -100,7 +100,7 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
         given = checked(RulesDocument, data).given
         keys = ("occupancy", "headway", "turn", "ends", "laps", "rotations", "clearance")
-        return Rules(**given(*keys, "turn_rate"))
+        return Rules(**given(*keys, "turn_rate", "walls"))
 
     def units_of(data: Any) -> Units:
         return Units(**checked(UnitsDocument, data).given("length", "time"))
@@ -111,28 +111,31 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
             speeds,
             base,
             units,
-            lambda: _largest_radius(robots),
-            types=lambda: _types(robots),
+            lambda: largest_radius(robots),
+            types=lambda: types_of(robots),
         )
         return found if found is None or found.units.length else replace(found, units=units)
 
     document = checked_format(document, SCENARIO_FORMAT)
     given = document.get("robots")
     if isinstance(given, dict) and "table" in given:
-        table = _robots_in_table(given, base)
+        table = robots_in_table(given, base)
         with table.naming_cells():
             return read_scenario({**document, "robots": table.part}, base)
     faults = Faults()
     faults.attempt("", checked, ScenarioFrame, document)
     rules = faults.part(document, "rules", rules_of) or Rules()
     units = faults.part(document, "units", units_of) or Units()
-    robots = faults.part(document, "robots", _written_robots, base) or []
-    speeds = _speeds(robots)
+    robots = faults.part(document, "robots", written_robots, base) or []
+    speeds = speeds_of(robots)
     loaded = faults.part(document, "map", loaded_map_of)
     if loaded:
         rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)
+    if loaded and loaded.keeps_clear and rules.walls == "strict":
+        remedy = "robots keep clear of what a map in pixels shows; take it out"
+        faults.note("rules.walls", f"'strict' is for grids and floors ({remedy})")
     deals = document.get("homes") == "parking"
-    placed, more = _fleet(robots, loaded, rules, faults, deals=deals)
+    placed, more = placed_robots(robots, loaded, rules, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
     scenario = None
     if loaded and placed:
@@ -142,200 +145,6 @@ def read_scenario(document: Any, base: Path | None) -> Loaded:
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *more))
-
-
-def _robots_in_table(data: dict[str, Any], base: Path | None) -> Located:
-    """Return the robots of a CSV file that the document names."""
-    from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
-
-    with under("robots"):
-        name = checked(RobotTableDocument, data).table
-        with under("table"):
-            known = [field.alias or key for key, field in RobotDocument.model_fields.items()]
-            return robots_of_csv(file_beside(base, name), known)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Rows:
-    """Robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt out in turn."""
-
-    document: FleetDocument
-    file: Path
-    rows: Sequence[ScenRow]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Placed:
-    """A robot, its place in the document, and keys of it that stand elsewhere."""
-
-    robot: Robot
-    place: str
-    aliases: Mapping[str, str]
-
-
-def _written_robots(data: Any, base: Path | None) -> Sequence[Any] | _Rows:
-    """Return robots as they are listed, or the rows of a file that they stand on."""
-    from rightofway.io.scenario.shape import FleetDocument
-
-    if isinstance(data, list) and data:
-        return data
-    if not isinstance(data, dict):
-        remedy = "give a list of robots, {scen: a file} or {table: a file}"
-        message = f"{shown(data)} is no fleet ({remedy})"
-        raise InputError.at("", message)
-    document = checked(FleetDocument, data)
-    with under("scen"):
-        file = file_beside(base, document.scen)
-        rows = load_scen(file)
-    if document.count is not None and document.count > len(rows):
-        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
-        raise InputError.at("count", message)
-    return _Rows(document=document, file=file, rows=rows[: document.count])
-
-
-def _speeds(robots: Sequence[Any] | _Rows) -> list[Fraction] | None:
-    """Return the speeds of all robots, or None if some cannot be read."""
-    from rightofway.io.fields import positive
-
-    if isinstance(robots, _Rows):
-        return (robots.document.speeds or [DEFAULT_SPEED])[: len(robots.rows)]
-    try:
-        return [positive(robot.get("speed", DEFAULT_SPEED)) for robot in robots]
-    except (AttributeError, ValueError):
-        return None
-
-
-def _largest_radius(robots: Sequence[Any] | _Rows) -> Fraction:
-    """Return the largest radius of the fleet; a radius that cannot be read is a fault elsewhere."""
-    from rightofway.io.scenario.shape import RobotDocument
-
-    if isinstance(robots, _Rows):
-        return robots.document.radius or Fraction(0)
-    found = Fraction(0)
-    for robot in robots:
-        try:
-            space = checked(RobotDocument, robot).space()
-        except InputError:
-            continue
-        found = max(found, space.get("radius", Fraction(0)))
-    return found
-
-
-def _types(robots: Sequence[Any] | _Rows) -> frozenset[str | None]:
-    """Return the types of the fleet; None stands for a robot without one."""
-    if isinstance(robots, _Rows):
-        return frozenset([None])
-    found = (robot.get("type") for robot in robots if isinstance(robot, dict))
-    return frozenset(name if isinstance(name, str) else None for name in found)
-
-
-def _place_of_laps(document: TripDocument, place: str) -> str:
-    """Return where the document asks a robot without a way back for several laps."""
-    if document.laps is not None:
-        return f"{place}.laps"
-    return "rules.laps" if document.ends is None else f"{place}.return"
-
-
-def _fleet(
-    robots: Sequence[Any] | _Rows,
-    on: LoadedMap | None,
-    rules: Rules,
-    faults: Faults,
-    *,
-    deals: bool,
-) -> tuple[Sequence[_Placed], Sequence[str]]:
-    """Return the robots at their homes, and notes on homes that were dealt out."""
-    if isinstance(robots, _Rows):
-        return (_dealt(robots, on, faults) if on else ()), ()
-    placed = _listed(robots, on, faults, deals=deals)
-    return _housed(placed, on, rules, faults) if deals and on and placed else (placed, ())
-
-
-def _listed(
-    robots: Sequence[Any], on: LoadedMap | None, faults: Faults, *, deals: bool
-) -> list[_Placed]:
-    """Return robots that are listed; note the faults of others. Without a map, only note faults."""
-    from rightofway.io.scenario.shape import RobotDocument
-
-    placed = list[_Placed]()
-    for index, data in enumerate(robots):
-        place = f"robots[{index}]"
-        if not deals and isinstance(data, dict) and "home" not in data:
-            faults.note(f"{place}.home", f"is missing (give {HOME}, or homes: parking for all)")
-        document = faults.attempt(place, checked, RobotDocument, data, on)
-        if document is None or on is None or (document.home is None and not deals):
-            continue
-        keys = ("speed", "turn", "ends", "laps", "type", "turn_rate")
-        own = {**document.given(*keys), **document.space()}
-        stops = tuple(Stop(at=at, work=work or Fraction(0)) for at, work in document.trip())
-        home = HOMELESS if document.home is None else document.home
-        robot = Robot(name=document.name, home=home, stops=stops, **own)
-        aliases = {"laps": _place_of_laps(document, place)}
-        if document.turn_rate is None:
-            aliases["turn_rate"] = "rules.turn_rate"
-        if document.target is not None:
-            aliases["stops[0].at"] = f"{place}.target"
-        placed.append(_Placed(robot=robot, place=place, aliases=aliases))
-    return placed
-
-
-def _housed(
-    placed: Sequence[_Placed], on: LoadedMap, rules: Rules, faults: Faults
-) -> tuple[Sequence[_Placed], Sequence[str]]:
-    """Return the robots, those without a home at parking places, and a note of who starts where."""
-    found = faults.attempt("", housed, [it.robot for it in placed], on.roadmap, rules)
-    if found is None:
-        return (), ()
-    robots, notes = found
-    return [replace(it, robot=robot) for it, robot in zip(placed, robots, strict=True)], notes
-
-
-def _dealt(robots: _Rows, on: LoadedMap, faults: Faults) -> list[_Placed]:
-    """Return the robots on the rows of a file, or none after noting why."""
-    document, placed = robots.document, list[_Placed]()
-    ends = faults.attempt("robots.scen", _starts_and_goals, robots, on) or []
-    speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.given("turn", "ends", "laps", "radius", "turn_rate")
-    rate = "rules.turn_rate" if document.turn_rate is None else "robots.turn_rate"
-    laps = _place_of_laps(document, "robots")
-    aliases = {"turn": "robots.turn", "laps": laps, "turn_rate": rate}
-    dealt = zip(ends, speeds, works, strict=False)
-    for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
-        stops = (Stop(at=goal, work=work),)
-        robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
-        placed.append(_Placed(robot=robot, place="robots.scen", aliases=aliases))
-    return placed
-
-
-def _starts_and_goals(robots: _Rows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
-    faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
-    with blaming(str(robots.file)):
-        for row in robots.rows:
-            _check_map(row, on)  # stops at the first: the others are for the same map
-        for row in robots.rows:
-            start = faults.attempt(f"line {row.line}, start", on.find, row.start)
-            goal = faults.attempt(f"line {row.line}, goal", on.find, row.goal)
-            if start is None or goal is None:
-                continue
-            if taken.setdefault(start, row.line) != row.line:
-                message = f"line {taken[start]} starts there already (a cell holds one robot)"
-                faults.note(f"line {row.line}, start", message)
-            ends.append((start, goal))
-        faults.stop()
-    return ends
-
-
-def _check_map(row: ScenRow, on: LoadedMap) -> None:
-    grid, place = on.roadmap.grid, f"line {row.line}"
-    if grid is None:
-        raise InputError.at("", "its rows need a grid (give the map as grid, file or floor)")
-    if (row.width, row.height) != (grid.columns, grid.rows):
-        size = f"{row.width} x {row.height} cells, but the map has {grid.columns} x {grid.rows}"
-        raise InputError.at(place, f"{size} (give the map it was made for)")
-    name = re.split(r"[\\/]", row.map_name)[-1]
-    if on.file is not None and name != on.file.name:
-        message = f"is for {name!r}, but the map is {on.file.name!r} (give the right one)"
-        raise InputError.at(place, message)
 
 
 def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
@@ -363,7 +172,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
 
 
 def _assembled(
-    roadmap: Roadmap, placed: Sequence[_Placed], others: dict[str, Any], faults: Faults
+    roadmap: Roadmap, placed: Sequence[Placed], others: dict[str, Any], faults: Faults
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(each.robot for each in placed)
@@ -395,7 +204,7 @@ def _check_ticks(scenario: Scenario) -> None:
         raise InputError.at("robots", message)
 
 
-def _in_document(fault: InputFault, placed: Sequence[_Placed]) -> tuple[str, str]:
+def _in_document(fault: InputFault, placed: Sequence[Placed]) -> tuple[str, str]:
     """Return place and message of a fault of the model as the document has them.
 
     The model numbers the robots that it was given, among which those with faults are missing.
@@ -423,6 +232,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if loaded.rounding:
         unit = scenario.units.length
         yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
+    yield from _type_notes(scenario)
     yield from crossing_note(scenario)
     if not scenario.problem.clock.exact:
         yield (
@@ -431,3 +241,15 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
             f" {MAX_TICKS_OF_SHORTEST}); simpler speeds and lengths stay exact,"
             " for example 1/3 instead of 0.3333"
         )
+
+
+def _type_notes(scenario: Scenario) -> Iterator[str]:
+    """Yield a note on each type of robots that nothing is barred for, where one was nearly meant.
+
+    Types that edges and vertices are barred for are known; any other type is allowed.
+    """
+    known = scenario.roadmap.types
+    for name in dict.fromkeys(robot.type for robot in scenario.robots):
+        near = None if name is None or name in known else nearest(name, sorted(known))
+        if near:
+            yield f"nothing is barred for robots of type {shown(name)} (did you mean {near!r}?)"

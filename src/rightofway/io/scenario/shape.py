@@ -30,7 +30,7 @@ from rightofway.io.fields import (
     exactly_one_of,
     optional,
 )
-from rightofway.model import Occupancy, TripEnd, VertexId
+from rightofway.model import Occupancy, TripEnd, VertexId, Walls
 from rightofway.model.places import kinds_of_places
 from rightofway.model.quantities import LengthUnit, TimeUnit
 from rightofway.model.resources import circle_around
@@ -366,6 +366,7 @@ class RulesDocument(TripDocument):
     clearance: NotNegative = optional(
         "least distance between two robots of which one has a radius [length unit]"
     )
+    walls: Walls = optional("free, or strict: robots wider than a cell keep out of walls of a grid")
     turn_rate: Positive = optional(TURN_RATE)
 
 

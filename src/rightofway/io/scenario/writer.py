@@ -240,6 +240,7 @@ def _rules(rules: Rules) -> dict[str, Any]:
         "laps": rules.laps,
         "rotations": rules.rotations,
         **({"clearance": written(rules.clearance)} if rules.clearance else {}),
+        **({"walls": rules.walls} if rules.walls != "free" else {}),
         **_turn_rate(rules),
     }
 

@@ -42,14 +42,37 @@ export async function upload(file, { replace = false } = {}) {
 /** The address of something that is shown or downloaded as it is. */
 export const address = (path) => ROOT + path;
 
+const EVENTS = ["run", "progress", "plan"];
+const heard = new Map(); // the hearers of each run that is not over
+let stream = null; // one for all runs: a browser has six connections to a server
+
 /** Hear the events of a run until it is over: `{ run, progress, plan }` are functions. Returns what ends it. */
 export function listen(number, hearers) {
-  const source = new EventSource(address(`/runs/${number}/events`));
-  for (const [name, hear] of Object.entries(hearers)) {
-    source.addEventListener(name, (event) => hear(JSON.parse(event.data)));
-  }
-  source.addEventListener("run", (event) => {
-    if (!["queued", "running"].includes(JSON.parse(event.data).state)) source.close();
-  });
-  return () => source.close();
+  if (!heard.has(number)) heard.set(number, new Set());
+  heard.get(number).add(hearers);
+  if (stream) get(`/runs/${number}`).then((run) => tell("run", run), () => forget(number)); // it may be over already
+  else connect();
+  return () => forget(number, hearers);
+}
+
+/** Begin to hear; first comes the list of all runs, also after the connection was lost. */
+function connect() {
+  stream = new EventSource(address("/events"));
+  for (const name of EVENTS) stream.addEventListener(name, (event) => tell(name, JSON.parse(event.data)));
+  stream.addEventListener("runs", (event) => JSON.parse(event.data).runs.forEach((run) => tell("run", run)));
+  stream.addEventListener("deleted", (event) => forget(JSON.parse(event.data).number));
+}
+
+function tell(name, data) {
+  for (const hearers of heard.get(data.number) ?? []) hearers[name]?.(data);
+  if (name === "run" && !["queued", "running"].includes(data.state)) forget(data.number);
+}
+
+/** Hear no more of a run, or one of its hearers no more; who hears of none holds no connection. */
+function forget(number, hearers = null) {
+  if (hearers) heard.get(number)?.delete(hearers);
+  if (!hearers || !heard.get(number)?.size) heard.delete(number);
+  if (heard.size) return;
+  stream?.close();
+  stream = null;
 }

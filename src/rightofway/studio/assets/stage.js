@@ -1,56 +1,106 @@
-/** A map that is drawn, and a plan that is played on it, by the modules of the viewer. */
+/** A map that is drawn, a plan that is played on it, and room above it for what is being drawn. */
 
+import { toDrawing } from "./draw/places.js";
+import { Player } from "./runs/player.js";
+import { fitCanvas } from "./viewer/canvas.js";
 import { Choice } from "./viewer/choice.js";
 import { Clock } from "./viewer/clock.js";
 import { MapView } from "./viewer/map_view.js";
 import { Motion } from "./viewer/motion.js";
+import { Observable } from "./viewer/observable.js";
 import { Plan } from "./viewer/plan.js";
+import { Site } from "./viewer/site.js";
 import { Theme } from "./viewer/theme.js";
+import { Words } from "./viewer/words.js";
+import { words as texts } from "./words.js";
 
-export class Stage {
-  /** All that is in `holder` is of the stage. */
-  constructor(holder) {
-    this.holder = holder;
+const LEGENDS = `<div class="legends">
+<div id="heat-legend" class="heat-legend" hidden><span></span><span id="heat-scale" class="scale"></span></div>
+<div id="bottleneck-legend" class="lit-legend" hidden><span class="lit"></span><span class="name"></span></div></div>
+<div id="hover" class="hover" aria-live="off" hidden></div>`;
+
+/** Events: `show` when another map is drawn, `choice`, `underlay` and `overlay` to paint below and above the map (with `context`). */
+export class Stage extends Observable {
+  /** All that is in `holder`, `below` and `time` is of the stage. */
+  constructor({ holder, below, time, card }) {
+    super();
+    Object.assign(this, { holder, below, time, card });
     this.theme = new Theme();
     this.asked = false;
+    this.frames = 0;
+    this.isMoved = false; // whether somebody has zoomed or moved the map
     this.theme.on("theme", () => this.repaint());
     new ResizeObserver(() => this.ask()).observe(holder);
   }
 
-  /** Show a payload of the viewer; the moment and the view stay what they are where the map does. */
-  show(payload) {
-    const { clock: before, view: old } = this;
-    const plan = new Plan(payload);
+  /** Whether a plan is shown, not only a map. */
+  get isPlan() {
+    return this.plan instanceof Plan;
+  }
+
+  /**
+   * Show a site or the payload of a plan; with `keeps`, moment and view stay what they are. Between a
+   * map and a plan, which has less room, the view stays only where somebody has chosen it.
+   */
+  show(raw, { keeps = false } = {}) {
+    const { clock: before, view: old, isPlan: wasPlan } = this;
+    const chosen = this.choice?.robot?.name;
+    const plan = raw.metrics ? new Plan(raw) : new Site(raw);
     const clock = new Clock(plan);
-    const [choice, motion] = [new Choice(plan), new Motion(plan)];
+    const [choice, motion, words] = [new Choice(plan), new Motion(plan), new Words(plan)];
     const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
-    const view = new MapView(this.#freshCanvas(), plan, this.theme, { motion, ghosts, clock, choice });
-    Object.assign(this, { plan, clock, choice, motion, view });
+    const canvas = this.#freshCanvas();
+    Object.assign(this, { plan, clock, choice, motion, words, canvas });
+    this.player?.end();
+    this.player = this.isPlan ? new Player(this) : null;
+    if (!this.player) this.#clear();
+    const view = new MapView(canvas, plan, this.theme, { motion, ghosts, clock, choice, words, use: this.player?.use, bottleneck: this.player?.bottleneck ?? null });
+    this.view = view;
+    this.player?.begin(view);
     view.viewport.fit();
-    if (old && !old.viewport.fitted && old.roadmap.width === plan.roadmap.width && old.roadmap.height === plan.roadmap.height) {
-      const { left, top, scale } = old.viewport;
-      Object.assign(view.viewport, { left, top, scale, fitted: false });
-    }
+    if (!keeps) this.isMoved = false;
+    if (keeps && old && (this.isMoved || wasPlan === this.isPlan)) keepView(old, view);
     for (const event of ["tick", "playing"]) clock.on(event, () => this.ask());
-    choice.on("choice", () => this.repaint());
-    view.viewport.on("view", () => this.repaint());
-    if (before) clock.seek(Math.min(before.tick, clock.end));
-    if (before?.playing) clock.play();
+    for (const event of ["choice", "heat", "space", "corridor", "bottleneck"]) choice.on(event, () => this.repaint());
+    choice.on("choice", () => this.tell("choice"));
+    view.viewport.on("view", () => {
+      this.isMoved = !view.viewport.fitted;
+      this.repaint();
+    });
+    if (keeps && before && this.isPlan) {
+      clock.seek(Math.min(before.tick, clock.end));
+      if (before.playing) clock.play();
+    }
+    if (keeps && chosen !== undefined) choice.chooseRobot(plan.robots.findIndex(({ name }) => name === chosen));
+    this.tell("show");
     this.repaint();
+  }
+
+  #clear() {
+    this.below.replaceChildren();
+    this.time.replaceChildren();
+    this.card.hidden = true;
   }
 
   /** The viewer listens to its canvas for ever, so each map has one of its own. */
   #freshCanvas() {
-    const canvas = Object.assign(document.createElement("canvas"), { tabIndex: 0, role: "img" });
-    const hover = Object.assign(document.createElement("div"), { className: "hover", hidden: true });
-    hover.ariaLive = "off";
-    this.holder.replaceChildren(canvas, hover);
+    const hadFocus = this.canvas === document.activeElement;
+    const canvas = Object.assign(document.createElement("canvas"), { id: "map", tabIndex: 0 });
+    canvas.setAttribute("role", "application");
+    canvas.setAttribute("aria-roledescription", texts.mapRole);
+    canvas.setAttribute("aria-describedby", "hover");
+    this.under = Object.assign(document.createElement("canvas"), { ariaHidden: "true" });
+    this.over = Object.assign(document.createElement("canvas"), { className: "over", ariaHidden: "true" });
+    this.holder.innerHTML = LEGENDS;
+    this.holder.prepend(this.under, canvas, this.over);
+    if (hadFocus) canvas.focus();
     return canvas;
   }
 
   /** Paint again what does not move, too. */
   repaint() {
     if (this.view) this.view.base.stale = true;
+    this.player?.repaint();
     this.ask();
   }
 
@@ -66,8 +116,36 @@ export class Stage {
     this.asked = false;
     if (clock.playing) clock.advance(this.last ? Math.min(now - this.last, 100) / 1000 : 0);
     this.last = clock.playing ? now : 0;
+    if (!this.holder.clientWidth || !this.holder.clientHeight) return; // it is not in sight
     motion.moveTo(clock.tick);
+    this.#paintOn(this.under, "underlay");
     view.paint();
+    this.#paintOn(this.over, "overlay");
+    this.player?.paint();
+    this.frames++;
     if (clock.playing) this.ask();
   }
+
+  /** What others paint below or above the map, in units of the drawing. */
+  #paintOn(canvas, event) {
+    const { view } = this;
+    const { ratio } = fitCanvas(canvas);
+    const context = canvas.getContext("2d");
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    const { left, top, scale } = view.viewport;
+    context.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * left, ratio * top);
+    this.context = context;
+    this.tell(event);
+  }
+}
+
+/** Let the same place of the site be where it was, as large as it was. */
+function keepView({ viewport: before, roadmap: old }, { viewport, roadmap }) {
+  const isSame = old.width === roadmap.width && old.height === roadmap.height && old.unit === roadmap.unit;
+  if (before.fitted && isSame) return;
+  const [x, y] = toDrawing(old, ...roadmap.toSite(0, 0));
+  const { left, top, scale } = before;
+  Object.assign(viewport, { left: left + x * scale, top: top + y * scale, scale: (scale * roadmap.unit) / old.unit, fitted: false });
+  viewport.canvas.classList.add("zoomed");
 }

@@ -13,10 +13,19 @@ from fastapi import APIRouter, Body, Query, Response
 
 from rightofway.errors import InputError
 from rightofway.studio.errors import Busy, Refused
-from rightofway.studio.routes.models import Deal, Draft, FilePath, InStudio, Placed, Save, ToText
+from rightofway.studio.routes.models import (
+    Deal,
+    Draft,
+    FilePath,
+    InStudio,
+    Placed,
+    Save,
+    Survey,
+    ToText,
+)
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, checked_json
-from rightofway.studio.workspace import revision_of
+from rightofway.studio.workspace import KINDS, revision_of
 
 MAX_DRAFTS = 200
 """Drafts that are kept."""
@@ -47,7 +56,8 @@ def folder_of(path: str) -> str:
 @router.get("/files", tags=["files"])
 def list_files(studio: InStudio) -> dict[str, Any]:
     """List the files that may be opened."""
-    return {"files": [asdict(entry) for entry in studio.workspace.files()]}
+    entries, is_whole = studio.workspace.files()
+    return {"files": [asdict(entry) for entry in entries], "is_whole": is_whole}
 
 
 @router.get("/files/{path:path}", tags=["files"], response_class=Response)
@@ -67,6 +77,10 @@ def upload(
     replace: Annotated[bool, Query(description="whether a file of that name is replaced")] = False,
 ) -> dict[str, Any]:
     """Put a file into the folder, as drag and drop does; the body is its content."""
+    if PurePosixPath(path).suffix.lower() not in KINDS:
+        raise Refused(
+            f"{path[:100]!r} is no file to open (give one that ends in {', '.join(KINDS)})"
+        )
     revision = studio.workspace.write(path, content, revision=None if replace else "")
     return {"path": path, "revision": revision}
 
@@ -127,10 +141,10 @@ async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
 
 
 @router.post("/survey", tags=["documents"], response_class=Response)
-async def survey(studio: InStudio, placed: Placed) -> Response:
+async def survey(studio: InStudio, survey: Survey) -> Response:
     """Return what an editor shows at each change: faults, notes, map, robots, findings."""
-    folder = studio.place(placed.folder)
-    _, blobs = await studio.ask("survey", document=placed.document, folder=folder)
+    arguments = survey.model_dump() | {"folder": studio.place(survey.folder)}
+    _, blobs = await studio.ask("survey", **arguments)
     return Response(blobs[0], media_type="application/json")
 
 
@@ -140,15 +154,6 @@ async def inline(studio: InStudio, placed: Placed) -> dict[str, Any]:
     folder = studio.place(placed.folder)
     result, _ = await studio.ask("inline", document=placed.document, folder=folder)
     return dict(result)
-
-
-@router.post("/draw", tags=["documents"], response_class=Response)
-async def draw(studio: InStudio, placed: Placed) -> Response:
-    """Return what the viewer needs to draw the map and the robots of a document."""
-    _, blobs = await studio.ask(
-        "draw", document=placed.document, folder=studio.place(placed.folder)
-    )
-    return Response(blobs[0], media_type="application/json")
 
 
 @router.post("/deal", tags=["documents"])

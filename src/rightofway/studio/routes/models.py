@@ -53,6 +53,12 @@ class Draft(Model):
     document: Document
 
 
+class Survey(Placed):
+    """A document that somebody changes."""
+
+    inspects: bool = Field(True, description="whether findings are wanted, which take longest")
+
+
 class ToText(Placed):
     """A document that is to be converted."""
 
@@ -130,7 +136,9 @@ class NewSimulation(Model):
     name: Name = ""
     delays: list[str] = Field([], max_length=50, description="as in rightofway simulate --delays")
     runs: int = Field(1000, ge=1, le=100_000, description="a number of runs up to 100000")
-    run: int | None = Field(None, ge=0, description="the run to play, from 0")
+    run: Annotated[int, Field(ge=0)] | Literal["typical", "worst"] = Field(
+        "typical", description="the run to play, from 0, or typical or worst"
+    )
     seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
     switch: bool = False
     replan: bool = False

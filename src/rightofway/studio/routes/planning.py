@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import shlex
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator
 from contextlib import aclosing
 from typing import Annotated, Any
 
@@ -15,6 +15,7 @@ from fastapi.responses import StreamingResponse
 from rightofway.io import FOREIGN_FORMATS
 from rightofway.planners import DEFAULT, IMPROVER, find, registered
 from rightofway.studio.errors import Refused
+from rightofway.studio.events import Event
 from rightofway.studio.routes.models import (
     Flip,
     InStudio,
@@ -73,6 +74,13 @@ def list_planners() -> dict[str, Any]:
             for spec in registered().values()
         ],
     }
+
+
+@router.get("/choices", tags=["planners"])
+async def list_choices(studio: InStudio) -> dict[str, Any]:
+    """List rules of laps, notations of delays, and formats of other programs for exports."""
+    result, _ = await studio.ask("choices")
+    return dict(result)
 
 
 @router.get("/runs", tags=["runs"])
@@ -139,6 +147,12 @@ async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     return Runs.data(await studio.runs.cancel(number))
 
 
+@router.post("/runs/{number}/again", tags=["runs"], status_code=202)
+async def repeat_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
+    """Queue the same as a new run, for example after the studio went down."""
+    return Runs.data(await studio.runs.again(number))
+
+
 @router.get("/runs/{number}/events", tags=["runs"], response_class=StreamingResponse)
 async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     """Send the events of a run as they come, as server-sent events.
@@ -147,19 +161,32 @@ async def run_events(studio: InStudio, number: RunNumber) -> StreamingResponse:
     lower bound or a message. ``plan``: there is a better plan so far; get its payload. The stream
     ends when the run is over.
     """
-    events = studio.runs.listen(number)
+    return await _stream(studio.runs.listen(number))
+
+
+@router.get("/events", tags=["runs"], response_class=StreamingResponse)
+async def all_events(studio: InStudio) -> StreamingResponse:
+    """Send the events of all runs, each with the ``number`` of its run, for ever.
+
+    First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and
+    ``deleted``. A page needs no other stream: browsers have six connections to a server.
+    """
+    return await _stream(studio.runs.listen_to_all())
+
+
+async def _stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
     first = await anext(events)
 
-    async def stream() -> AsyncIterator[str]:
+    async def lines() -> AsyncIterator[str]:
         async with aclosing(events):
             yield _line(first)
             async for event in events:
                 yield _line(event)
 
-    return StreamingResponse(stream(), media_type="text/event-stream")
+    return StreamingResponse(lines(), media_type="text/event-stream")
 
 
-def _line(event: tuple[str, dict[str, Any]] | None) -> str:
+def _line(event: Event | None) -> str:
     return ":\n\n" if event is None else f"event: {event[0]}\ndata: {json.dumps(event[1])}\n\n"
 
 
@@ -228,8 +255,9 @@ async def export_run(studio: InStudio, number: RunNumber, form: str) -> Response
 @router.get("/runs/{number}/document", tags=["plans"])
 async def run_document(studio: InStudio, number: RunNumber) -> dict[str, Any]:
     """Return the document that a run was made from, so that it can be changed."""
-    found = json.loads(await studio.runs.blob(number, "arguments"))
-    if "document" not in found:
+    if studio.runs.get(number).kind in {"plan", "laps"}:
+        found = json.loads(await studio.runs.blob(number, "arguments"))
+    else:  # made from a plan, in which the scenario is whole
         plan = json.loads(await studio.runs.blob(number, "plan"))
         found = {"document": plan["scenario"], "folder": "."}
     return {"document": found["document"], "folder": found["folder"].removeprefix(".")}
@@ -265,7 +293,7 @@ def command_of(run: Run) -> str:
         for name, value in request["options"].items():
             words += ["--option", f"{name}={value}"]
     for key in ("rule", "routes", "runs", "run", "seed"):
-        if request.get(key) is not None:
+        if request.get(key) not in {None, "typical", "worst"}:
             words += [f"--{key}", str(request[key])]
     for delay in request.get("delays", ()):
         words += ["--delays", delay]

@@ -1,7 +1,7 @@
 """What workers can do, by name: a task takes ``emit``, blobs and arguments, and returns a result.
 
 The result is plain data, with blobs after it where there are some. Faults are raised as everywhere
-in the library; `rightofway.studio.worker` turns them into data.
+in the library; `rightofway.studio.messages` turns them into data.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ TASKS: dict[str, Task] = {
     "open": documents.opened,
     "validate": documents.validated,
     "inspect": documents.inspected,
-    "draw": documents.drawn,
     "survey": editing.surveyed,
     "inline": editing.inlined,
     "write": documents.written,
@@ -26,6 +25,7 @@ TASKS: dict[str, Task] = {
     "improve": planning.improve,
     "laps": planning.laps,
     "simulate": planning.simulate,
+    "choices": planning.choices,
     "payload": views.payload,
     "page": views.page,
     "export": views.exported,

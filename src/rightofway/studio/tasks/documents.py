@@ -29,10 +29,7 @@ from rightofway.io.sites import sites_of
 from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan
-from rightofway.planners.impossible import fleet_at_home
-from rightofway.studio.worker import Blobs, Emit, fault_data
-from rightofway.viz.page.document import compact_json
-from rightofway.viz.page.payload import payload_of
+from rightofway.studio.messages import Blobs, Emit, fault_data
 
 Result = tuple[Any, ...]
 
@@ -127,13 +124,6 @@ def inspected(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Resu
     )
 
 
-def drawn(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, title: str = "") -> Result:
-    """Return what the viewer needs to draw a document: its robots stay at their homes."""
-    payload = payload_of(fleet_at_home(loaded_of(document, folder).scenario), title=title)
-    payload["faults"] = {"count": 0, "kinds": {}, "listed": []}  # of a plan, and there is none
-    return (None, compact_json(payload).encode())
-
-
 def written(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, name: str) -> Result:
     """Return the text of a document as a file of some name has it: .yaml, .yml, .json or .xlsx."""
     suffix = Path(name).suffix.lower()
@@ -157,4 +147,5 @@ def figures(plan: Plan) -> dict[str, Any]:
         "makespan": metrics.makespan,
         "lower_bound": metrics.lower_bound,
     }
-    return {**costs, "text": {key: duration(ticks) for key, ticks in costs.items()}}
+    text = {key: duration(ticks) for key, ticks in costs.items()}
+    return {**costs, "text": {**text, "gap": f"{metrics.gap:.1%}" if metrics.lower_bound else ""}}

@@ -12,8 +12,8 @@ from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
+from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import figures
-from rightofway.studio.worker import Blobs, Emit
 from rightofway.viz import page_of, write_gif, write_page, write_png
 from rightofway.viz.page.document import compact_json
 from rightofway.viz.page.payload import payload_of
@@ -75,7 +75,10 @@ def summary(_emit: Emit, blobs: Blobs) -> Result:
 
 
 def compared(_emit: Emit, blobs: Blobs) -> Result:
-    """Return what plans cost, and each robot's completion time in each of them [time unit]."""
+    """Return what plans cost, and each robot's completion time in each of them [time unit].
+
+    Costs in ``time`` are in time units, too: the ticks of two scenarios may differ.
+    """
     plans = [read(blob) for blob in blobs]
     times: dict[str, list[float | None]] = {}
     for place, plan in enumerate(plans):
@@ -84,4 +87,11 @@ def compared(_emit: Emit, blobs: Blobs) -> Result:
             row = times.setdefault(robot.name, [None] * len(plans))
             row[place] = float(ticks * tick)
     robots = [{"name": name, "completion": row} for name, row in times.items()]
-    return ({"plans": list(map(figures, plans)), "robots": robots},)
+    costs = [{**figures(plan), "time": _times(plan)} for plan in plans]
+    return ({"plans": costs, "robots": robots},)
+
+
+def _times(plan: Plan) -> dict[str, float]:
+    tick = plan.scenario.problem.clock.tick
+    costs = {"flowtime": plan.flowtime, "makespan": plan.makespan}
+    return {key: float(ticks * tick) for key, ticks in costs.items()}

@@ -1,0 +1,157 @@
+"""What is nearer on a site than its robots are wide: vertices, lanes, walls; and crossings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from math import dist
+
+import numpy as np
+
+from rightofway.metrics.site import Finding, Site
+from rightofway.model import Roadmap
+from rightofway.model.geometry import squared_distance
+from rightofway.model.resources import ClosePairs, close_pairs
+from rightofway.model.spacing import along_one_lane
+from rightofway.model.walls import reaches_walls
+
+TOUCHING = Fraction(1, 10**6)
+"""Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
+
+ROUNDED = 10**6
+"""Distances in sentences are rounded to this part of a length unit."""
+
+MOST_NAMED = 200
+"""The most vertices that a finding names."""
+
+
+def nearness(site: Site) -> Iterator[Finding]:
+    """Yield vertices, lanes and walls that are nearer than robots are wide, and lanes that cross.
+
+    Parameters
+    ----------
+    site
+        The site.
+    """
+    yield from _beside_walls(site)
+    yield from _near(site)
+
+
+def _beside_walls(site: Site) -> Iterator[Finding]:
+    """Yield for each radius where a robot would reach into the walls of a grid."""
+    roadmap, length = site.roadmap, site.units.written_length
+    if roadmap.grid is None or site.rules.walls == "strict":
+        return
+    wide = {it.radius for it in site.robots if 2 * it.radius > roadmap.grid.cell_size}
+    for radius in sorted(wide):
+        reaches = np.flatnonzero(reaches_walls(roadmap, radius)).tolist()
+        if reaches:
+            cells = "1 cell" if len(reaches) == 1 else f"{len(reaches)} cells"
+            yield Finding(
+                kind="too near",
+                severity="warning",
+                fact=f"A robot of radius {length(radius)} reaches into walls in {cells},"
+                f" for example in {site.name(reaches[0])}",
+                remedy="set walls: strict, so that it keeps out of them, or take larger cells",
+                vertices=site.names(reaches[:MOST_NAMED]),
+                robots=tuple(it.name for it in site.robots if it.radius == radius),
+            )
+
+
+def _near(site: Site) -> Iterator[Finding]:
+    """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
+    roadmap, room = site.roadmap, site.room
+    length = site.units.written_length
+    need = ""
+    if room:
+        sizes = " and ".join(length(each) for each in dict.fromkeys(site.radii))
+        with_room = f" and {length(site.rules.clearance)} apart" if site.rules.clearance else ""
+        need = f"robots of radius {sizes}{with_room} need {length(room)}"
+    size = smallest_cell(roadmap)
+    if size is not None:
+        cells = "cells" if roadmap.sides is None else "the smallest cells"
+        if size < room:
+            yield Finding(
+                kind="too near",
+                severity="warning",
+                fact=f"The middles of {cells} are {length(size)} apart; {need}",
+                remedy="take larger cells, or smaller robots",
+            )
+        return
+    pairs = close_pairs(roadmap, room or TOUCHING)
+    yield from _near_vertices(site, pairs, need)
+    for vertex, (tail, head) in pairs.beside:
+        if along_one_lane(site.names((vertex, tail, head))):
+            continue
+        lane = f"the lane {roadmap.name(tail)} to {roadmap.name(head)}"
+        beside = (
+            f"{site.name(vertex)} is too near to {lane}; {need}"
+            if need
+            else f"{site.name(vertex)} lies on {lane} and is no end of it"
+        )
+        yield Finding(
+            kind="too near",
+            severity="warning",
+            fact=beside,
+            remedy="a robot on one blocks the other; move one" if need else "split the lane there",
+            vertices=site.names((vertex, tail, head)),
+        )
+    for lanes in pairs.crossings:
+        one, other = (" to ".join(site.names(lane)) for lane in lanes)
+        yield Finding(
+            kind="crossing",
+            severity="note" if need else "warning",
+            fact=f"The lanes {one} and {other} cross without a vertex",
+            remedy="robots wait for each other there; a vertex lets them wait nearer"
+            if need
+            else "draw a vertex there, or give robots a radius: without one they do not give way",
+            vertices=site.names(vertex for lane in lanes for vertex in lane),
+        )
+
+
+def smallest_cell(roadmap: Roadmap) -> Fraction | None:
+    """Return the side of the smallest cells, None where vertices are no cells."""
+    if roadmap.grid is not None:
+        return roadmap.grid.cell_size
+    return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
+
+
+def _near_vertices(site: Site, pairs: ClosePairs, need: str) -> Iterator[Finding]:
+    roadmap = site.roadmap
+    for one, other in pairs.vertices:
+        if along_one_lane(site.names((one, other))):
+            continue
+        apart = site.units.written_length(rounded_distance(roadmap, one, other))
+        both_homes = _homes_clash(site, one, other)
+        is_joined = roadmap.edge(one, other) is not None or roadmap.edge(other, one) is not None
+        are_places = one in site.places and other in site.places
+        if need:
+            fact = f"{site.name(one)} and {site.name(other)} are {apart} apart; {need}"
+        else:
+            fact = f"{site.name(one)} and {site.name(other)} are the same point"
+        yield Finding(
+            kind="too near",
+            severity="error"
+            if both_homes
+            else "note"
+            if is_joined and not are_places
+            else "warning",
+            fact=fact,
+            remedy="move one, or use smaller robots" if need else "make them one vertex",
+            vertices=site.names((one, other)),
+        )
+
+
+def _homes_clash(site: Site, one: int, other: int) -> bool:
+    """Whether robots live at two vertices that are nearer than just these robots need."""
+    radius = {int(robot.home): robot.radius for robot in site.robots}
+    if not {one, other} <= radius.keys() or not radius[one] + radius[other]:
+        return False
+    at = site.roadmap.point(one), site.roadmap.point(other)
+    return squared_distance(*at) < (radius[one] + radius[other] + site.rules.clearance) ** 2
+
+
+def rounded_distance(roadmap: Roadmap, one: int, other: int) -> Fraction:
+    """Return the distance of two vertices, rounded for people [length unit]."""
+    away = dist(roadmap.positions[one].tolist(), roadmap.positions[other].tolist())
+    return Fraction(round(away * ROUNDED), ROUNDED)

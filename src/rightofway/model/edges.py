@@ -1,0 +1,188 @@
+"""Roadmaps of named vertices and directed edges."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+import numpy as np
+
+from rightofway.errors import InputError
+from rightofway.model.geometry import Frame
+from rightofway.model.units import VertexId
+from rightofway.model.values import coerced, names, number, optional
+from rightofway.model.zones import NamedZone, zones_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+from rightofway.model.roadmap import Roadmap
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edge:
+    """A way from one named vertex to another.
+
+    Attributes
+    ----------
+    tail, head
+        Names of the vertices it leaves and enters.
+    length
+        Its length [length unit], positive.
+    max_speed
+        Speed limit [length unit per time unit], positive; None for none.
+    barred
+        Types of robots that may not use it.
+    surcharge
+        What makes it less liked, not slower [time unit], not negative.
+    """
+
+    tail: str
+    head: str
+    length: Fraction
+    max_speed: Fraction | None = None
+    barred: frozenset[str] = frozenset()
+    surcharge: Fraction = Fraction(0)
+
+    def __post_init__(self) -> None:
+        source = f"edge {self.tail!r} to {self.head!r}"
+        coerced(
+            self, source, length=number, max_speed=optional(number), barred=names, surcharge=number
+        )
+
+
+def roadmap_of_edges(
+    positions: Mapping[str, tuple[float, float]],
+    edges: Sequence[Edge],
+    *,
+    y_up: bool = False,
+    zones: Sequence[NamedZone] = (),
+    pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
+    sides: Sequence[float] | None = None,
+    frame: Frame | None = None,
+    barred: Mapping[str, Collection[str]] | None = None,
+    surcharges: Mapping[str, Fraction] | None = None,
+) -> Roadmap:
+    """Make a roadmap of named vertices and directed edges.
+
+    Parameters
+    ----------
+    positions
+        Name and (x, y) of every vertex in the site's frame [length unit]; the order gives the
+        vertex ids.
+    edges
+        Directed edges; their order decides between equally short paths.
+    y_up
+        Whether y grows upwards in the site's frame.
+    zones
+        Vertices and edges that hold one robot at a time. A lane that was split may be named.
+    pieces
+        Tail and head of every piece of each lane that was split, by tail and head of the lane.
+    sides
+        Side of the square cell round each vertex [length unit]; None without cells.
+    frame
+        The frame that the positions are relative to, by default the site's; ``y_up`` is its own.
+    barred
+        Names of vertices with the types of robots that may not be there.
+    surcharges
+        Names of vertices with what is added to the surcharge of each edge into them [time unit].
+
+    Raises
+    ------
+    InputError
+        For no vertex, an edge from or to nowhere, to itself, of no length, or given twice; and for
+        zones of vertices and edges that the roadmap does not have.
+    """
+    ids = {name: vertex for vertex, name in enumerate(positions)}
+    _check_edges(ids, edges)
+    barred, surcharges = dict(barred or {}), dict(surcharges or {})
+    if barred or surcharges:
+        edges = [
+            replace(
+                edge,
+                barred=edge.barred.union(barred.get(edge.head, ())),
+                surcharge=edge.surcharge + surcharges.get(edge.head, 0),
+            )
+            for edge in edges
+        ]
+    # Floats first: fractions are slow to compare, and only equal floats need it.
+    classes = sorted(
+        {_edge_class(edge) for edge in edges},
+        key=lambda one: (
+            float(one.length),
+            one.length,
+            one.max_speed or 0,
+            sorted(one.barred),
+            one.surcharge,
+        ),
+    )
+    class_of = {each: index for index, each in enumerate(classes)}
+    ordered = sorted(edges, key=lambda edge: ids[edge.tail])  # stable: keeps the given order
+    degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
+    down = (1.0, -1.0 if y_up else 1.0)
+    both_ends = {(edge.tail, edge.head) for edge in edges}
+    return Roadmap(
+        indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
+        heads=np.array([ids[edge.head] for edge in ordered], np.int32),
+        length_class=np.array([class_of[_edge_class(edge)] for edge in ordered], np.int32),
+        lengths=tuple(one.length for one in classes),
+        speed_limits=_unless_all(None, [one.max_speed for one in classes]),
+        barred=_unless_all(frozenset(), [one.barred for one in classes]),
+        surcharges=_unless_all(Fraction(0), [one.surcharge for one in classes]),
+        barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
+        positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
+        labels=tuple(positions),
+        frame=frame or Frame(y_up=y_up),
+        sides=None if sides is None else np.array(sides, np.float64),
+        zones=zones_of(zones, ids, both_ends, pieces or {}) if zones else (),
+    )
+
+
+class _EdgeClass(NamedTuple):
+    """What edges of one length class have in common."""
+
+    length: Fraction
+    max_speed: Fraction | None
+    barred: frozenset[str]
+    surcharge: Fraction
+
+
+def _edge_class(edge: Edge) -> _EdgeClass:
+    return _EdgeClass(edge.length, edge.max_speed, edge.barred, edge.surcharge)
+
+
+def _unless_all(usual: T, values: Sequence[T]) -> tuple[T, ...]:
+    """Return the values, or nothing where all are as usual."""
+    return () if all(value == usual for value in values) else tuple(values)
+
+
+def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
+    if not ids:
+        raise InputError.at("", "the roadmap has no vertex (give at least one)")
+    seen: set[tuple[str, str]] = set()
+    for index, edge in enumerate(edges):
+        fault = _edge_fault(edge, ids, seen)
+        if not fault and edge.surcharge < 0:
+            fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"
+        if fault:
+            raise InputError.at(f"edges[{index}]", fault)
+        seen.add((edge.tail, edge.head))
+
+
+def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) -> str | None:
+    for end in (edge.tail, edge.head):
+        if end not in ids:
+            return f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
+    if edge.tail == edge.head:
+        return f"leads from {edge.tail!r} to itself (take it out)"
+    if edge.length <= 0:
+        return f"length {edge.length} is not positive (give a length above 0)"
+    if edge.max_speed is not None and edge.max_speed <= 0:
+        return f"max_speed {edge.max_speed} is not positive (give a speed above 0)"
+    if (edge.tail, edge.head) in seen:
+        return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
+    return None

@@ -1,0 +1,77 @@
+"""Robots wider than a cell beside the walls of a grid.
+
+A robot of radius r at the centre of a free cell reaches into a blocked cell, or over the border of
+the grid, where that is nearer than r. A drive between two cells comes no nearer to any blocked cell
+than its ends do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rightofway.model.roadmap import Roadmap
+
+
+@lru_cache(maxsize=8)
+def reaches_walls(roadmap: Roadmap, radius: Fraction) -> NDArray[np.bool_]:
+    """Return at which vertices a robot reaches into a blocked cell or over the border.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap of a grid.
+    radius
+        Radius of the robot [length unit].
+
+    Returns
+    -------
+    ndarray
+        Booleans, shape (V,). Discs may touch walls.
+    """
+    grid = roadmap.grid
+    assert grid is not None, "only grids have walls"
+    reach = 2 * radius / grid.cell_size  # in half cells, as are gaps
+    steps = max(ceil((reach - 1) / 2), 0)
+    blocked = np.pad(
+        grid.vertex_at.reshape(grid.rows, grid.columns) < 0, steps, constant_values=True
+    )
+    found = np.zeros((grid.rows, grid.columns), bool)
+    for down in range(-steps, steps + 1):
+        for right in range(-steps, steps + 1):
+            gaps = (max(2 * abs(each) - 1, 0) for each in (down, right))
+            if sum(gap**2 for gap in gaps) < reach**2:
+                top, left = steps + down, steps + right
+                found |= blocked[top : top + grid.rows, left : left + grid.columns]
+    reaches: NDArray[np.bool_] = found.ravel()[grid.cells]
+    return reaches
+
+
+def clear_of_walls(roadmap: Roadmap, radii: Collection[Fraction]) -> Roadmap:
+    """Return the same grid with edges barred for robots that would reach into walls.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap of a grid.
+    radii
+        Radius of each robot [length unit].
+    """
+    grid = roadmap.grid
+    assert grid is not None, "only grids have walls"
+    wide = sorted({radius for radius in radii if 2 * radius > grid.cell_size})
+    if not wide:
+        return roadmap
+    fits = sum((~reaches_walls(roadmap, radius)).astype(np.int32) for radius in wide)
+    return replace(
+        roadmap,
+        length_class=np.asarray(fits, np.int32)[roadmap.heads],
+        lengths=(grid.cell_size,) * (len(wide) + 1),
+        widest=(grid.cell_size / 2, *wide[:-1], None),
+    )

@@ -1,0 +1,183 @@
+/** The scenario that is edited: plain data, undo and redo, a draft, and what the library says about it. */
+
+import { Observable } from "./viewer/observable.js";
+import { get, inAddress, post, put, remove } from "./api.js";
+
+const MANY = 2000; // vertices from which on findings come after the map
+
+const UNKNOWN = Object.freeze({ ok: true, faults: [], notes: [], site: null, findings: [], sentences: [] });
+
+/**
+ * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
+ * Events: `document` when another one is shown, `survey` when the library has looked at it, `findings` when
+ * those of a large map come after that, `trouble`.
+ */
+export class ScenarioStore extends Observable {
+  document = null;
+  folder = "";
+  path = ""; // the file that it is saved to; empty until it has a name
+  revision = null; // of that file; empty if there must be none
+  survey = UNKNOWN;
+  site = null; // the last map that could be drawn
+  opened = 0; // how many documents have been opened
+
+  #past = [];
+  #future = [];
+  #saved = null;
+  #draft = "";
+  #work = { survey: new Latest(() => this.#look()), findings: new Latest(() => this.#inspect()), draft: new Latest(() => this.#keep()) };
+
+  /** Begin with a document; one that is not in a file yet counts as changed. */
+  open({ document, folder = "", path = "", revision = "", draft = "" }) {
+    Object.assign(this, { document, folder, path, revision, survey: UNKNOWN, site: null });
+    this.opened++;
+    this.#past = [];
+    this.#future = [];
+    this.#saved = revision ? document : null;
+    this.#draft = draft || path || `new ${new Date().toISOString().slice(0, 19).replace("T", " ")}`;
+    this.tell("document");
+    this.#work.survey.ask();
+  }
+
+  /** Change the document by a function; nothing happens if it returns what it was given. */
+  change(edit) {
+    const next = edit(this.document);
+    if (next === this.document) return;
+    this.#past.push(this.document);
+    this.#future = [];
+    this.#show(next);
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  get isSaved() {
+    return this.document === this.#saved;
+  }
+
+  undo() {
+    if (!this.canUndo) return;
+    this.#future.push(this.document);
+    this.#show(this.#past.pop());
+  }
+
+  redo() {
+    if (!this.canRedo) return;
+    this.#past.push(this.document);
+    this.#show(this.#future.pop());
+  }
+
+  /** Save under the present path; the draft is not needed any more. */
+  async save() {
+    const { document, folder, path, revision } = this;
+    const saved = await put(`/documents/${inAddress(path)}`, { document, folder, revision });
+    this.revision = saved.revision;
+    this.#saved = document;
+    await remove(`/drafts/${inAddress(this.#draft)}`).catch(() => {});
+    this.#draft = path;
+    this.tell("document");
+  }
+
+  /** Save to another file from now on, which must not be there yet. */
+  rename(path) {
+    if (path === this.path) return;
+    Object.assign(this, { path, revision: "" });
+    this.#saved = null;
+    this.tell("document");
+  }
+
+  /** Faults at a place of the document and below it; an empty fleet is no fault while one draws. */
+  faultsAt(place) {
+    return this.faults.filter((fault) => fault.place === place || fault.place.startsWith(`${place}.`) || fault.place.startsWith(`${place}[`));
+  }
+
+  get faults() {
+    const isEmpty = Array.isArray(this.document?.robots) && !this.document.robots.length;
+    return this.survey.faults.filter(({ place }) => !(isEmpty && place === "robots"));
+  }
+
+  /** Resolves when the library has looked at the present document. */
+  settled() {
+    return this.#work.survey.idle();
+  }
+
+  #show(document) {
+    this.document = document;
+    this.tell("document");
+    this.#work.survey.ask();
+    this.#work.draft.ask();
+  }
+
+  async #look() {
+    const { document, folder, opened } = this;
+    try {
+      const { findings, sentences } = this.survey;
+      const isLarge = !this.site || sizeOf(this.site.map) > MANY; // or not known yet
+      const survey = await post("/survey", { document, folder, inspects: !isLarge });
+      if (opened !== this.opened) return;
+      Object.assign(this, { survey: isLarge ? { ...survey, findings, sentences } : survey, site: survey.site ?? this.site });
+      this.tell("survey");
+      if (isLarge) this.#work.findings.ask();
+    } catch (trouble) {
+      this.trouble = trouble;
+      this.tell("trouble");
+    }
+  }
+
+  /** Find out what will hurt on a large map, which takes longer than to draw it. */
+  async #inspect() {
+    const { document, folder } = this;
+    const { findings, sentences } = await post("/survey", { document, folder }).catch(() => UNKNOWN);
+    if (document !== this.document) return;
+    this.survey = { ...this.survey, findings, sentences };
+    this.tell("findings");
+  }
+
+  async #keep() {
+    try {
+      await put(`/drafts/${inAddress(this.#draft)}`, { document: this.document });
+      this.isKept = true;
+    } catch (trouble) {
+      this.trouble = trouble;
+      this.tell("trouble");
+    }
+  }
+}
+
+/** How many vertices a map has, at most. */
+const sizeOf = ({ rows, names }) => (rows ? rows.length * rows[0].length : names.length);
+
+/** Work on what is the latest: while one round goes on, any number of requests make one more. */
+class Latest {
+  #running = null;
+  #again = false;
+
+  constructor(work) {
+    this.work = work;
+  }
+
+  ask() {
+    if (this.#running) this.#again = true;
+    else this.#running = this.#run();
+  }
+
+  async idle() {
+    while (this.#running) await this.#running;
+  }
+
+  async #run() {
+    do {
+      this.#again = false;
+      await this.work();
+    } while (this.#again);
+    this.#running = null;
+  }
+}
+
+/** What has been drawn and not saved, the latest first. */
+export const drafts = async () => (await get("/drafts")).drafts;

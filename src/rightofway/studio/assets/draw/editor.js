@@ -1,0 +1,259 @@
+/** Drawing on the map: the tool in hand, pointer and keys, what is selected. Every change goes through the store. */
+
+import { Observable } from "../viewer/observable.js";
+import { RobotTool } from "../robots/tool.js";
+import { PickTool } from "./backdrop.js";
+import { groundOf } from "./ground.js";
+import { Hits } from "./hits.js";
+import { LaneTool, MarkTool, VertexTool } from "./network_tools.js";
+import { isNetwork } from "./network.js";
+import { paintFaults, paintSelection } from "./overlay.js";
+import { Selection } from "./selection.js";
+import { SelectTool } from "./select_tool.js";
+import { BoxTool, BrushTool, DoorTool, EraseTool, LineTool } from "./cell_tools.js";
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+/** Events: `editor` when tool, selection or what is drawn at the moment changes. */
+export class Editor extends Observable {
+  constructor(store, stage) {
+    super();
+    Object.assign(this, { store, stage });
+    this.selection = new Selection();
+    this.cursor = null; // of the keyboard, in units of the drawing
+    this.isOn = true;
+    this.message = "";
+    const tools = [SelectTool, BrushTool, BoxTool, LineTool, DoorTool, EraseTool, VertexTool, LaneTool, MarkTool, RobotTool, PickTool];
+    this.tools = new Map(tools.map((Tool) => [Tool.called, new Tool(this)]));
+    this.tool = this.tools.get("select");
+    store.on("survey", () => (this.done = null));
+    store.on("document", () => this.#forget());
+    stage.on("overlay", () => this.#paint());
+    this.#listen(stage.holder);
+  }
+
+  #hits = null;
+  #touches = new Map();
+  #held = null; // the pointer that the tool follows
+  #panning = false;
+
+  /** Whether there is a map that can be drawn on. */
+  get isReady() {
+    return this.isOn && Boolean(this.store.site && this.stage.view);
+  }
+
+  get document() {
+    return this.store.document;
+  }
+
+  get roadmap() {
+    return this.stage.plan.roadmap;
+  }
+
+  /** What can be blocked and freed, or null. */
+  get ground() {
+    return groundOf(this.document, this.roadmap);
+  }
+
+  /** The tools that fit the map: names, in order. */
+  get fitting() {
+    const { document } = this;
+    const cells = document.map.grid || document.map.floor ? ["line", "brush", "box", "door", "erase"] : [];
+    const lanes = isNetwork(document) ? ["vertex", "lane", "mark"] : [];
+    return ["select", ...cells, ...lanes, "robot"];
+  }
+
+  /** What is where, in the document as it is drawn. */
+  get hits() {
+    if (this.#hits?.document !== this.document || this.#hits.roadmap !== this.roadmap) this.#hits = new Hits(this.document, this.roadmap);
+    return this.#hits;
+  }
+
+  take(name) {
+    if (!this.fitting.includes(name)) return;
+    this.tool.cancel();
+    this.tool = this.tools.get(name);
+    this.say("");
+  }
+
+  /** Say what happens next, or what was done. */
+  say(message) {
+    this.message = message;
+    this.changed();
+  }
+
+  changed() {
+    this.stage.ask();
+    this.tell("editor");
+  }
+
+  /** The vertex at a point of the drawing, near enough to be meant, or -1. */
+  vertexAt({ x, y }) {
+    return this.hits.vertexAt(x, y, this.stage.view.viewport.scale);
+  }
+
+  select(items) {
+    this.selection.set(items);
+    const [robot] = this.selection.of("robot");
+    if (this.isReady) this.stage.choice.chooseRobot(this.store.site.robots.findIndex(({ index }) => index === robot));
+    this.changed();
+  }
+
+  remove() {
+    this.tools.get("select").remove();
+  }
+
+  /** A document that was undone may lack what was selected. */
+  #forget() {
+    const { robots } = this.document;
+    this.selection.set(this.selection.items.filter(({ kind, id }) => kind !== "robot" || id < (robots?.length ?? 0)));
+    this.changed();
+  }
+
+  #listen(holder) {
+    const on = (name, action) => holder.addEventListener(name, (event) => this.isReady && action(event), true);
+    on("pointerdown", (event) => this.#down(event));
+    on("pointermove", (event) => this.#move(event));
+    on("pointerup", (event) => this.#up(event));
+    on("pointercancel", (event) => this.#drop(event));
+    on("keydown", (event) => this.#key(event));
+    on("contextmenu", (event) => event.preventDefault());
+    document.addEventListener("keyup", (event) => event.code === "Space" && (this.#panning = false));
+  }
+
+  #point(event) {
+    const { left, top } = this.stage.holder.getBoundingClientRect();
+    const { viewport } = this.stage.view;
+    return { x: viewport.toX(event.clientX - left), y: viewport.toY(event.clientY - top), isMore: event.shiftKey, isFree: event.altKey };
+  }
+
+  /** The first button and the first finger draw; the others, and two fingers, move the map. */
+  #down(event) {
+    if (event.button !== 0 || this.#panning) return;
+    event.stopPropagation();
+    event.preventDefault();
+    this.stage.canvas.focus({ preventScroll: true });
+    this.#touches.set(event.pointerId, event);
+    this.stage.holder.setPointerCapture(event.pointerId);
+    if (this.#touches.size > 1) return this.#abandon();
+    this.#held = event.pointerId;
+    this.cursor = null;
+    this.tool.press(this.#point(event));
+    this.changed();
+  }
+
+  #move(event) {
+    if (!this.#touches.has(event.pointerId)) {
+      if (!event.buttons) this.#hover(event);
+      return;
+    }
+    event.stopPropagation();
+    const before = this.#span();
+    this.#touches.set(event.pointerId, event);
+    if (this.#touches.size > 1) return this.#pinch(before, this.#span());
+    if (event.pointerId !== this.#held) return;
+    this.tool.drag(this.#point(event));
+    this.stage.ask();
+  }
+
+  #hover(event) {
+    this.tool.hover(this.#point(event));
+    this.stage.ask();
+  }
+
+  #up(event) {
+    if (!this.#touches.delete(event.pointerId)) return;
+    event.stopPropagation();
+    if (event.pointerId !== this.#held) return;
+    this.#held = null;
+    this.tool.release(this.#point(event));
+    this.changed();
+  }
+
+  #drop(event) {
+    this.#touches.delete(event.pointerId);
+    this.#abandon();
+  }
+
+  #abandon() {
+    this.#held = null;
+    this.tool.cancel();
+    this.changed();
+  }
+
+  #span() {
+    const [one, two] = this.#touches.values();
+    if (!two) return null;
+    const { left, top } = this.stage.holder.getBoundingClientRect();
+    return {
+      x: (one.clientX + two.clientX) / 2 - left, y: (one.clientY + two.clientY) / 2 - top,
+      length: Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY),
+    };
+  }
+
+  #pinch(before, after) {
+    if (!before || !after) return;
+    const { viewport } = this.stage.view;
+    viewport.pan(after.x - before.x, after.y - before.y);
+    viewport.zoom(after.length / before.length, after.x, after.y);
+  }
+
+  /** Arrow keys move a cursor; Enter does there what the pointer does, press and release in turn. */
+  #key(event) {
+    const arrow = ARROWS[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (arrow) this.#moveCursor(arrow, event.shiftKey);
+    else if (event.key === "Enter" && this.cursor) this.#pressAtCursor();
+    else if (event.key === "Delete" || event.key === "Backspace") this.remove();
+    else if (event.key === "Escape") this.escape();
+    else if (event.code === "Space") this.#panning = true;
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** Give up what has begun; else select nothing; else take the tool that selects. */
+  escape() {
+    if (this.tool.isBusy) this.tool.cancel();
+    else if (this.selection.size) this.select([]);
+    else this.take("select");
+    this.changed();
+  }
+
+  #moveCursor([right, down], isFar) {
+    const { roadmap, stage } = this;
+    const side = this.ground?.side ?? 1;
+    const step = isFar ? 5 * side : side;
+    if (this.cursor) this.cursor = { x: this.cursor.x + right * step, y: this.cursor.y + down * step };
+    else this.cursor = roadmap.size ? { x: roadmap.x[0], y: roadmap.y[0] } : { x: 0, y: 0 };
+    stage.view.viewport.show(this.cursor.x, this.cursor.y);
+    if (this.tool.isBusy) this.tool.drag(this.cursor);
+    else this.tool.hover(this.cursor);
+    const vertex = this.vertexAt(this.cursor);
+    this.say(vertex < 0 ? roadmap.toSite(this.cursor.x, this.cursor.y).map((length) => length.toFixed(2)).join(", ")
+      : [roadmap.label(vertex), roadmap.uses(vertex), ...this.hits.namesAt(vertex)].filter(Boolean).join(", "));
+  }
+
+  #pressAtCursor() {
+    if (this.tool.isBusy || !this.tool.isDrawn) {
+      if (!this.tool.isBusy) this.tool.press(this.cursor);
+      this.tool.release(this.cursor);
+    } else this.tool.press(this.cursor);
+    this.changed();
+  }
+
+  #paint() {
+    if (!this.isReady) return;
+    const { context, theme, view } = this.stage;
+    const { scale } = view.viewport;
+    paintFaults(context, this, scale);
+    this.done?.(context, scale);
+    paintSelection(context, this, scale);
+    this.tool.paint(context, theme, scale);
+    if (!this.cursor) return;
+    const side = this.ground?.side ?? 24 / scale;
+    context.strokeStyle = theme.ink;
+    context.lineWidth = 2 / scale;
+    context.strokeRect(this.cursor.x - side / 2, this.cursor.y - side / 2, side, side);
+  }
+}

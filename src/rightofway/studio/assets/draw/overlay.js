@@ -1,0 +1,91 @@
+/** What an editor shows above the map: what is selected, and what the library says about places. */
+
+import { ring } from "../viewer/shapes.js";
+import { cellOf } from "./ground.js";
+
+const MOST_SIGNS = 300;
+const SIGNS = { error: "✕", warning: "!", fault: "✕" };
+
+/** Rings round what is selected, boxes round obstacles, bands along lanes. */
+export function paintSelection(context, editor, scale) {
+  const { hits, selection, roadmap, stage } = editor;
+  context.strokeStyle = stage.theme.ink;
+  for (const item of selection.items) {
+    context.lineWidth = 2 / scale;
+    const vertex = hits.vertexOf(item);
+    if (vertex >= 0) ring(context, roadmap.x[vertex], roadmap.y[vertex], radiusAt(roadmap, vertex, scale));
+    else if (item.kind === "cell") context.strokeRect(...hits.ground.boxOf(cellOf(item.id)));
+    else if (item.kind === "obstacle" && hits.obstacles[item.id]) context.strokeRect(...hits.obstacles[item.id]);
+    else if (item.kind === "lane" && hits.lanes[item.id]) band(context, roadmap, hits.lanes[item.id], 5 / scale);
+    if (item.kind === "robot" && vertex >= 0) route(context, roadmap, hits.robots[item.id], scale);
+  }
+}
+
+/** Signs at the places of faults and findings; a tip says which, and the list has the words. */
+export function paintFaults(context, { store, hits, roadmap, stage }, scale) {
+  const signs = [];
+  for (const { place } of store.faults) {
+    const robot = /^robots\[(\d+)\]/.exec(place);
+    if (robot && hits.robots[robot[1]]) {
+      const { home, stops } = hits.robots[robot[1]];
+      signs.push([home >= 0 ? home : stops.find((stop) => stop >= 0) ?? -1, "fault"]);
+    }
+    const lane = /^map\.roadmap\.edges\[(\d+)\]/.exec(place);
+    context.strokeStyle = stage.theme.held;
+    if (lane && hits.lanes[lane[1]]) band(context, roadmap, hits.lanes[lane[1]], 4 / scale);
+    const box = /^map\.floor\.obstacles\[(\d+)\]/.exec(place);
+    context.lineWidth = 2.5 / scale;
+    if (box && hits.obstacles[box[1]]) context.strokeRect(...hits.obstacles[box[1]]);
+  }
+  for (const { severity, vertices } of store.survey.findings) {
+    if (SIGNS[severity]) signs.push(...vertices.slice(0, 4).map((name) => [roadmap.vertexNamed(name), severity]));
+  }
+  const marked = new Set();
+  for (const [vertex, kind] of signs.slice(0, MOST_SIGNS)) {
+    if (vertex < 0 || marked.has(vertex)) continue;
+    marked.add(vertex);
+    sign(context, roadmap, vertex, kind, stage.theme, scale);
+  }
+}
+
+/** A small disc with a sign, at the upper right of a place. */
+function sign(context, { x, y }, vertex, kind, theme, scale) {
+  context.save();
+  context.translate(x[vertex], y[vertex]);
+  context.scale(1 / scale, 1 / scale);
+  const reach = Math.min(Math.max(scale * 0.36, 5), 18);
+  context.fillStyle = kind === "warning" ? theme.wait : theme.held;
+  context.beginPath();
+  context.arc(reach, -reach, 7, 0, 2 * Math.PI);
+  context.fill();
+  context.fillStyle = theme.paper;
+  context.font = theme.font(11, 700);
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText(SIGNS[kind], reach, -reach + 0.5);
+  context.restore();
+}
+
+/** From the home of a robot to its stops, dashed. */
+function route(context, { x, y }, { home, stops }, scale) {
+  const places = [home, ...stops].filter((vertex) => vertex >= 0);
+  context.lineWidth = 1.5 / scale;
+  context.setLineDash([4 / scale, 4 / scale]);
+  context.beginPath();
+  for (const vertex of places) context.lineTo(x[vertex], y[vertex]);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+export function band(context, { x, y }, [tail, head], width) {
+  if (tail < 0 || head < 0) return;
+  context.lineWidth = width;
+  context.beginPath();
+  context.moveTo(x[tail], y[tail]);
+  context.lineTo(x[head], y[head]);
+  context.stroke();
+}
+
+export function radiusAt(roadmap, vertex, scale) {
+  return roadmap.hasCells ? Math.max((0.5 * (roadmap.sides?.[vertex] ?? 1)) , 9 / scale) : 13 / scale;
+}

@@ -1,0 +1,57 @@
+/** Places of a document, vertices of the map, and points of its drawing. */
+
+/** A number of a document, which may be written as a fraction. */
+export function numberOf(value, otherwise = NaN) {
+  if (value === undefined || value === null || value === "") return otherwise;
+  const [top, bottom = 1] = String(value).split("/").map(Number);
+  return top / bottom;
+}
+
+/** A length without the noise of floating point: to a millionth. */
+export const rounded = (value) => Number(value.toFixed(6));
+
+/** Where a point of the site [length unit] is in the drawing; undoes `Roadmap.toSite`. */
+export function toDrawing({ frame, unit }, right, up) {
+  const [cos, sin] = [Math.cos(frame.yaw ?? 0), Math.sin(frame.yaw ?? 0)];
+  const [x, y] = [right - frame.x, up - frame.y];
+  const [u, v] = [cos * x + sin * y, cos * y - sin * x];
+  return [u / unit, (frame.yUp ? -v : v) / unit];
+}
+
+/** Whether places are written as points: where cells come from lengths, and may become others. */
+const isByPoint = ({ map }) => Boolean(map.floor) || (Boolean(map.layout) && map.cell_size !== undefined);
+
+/** A vertex of the map as the document names it. */
+export function placeOf(vertex, roadmap, document) {
+  if (!isByPoint(document) || !roadmap.hasCells) return roadmap.name(vertex);
+  const [x, y] = roadmap.toSite(roadmap.x[vertex], roadmap.y[vertex]).map(rounded);
+  return { x, y };
+}
+
+/** The vertex of a place in a document, or -1. */
+export function vertexOf(place, roadmap) {
+  if (place === undefined || place === null) return -1;
+  if (Array.isArray(place)) return roadmap.near(place[1], place[0]);
+  if (typeof place === "object") return roadmap.near(...toDrawing(roadmap, numberOf(place.x), numberOf(place.y)));
+  const named = roadmap.vertexNamed(String(place));
+  if (named >= 0) return named;
+  for (const [vertex, names] of roadmap.stations) if (names.includes(String(place))) return vertex;
+  return -1;
+}
+
+/** A place as one reads it in a table: "N3", "1.25, 0.75", "row 2, column 3". */
+export function textOfPlace(place) {
+  if (place === undefined || place === null) return "";
+  if (Array.isArray(place)) return `[${place.join(", ")}]`;
+  return typeof place === "object" ? `${place.x}, ${place.y}` : String(place);
+}
+
+/** The place that somebody has typed; undefined for nothing. */
+export function placeOfText(text) {
+  const written = text.trim();
+  if (!written) return undefined;
+  const cell = /^\[\s*(\d+)\s*[,;]\s*(\d+)\s*\]$/.exec(written);
+  if (cell) return [Number(cell[1]), Number(cell[2])];
+  const point = /^(-?[\d.]+)\s*[,;]\s*(-?[\d.]+)$/.exec(written);
+  return point ? { x: Number(point[1]), y: Number(point[2]) } : written;
+}

@@ -1,0 +1,32 @@
+/** The tools, in a column beside the map. */
+
+import { html } from "../vendor/htm-preact.js";
+import { Icon } from "../icons.js";
+import { TOOL_KEYS } from "../keys.js";
+import { words } from "../words.js";
+
+export function Rail({ studio }) {
+  const { editor, stage, store } = studio;
+  const fitting = editor.isOn && store.site ? editor.fitting : [];
+  const move = (event) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const buttons = [...event.currentTarget.querySelectorAll("button")];
+    buttons[(buttons.indexOf(event.target) + step + buttons.length) % buttons.length].focus();
+  };
+  const press = (name, text, key, action) => html`<button type="button" aria-label=${text} title=${`${text} (${key})`} onClick=${action}><${Icon} name=${name} /></button>`;
+  return html`
+    <div class="rail" role="toolbar" aria-label=${words.toolbar} aria-orientation="vertical" onKeyDown=${move}>
+      ${fitting.map((name) => {
+        const [text, hint] = words.tools[name];
+        const isTaken = editor.tool === editor.tools.get(name);
+        return html`<button type="button" data-tool=${name} aria-label=${text} aria-pressed=${String(isTaken)} title=${`${text} (${TOOL_KEYS[name].toUpperCase()}): ${hint}`}
+          onClick=${() => editor.take(name)}><${Icon} name=${name} /></button>`;
+      })}
+      <span class="gap"></span>
+      ${press("in", words.zoomIn, "+", () => stage.view.viewport.zoom(1.5))}
+      ${press("out", words.zoomOut, "−", () => stage.view.viewport.zoom(1 / 1.5))}
+      ${press("fit", words.fit, "0", () => stage.view.viewport.fit())}
+    </div>`;
+}

@@ -1,0 +1,55 @@
+/** The columns of the table of robots: what a cell says, and what it means when it is written. */
+
+import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
+import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
+
+/** A number that somebody has typed: with a comma too; as text where it is none, so that the library says why. */
+function written(text) {
+  const plain = text.trim().replace(",", ".");
+  if (!plain) return undefined;
+  return plain.includes("/") || Number.isNaN(Number(plain)) ? plain : Number(plain);
+}
+
+/** Stops as `textOfStops` writes them: "N6 (3); N8". */
+function stopsOfText(text) {
+  return text.split(";").map((part) => part.trim()).filter(Boolean).map((part) => {
+    const found = /^(.*?)\s*\(([^()]*)\)$/.exec(part);
+    const at = placeOfText(found ? found[1] : part);
+    return found ? { at, work: written(found[2]) } : { at };
+  });
+}
+
+/** The work at all stops; empty where they differ. */
+function textOfWork(robot) {
+  const works = new Set(stopsOf(robot).map(({ work }) => work ?? ""));
+  return works.size === 1 ? String([...works][0]) : "";
+}
+
+const number = (key) => ({
+  key,
+  text: (robot) => (robot[key] === undefined ? "" : String(robot[key])),
+  value: (robot) => numberOf(robot[key], -1),
+  set: (robot, text) => withKey(robot, key, written(text)),
+});
+
+export const COLUMNS = [
+  { key: "name", text: ({ name }) => name ?? "", set: (robot, text) => ({ ...robot, name: text.trim() }) },
+  { key: "home", text: ({ home }) => textOfPlace(home), set: (robot, text) => withKey(robot, "home", placeOfText(text)) },
+  { key: "stops", text: (robot) => (new Set(stopsOf(robot).map(({ work }) => work)).size > 1 ? textOfStops(robot) : stopsOf(robot).map(({ at }) => textOfPlace(at)).join("; ")),
+    set: (robot, text) => {
+      const usual = stopsOf(robot)[0]?.work;
+      return withStops(robot, stopsOfText(text).map((stop) => ("work" in stop || usual === undefined ? stop : { ...stop, work: usual })));
+    } },
+  { key: "work", text: textOfWork, value: (robot) => numberOf(textOfWork(robot), -1),
+    set: (robot, text) => withStops(robot, stopsOf(robot).map(({ at }) => (written(text) === undefined ? { at } : { at, work: written(text) }))) },
+  number("speed"),
+  number("radius"),
+  number("turn"),
+  number("laps"),
+];
+
+/** The column of the place of a fault: "robots[2].target" is of the stops. */
+export function columnOf(place) {
+  const key = /^robots\[\d+\]\.(\w+)/.exec(place)?.[1] ?? "name";
+  return { target: "stops", size: "radius" }[key] ?? key;
+}

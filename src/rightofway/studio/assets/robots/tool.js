@@ -1,0 +1,84 @@
+/** Robots by two presses: the home, and the place to work at; with Shift more places before the last one. */
+
+import { placeOf } from "../draw/places.js";
+import { radiusAt } from "../draw/overlay.js";
+import { ring } from "../viewer/shapes.js";
+import { words } from "../words.js";
+import { addRobots, robotsOf, withStops } from "./fleet.js";
+
+/** How long the first robot works [time unit]; the next ones as long as the one before. */
+const USUAL_WORK = 5;
+
+export class RobotTool {
+  static called = "robot";
+  isDrawn = false;
+
+  constructor(editor) {
+    this.editor = editor;
+    this.cancel();
+    this.over = -1;
+  }
+
+  get isBusy() {
+    return this.home >= 0;
+  }
+
+  press() {}
+
+  drag(point) {
+    this.hover(point);
+  }
+
+  hover(point) {
+    this.over = this.editor.vertexAt(point);
+  }
+
+  release(point) {
+    const { editor } = this;
+    const vertex = editor.vertexAt(point);
+    if (vertex < 0) return editor.say(words.noVertexHere);
+    if (!robotsOf(editor.document)) return editor.say(words.robotsElsewhere);
+    if (this.home < 0) {
+      if (editor.hits.robots.some(({ home }) => home === vertex)) return editor.say(words.homeTaken);
+      this.home = vertex;
+      return editor.say(words.pressStop);
+    }
+    this.stops.push(vertex);
+    if (point.isMore) return editor.say(words.pressMore);
+    return this.#add();
+  }
+
+  #add() {
+    const { editor, home, stops } = this;
+    const place = (vertex) => placeOf(vertex, editor.roadmap, editor.document);
+    const at = robotsOf(editor.document).length;
+    const { work } = robotsOf(editor.document).at(-1) ?? { work: USUAL_WORK };
+    const trip = stops.map((stop) => (work === undefined ? { at: place(stop) } : { at: place(stop), work }));
+    this.cancel();
+    editor.store.change((document) => addRobots(document, [withStops({ home: place(home) }, trip)]));
+    editor.select([{ kind: "robot", id: at }]);
+    editor.say(words.pressHome);
+  }
+
+  cancel() {
+    this.home = -1;
+    this.stops = [];
+  }
+
+  paint(context, theme, scale) {
+    const { roadmap } = this.editor;
+    const at = (vertex) => [roadmap.x[vertex], roadmap.y[vertex]];
+    context.strokeStyle = theme.ink;
+    context.lineWidth = 2 / scale;
+    if (this.home >= 0) {
+      const places = [this.home, ...this.stops, ...(this.over >= 0 ? [this.over] : [])];
+      ring(context, ...at(this.home), 0.35);
+      context.setLineDash([5 / scale, 4 / scale]);
+      context.beginPath();
+      for (const vertex of places) context.lineTo(...at(vertex));
+      context.stroke();
+      context.setLineDash([]);
+    }
+    if (this.over >= 0) ring(context, ...at(this.over), radiusAt(roadmap, this.over, scale) * 0.8);
+  }
+}

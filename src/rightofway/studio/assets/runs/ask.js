@@ -1,0 +1,56 @@
+/** What if: a robot of the plan is faster, works longer or has another home, or a place is closed. */
+
+import { html, useState } from "../vendor/htm-preact.js";
+import { placeOfText } from "../draw/places.js";
+import { COLUMNS } from "../robots/columns.js";
+import { changeRobots, robotsOf } from "../robots/fleet.js";
+import { words } from "../words.js";
+
+const ASKED = COLUMNS.filter(({ key }) => ["home", "stops", "work", "speed"].includes(key));
+
+export function Ask({ studio }) {
+  const { store, stage } = studio;
+  const robots = robotsOf(store.document) ?? [];
+  const name = stage.isPlan ? stage.choice.robot?.name : undefined;
+  const index = robots.findIndex((robot) => robot.name === name);
+  const write = (column, text) => {
+    if (column.text(robots[index]) === text) return;
+    studio.whatIf((document) => changeRobots(document, [index], (robot) => column.set(robot, text)));
+  };
+  return html`
+    <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
+      ${index < 0 ? html`<p class="hint">${words.chooseRobot}</p>` : html`<div class="fields">${ASKED.map((column) => html`
+        <label title=${words.columns[column.key][1]}>${words.columns[column.key][0]}<input key=${`${name} ${column.key}`} value=${column.text(robots[index])} placeholder=${words.columns[column.key][2] ?? ""}
+          spellcheck="false" onChange=${({ target }) => write(column, target.value)} /></label>`)}</div>`}
+      <${Close} studio=${studio} />
+    </section>`;
+}
+
+/** Close a place or, with both ends, a lane, for ever; and open it again. */
+function Close({ studio }) {
+  const { store } = studio;
+  const [at, setAt] = useState("");
+  const [to, setTo] = useState("");
+  const close = (event) => {
+    event.preventDefault();
+    const [one, other] = [at, to].map((text) => text.trim());
+    if (!one) return;
+    const closure = other ? { edge: [placeOfText(one), placeOfText(other)] } : { at: placeOfText(one) };
+    studio.whatIf((document) => ({ ...document, closures: [...(document.closures ?? []), closure] }));
+    setAt("");
+    setTo("");
+  };
+  const open = (index) => studio.whatIf(({ closures, ...rest }) => {
+    const left = closures.filter((_, i) => i !== index);
+    return left.length ? { ...rest, closures: left } : rest;
+  });
+  const text = ({ at: place, edge }) => (edge ?? [place]).map((end) => (Array.isArray(end) ? end.join(", ") : String(end))).join(" – ");
+  return html`
+    <form class="close-place" onSubmit=${close}>
+      <label>${words.closePlace}<input id="close-at" value=${at} spellcheck="false" onInput=${({ target }) => setAt(target.value)} /></label>
+      <label>${words.closeTo}<input id="close-to" value=${to} spellcheck="false" onInput=${({ target }) => setTo(target.value)} /></label>
+      <button type="submit" class="framed" disabled=${!at.trim()}>${words.closeIt}</button>
+    </form>
+    ${store.document.closures?.length > 0 && html`<ul class="closures">${store.document.closures.map((closure, index) => html`
+      <li>${words.closed}: ${text(closure)} <button type="button" class="quiet" aria-label=${`${words.openAgain}: ${text(closure)}`} title=${words.openAgain} onClick=${() => open(index)}>✕</button></li>`)}</ul>`}`;
+}

@@ -1,0 +1,33 @@
+/** The plan: settings, how it came about, the runs, why robots wait, what if, what else there is. */
+
+import { html } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
+import { Ask } from "./ask.js";
+import { Change } from "./change.js";
+import { Comparison } from "./comparison.js";
+import { Curve } from "./curve.js";
+import { Exports } from "./exports.js";
+import { RunList } from "./list.js";
+import { Settings } from "./settings.js";
+import { Report, Studies } from "./studies.js";
+import { Waits } from "./waits.js";
+
+export function PlanPanel({ studio }) {
+  const { runs, store } = studio;
+  const { running, run } = runs;
+  const current = running ?? run;
+  return html`
+    <div class="scroll">
+      <${Settings} studio=${studio} />
+      ${current && html`<${Curve} key=${current.number} run=${current} />`}
+      ${run && !runs.isOf(store.document) && html`<p class="aside">${words.changedSince} <button type="button" class="framed" onClick=${() => studio.takeBack()}>${words.takeBack}</button></p>`}
+      <${Change} studio=${studio} />
+      <${RunList} studio=${studio} />
+      <${Report} studio=${studio} />
+      <${Comparison} studio=${studio} />
+      ${runs.losses && html`<${Waits} studio=${studio} />`}
+      ${runs.payload && html`<${Ask} studio=${studio} />`}
+      ${runs.payload && html`<${Exports} studio=${studio} />`}
+      <${Studies} studio=${studio} />
+    </div>`;
+}

@@ -1,0 +1,54 @@
+/** Which planner with which options, how long, and the buttons that begin and end a run. */
+
+import { html } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
+
+export function Settings({ studio }) {
+  const { settings, runs, store } = studio;
+  const { planners } = runs;
+  const chosen = settings.planner || planners.default;
+  const spec = planners.planners.find(({ name }) => name === chosen);
+  const set = (change) => {
+    Object.assign(settings, change);
+    studio.tell("change");
+  };
+  return html`
+    <form class="settings" onSubmit=${(event) => {
+      event.preventDefault();
+      studio.plan();
+    }}>
+      <details open=${!runs.payload && !runs.running}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
+      <div class="fields">
+        <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
+          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary}>${name}</option>`)}</select></label>
+        <label>${words.limit}<input type="number" id="limit" required min="0.1" max=${studio.about.limits?.seconds} step="any" value=${settings.time_limit} onInput=${({ target }) => set({ time_limit: target.value })} /></label>
+        <label>${words.seed}<input type="number" id="seed" required min="0" max="4294967295" step="1" value=${settings.seed} onInput=${({ target }) => set({ seed: target.value })} /></label>
+      </div>
+      <p id="planner-summary" class="hint">${spec?.summary}</p>
+      ${spec?.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(options) => set({ options })} /></details>`}
+      </details>
+      <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({ target }) => {
+        studio.isLive = target.checked;
+        studio.tell("change");
+      }} /> ${words.live}</label>
+      <div class="buttons">
+        <button type="submit" class="framed strong" disabled=${Boolean(runs.running) || !store.survey.ok}>${words.plan}</button>
+        <button type="button" class="framed" disabled=${!runs.running} onClick=${() => studio.attempt(() => runs.stop())}>${words.stop}</button>
+        <button type="button" class="framed" disabled=${!runs.running} onClick=${() => studio.attempt(() => runs.cancel())}>${words.cancel}</button>
+      </div>
+      ${!store.survey.ok && html`<p class="wrong">${store.faults[0] ? `${store.faults[0].named || store.faults[0].place}: ${store.faults[0].message}` : words.noRobots}</p>`}
+    </form>`;
+}
+
+/** The options of a planner as its registry describes them; a field that is left empty has the default. */
+function Options({ spec, given, set }) {
+  const write = (name, value) => {
+    const { [name]: before, ...rest } = given;
+    set(value === "" ? rest : { ...rest, [name]: value });
+  };
+  const field = ({ name, choices, least, default: usual }) => (choices.length
+    ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option>${each}</option>`)}</select>`
+    : html`<input aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${least === null ? "text" : "numeric"} onChange=${({ target }) => write(name, target.value.trim())} />`);
+  return html`<div class="options">${spec.options.map((option) => html`
+    <label>${option.name}${field(option)}</label><p id=${`option-${option.name}`} class="hint">${option.summary}</p>`)}</div>`;
+}

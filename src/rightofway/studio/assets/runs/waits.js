@@ -1,0 +1,26 @@
+/** Why robots wait: each wait in a sentence, the decision behind it, and what if the other went first. */
+
+import { html } from "../vendor/htm-preact.js";
+import { words } from "../words.js";
+
+const MOST = 30;
+
+export function Waits({ studio }) {
+  const { runs, stage } = studio;
+  const chosen = stage.isPlan ? stage.choice.robot?.name : undefined;
+  const found = runs.losses.filter(({ robot }) => chosen === undefined || robot === chosen);
+  const watch = ({ robot, tick }) => {
+    stage.clock.pause();
+    stage.clock.seek(tick);
+    stage.choice.chooseRobot(stage.plan.robots.findIndex(({ name }) => name === robot));
+  };
+  return html`
+    <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
+      ${found.length ? html`<ol class="waits">${found.slice(0, MOST).map((loss) => html`<li>
+        <button type="button" class="watch" onClick=${() => watch(loss)}>${loss.sentence}</button>
+        ${loss.because && html`<p><small>${loss.because.decision} ${loss.because.reason}</small></p>`}
+        ${loss.for && html`<button type="button" class="framed" onClick=${() => studio.attempt(() => runs.flip(loss))}>${words.letGoFirst(loss.robot)}</button>`}
+      </li>`)}</ol>` : html`<p class="hint">${words.noWaits}</p>`}
+      ${found.length > MOST && html`<p class="hint">${words.moreWaits(found.length - MOST)}</p>`}
+    </section>`;
+}

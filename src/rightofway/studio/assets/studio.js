@@ -1,0 +1,268 @@
+/** The studio as a whole: which document, which tab, what the server has refused. */
+
+import { address, get, inAddress, post, upload } from "./api.js";
+import { ScenarioStore, drafts } from "./document.js";
+import { Backdrop } from "./draw/backdrop.js";
+import { Editor } from "./draw/editor.js";
+import { RunStore } from "./runs/run_store.js";
+import { Stage } from "./stage.js";
+import { Observable } from "./viewer/observable.js";
+import { words } from "./words.js";
+
+export const TABS = ["map", "robots", "plan"];
+
+/** Event: `change` when the page is to be drawn again. */
+export class Studio extends Observable {
+  tab = "map";
+  isStarting = true;
+  isLive = false;
+  files = [];
+  drafts = [];
+  notes = [];
+  complaints = []; // what the server has refused: { place, named, message }
+  settings = { planner: "", options: {}, time_limit: 5, seed: 0 };
+  about = {};
+
+  /** Take the elements that the map and the player are shown in. */
+  constructor(elements) {
+    super();
+    this.store = new ScenarioStore();
+    this.runs = new RunStore();
+    this.stage = new Stage(elements);
+    this.editor = new Editor(this.store, this.stage);
+    this.backdrop = new Backdrop(this.store, this.stage);
+    for (const [source, ...events] of [[this.store, "document", "survey", "findings"], [this.runs, "runs"], [this.editor, "editor"], [this.stage, "choice"]]) {
+      for (const event of events) source.on(event, () => this.tell("change"));
+    }
+    this.store.on("survey", () => this.#surveyed());
+    this.store.on("trouble", () => this.complain(this.store.trouble));
+    this.runs.on("payload", () => this.#planned());
+    this.runs.on("refusal", () => {
+      this.complain(this.runs.refusal);
+      this.light(this.runs.refusal.vertices ?? []);
+    });
+  }
+
+  /** Find out what there is; open the file that the studio was started with. */
+  begin() {
+    return this.attempt(async () => {
+      const [about] = await Promise.all([get("/"), this.runs.load(), this.list()]);
+      this.about = about;
+      if (about.file) await this.openFile(about.file);
+      this.tell("change");
+    });
+  }
+
+  async list() {
+    const [{ files }, kept] = await Promise.all([get("/files"), drafts()]);
+    Object.assign(this, { files, drafts: kept });
+    this.tell("change");
+  }
+
+  /** Do something that the server may refuse, and show why. */
+  async attempt(action) {
+    this.complaints = [];
+    try {
+      await action();
+    } catch (refusal) {
+      this.complain(refusal);
+    }
+    this.tell("change");
+  }
+
+  complain({ message, faults }) {
+    this.complaints = faults?.length ? faults : [{ place: "", message }];
+    this.tell("change");
+  }
+
+  /** Open a file: a plan is played, a layout becomes the map of a new scenario. */
+  async openFile(path) {
+    const found = await get(`/documents/${inAddress(path)}`);
+    if (found.run) {
+      this.runs.add(found.run);
+      const { document, folder } = await get(`/runs/${found.run.number}/document`);
+      this.open({ document, folder, path: "" });
+      await this.runs.show(found.run.number);
+      this.showTab("plan");
+      return;
+    }
+    const isNew = found.kind === "layout";
+    const name = isNew ? path.replace(/(\.[a-z]+)+$/i, "") + ".scenario.yaml" : path;
+    this.open({ ...found, path: name, revision: isNew ? "" : found.revision });
+  }
+
+  /** Show a document, from the start. */
+  open(found) {
+    Object.assign(this, { isStarting: false, notes: found.notes ?? [], isFresh: true, tab: "map" });
+    this.runs.hide();
+    this.store.open(found);
+    this.editor.select([]);
+    this.editor.isOn = true;
+    this.editor.take(found.tool ?? "select");
+    this.tell("change");
+  }
+
+  openDraft(name) {
+    return this.attempt(async () => {
+      const { document } = await get(`/drafts/${inAddress(name)}`);
+      const isFile = this.files.some(({ path }) => path === name);
+      const folder = name.includes("/") ? name.slice(0, name.lastIndexOf("/")) : "";
+      this.open({ document, folder, path: /^new /.test(name) ? "" : name, revision: isFile ? null : "", draft: name });
+    });
+  }
+
+  /** Take in files that were dropped or chosen, and open the first that can be. */
+  take(files) {
+    return this.attempt(async () => {
+      const given = [...files];
+      for (const file of given) await upload(file, { replace: true });
+      await this.list();
+      const pictures = /\.(png|pgm|jpe?g|bmp)$/i;
+      const first = given.find(({ name }) => !pictures.test(name)) ?? given[0];
+      await this.openFile(first.name);
+    });
+  }
+
+  /** Put map and robots into the document that are in other files, so that they can be changed. */
+  inline() {
+    return this.attempt(async () => {
+      const { document, folder } = this.store;
+      const { document: whole } = await post("/inline", { document, folder });
+      this.store.change((now) => (now === document ? whole : now));
+    });
+  }
+
+  save() {
+    return this.attempt(async () => {
+      if (!this.store.path) this.store.rename(`${words.newName}.yaml`);
+      await this.store.save();
+      await this.list();
+    });
+  }
+
+  help(isShown) {
+    this.isHelping = isShown;
+    this.tell("change");
+  }
+
+  toStart() {
+    return this.attempt(async () => {
+      this.isStarting = true;
+      await this.list();
+    });
+  }
+
+  /** Show the list of faults; those of robots stand in their table too. */
+  showFaults() {
+    this.showTab("map");
+    document.getElementById("faults-title")?.scrollIntoView();
+  }
+
+  /** Go to where a fault can be mended. */
+  goTo(place) {
+    const robot = /^robots\[(\d+)\]/.exec(place);
+    if (!robot) return;
+    this.showTab("robots");
+    this.editor.select([{ kind: "robot", id: Number(robot[1]) }]);
+    document.querySelectorAll("table.robots tbody tr")[robot[1]]?.querySelector("[aria-invalid=true], input")?.focus();
+  }
+
+  showTab(tab) {
+    this.tab = tab;
+    const isPlan = tab === "plan" && this.runs.payload;
+    this.editor.isOn = !isPlan;
+    this.editor.tool.cancel();
+    if (tab === "robots" && this.editor.tool !== this.editor.tools.get("robot")) this.editor.take("robot");
+    if (tab === "map" && this.editor.tool === this.editor.tools.get("robot")) this.editor.take("select");
+    if (isPlan) this.stage.show(this.runs.payload, { keeps: true });
+    else if (this.store.site && this.stage.isPlan) this.stage.show(this.store.site, { keeps: true });
+    this.tell("change");
+  }
+
+  /** Plan what is drawn, and watch it. */
+  plan() {
+    return this.attempt(async () => {
+      this.runs.beside = null;
+      this.#isPlaying = true;
+      await this.runs.plan(this.store, this.#search());
+      this.showTab("plan");
+    });
+  }
+
+  /** Show the plan of a run. */
+  showRun(number) {
+    return this.attempt(async () => {
+      this.showTab("plan");
+      await this.runs.show(number);
+    });
+  }
+
+  /** Queue laps or a simulation, and show what comes of it. */
+  study(request, document) {
+    return this.attempt(async () => {
+      this.#isPlaying = true;
+      await this.runs.begin(request, document);
+      this.showTab("plan");
+    });
+  }
+
+  /** Change the document, and plan it at once: who gains, who loses. */
+  whatIf(edit) {
+    this.#isAsked = true;
+    this.store.change(edit);
+  }
+
+  /** Edit again what the plan that is shown was made from. */
+  takeBack() {
+    return this.attempt(async () => {
+      const document = await this.runs.documentOf(this.runs.shown);
+      this.#replanned = document;
+      this.store.change(() => document);
+    });
+  }
+
+  /** Light vertices by their names on the map that is shown. */
+  light(names) {
+    const { plan, choice } = this.stage;
+    choice?.light(names.map((name) => plan.roadmap.vertexNamed(name)).filter((vertex) => vertex >= 0));
+  }
+
+  #search() {
+    const { planner, options, time_limit, seed } = this.settings;
+    return { planner: planner || this.runs.planners.default, options, time_limit: Number(time_limit), seed: Number(seed) };
+  }
+
+  #isPlaying = false; // whether the next plan is to be played from its start
+  #isAsked = false; // whether the document that is looked at is to be planned, too
+  #replanned = null; // the document that was planned by itself last
+
+  #surveyed() {
+    const { store, stage } = this;
+    if (store.site && (this.tab !== "plan" || !this.runs.payload)) stage.show(store.site, { keeps: !this.isFresh });
+    this.isFresh = false;
+    const isWanted = this.isLive || this.#isAsked;
+    this.#isAsked = false;
+    if (!isWanted || !store.survey.ok || this.#replanned === store.document || this.runs.isOf(store.document)) return;
+    this.#replanned = store.document;
+    this.attempt(() => this.runs.replan(store, this.#search()));
+  }
+
+  #planned() {
+    const { runs, stage } = this;
+    if (!runs.payload) this.showTab(this.tab);
+    if (this.tab !== "plan" || !runs.payload) return;
+    this.editor.isOn = false;
+    stage.show(runs.payload, { keeps: Boolean(stage.view) });
+    if (this.#isPlaying) {
+      stage.clock.seek(0);
+      if (!matchMedia("(prefers-reduced-motion: reduce)").matches) stage.clock.play();
+    }
+    this.#isPlaying = false;
+    this.tell("change");
+  }
+
+  /** Where a plan can be had in a form. */
+  exportAddress(form) {
+    return address(`/runs/${this.runs.shown}/export/${form}`);
+  }
+}

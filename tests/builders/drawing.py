@@ -1,0 +1,92 @@
+"""The page of a studio as a person uses it: presses and drags at places of the site."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tests.viewer.conftest import Viewer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator, Page
+
+PICTURES = os.environ.get("RIGHTOFWAY_PICTURES", "")
+"""A folder that pictures of the page are written to, for the documentation; empty for none."""
+
+Point = tuple[float, float]
+
+WHERE = """([x, y]) => {
+  const { viewport, roadmap } = studio.stage.view;
+  const { left, top } = studio.stage.holder.getBoundingClientRect();
+  const { frame, unit } = roadmap;
+  const [right, down] = [(x - frame.x) / unit, (frame.yUp ? frame.y - y : y - frame.y) / unit];
+  const { scale } = viewport;
+  return [left + viewport.left + right * scale, top + viewport.top + down * scale];
+}"""
+
+
+class StudioPage(Viewer):
+    """The page, and a pointer on its map."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        super().__init__(page)
+        page.goto(address)
+        self.wait_for("Boolean(window.studio?.about.version)")
+
+    def button(self, name: str) -> Locator:
+        """Return the button of a name; that of the head where there are two."""
+        return self.page.get_by_role("button", name=name, exact=True).first
+
+    def tab(self, name: str) -> None:
+        """Show a tab."""
+        self.page.get_by_role("tab", name=name).click()
+
+    def where(self, place: Point) -> Point:
+        """Return where a place of the site is on the page [pixels]."""
+        x, y = self.page.evaluate(WHERE, list(place))
+        return x, y
+
+    def press(self, place: Point, *keys: str) -> None:
+        """Press at a place of the site, perhaps with keys held."""
+        for key in keys:
+            self.page.keyboard.down(key)
+        self.page.mouse.click(*self.where(place))
+        for key in keys:
+            self.page.keyboard.up(key)
+        self.settle()
+
+    def drag(self, start: Point, end: Point) -> None:
+        """Drag from a place of the site to another one."""
+        mouse = self.page.mouse
+        mouse.move(*self.where(start))
+        mouse.down()
+        mouse.move(*self.where(end), steps=6)
+        mouse.up()
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait until the library has looked at what is drawn, and it is on the screen."""
+        self.page.evaluate("studio.store.settled()")
+        self.page.wait_for_timeout(30)
+
+    def opened(self) -> None:
+        """Wait until a document is on the screen."""
+        self.wait_for("Boolean(studio.store.site)")
+        self.settle()
+
+    def keep(self, name: str) -> None:
+        """Write a picture of the page, where pictures are wanted."""
+        if PICTURES:
+            self.page.screenshot(path=Path(PICTURES, f"{name}.png"))
+
+    @property
+    def document(self) -> Any:
+        """The document that is drawn."""
+        return self.ask("studio.store.document")
+
+    def planned(self) -> None:
+        """Wait until the run that was begun last is over, and its plan shown with all waits."""
+        self.wait_for(
+            "studio.runs.runs.length && !studio.runs.running && studio.runs.losses !== null"
+        )

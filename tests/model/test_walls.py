@@ -1,0 +1,101 @@
+"""Robots wider than a cell keep out of the walls of a grid, where the rules say so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+import rightofway
+from rightofway.errors import InputError, NoPlanExists
+from rightofway.io import dump_scenario, scenario_of
+from rightofway.metrics import Site, inspect
+from rightofway.model import Scenario, roadmap_of_grid
+from rightofway.model.walls import clear_of_walls, reaches_walls
+
+HALL = ["......", "......", "..@...", "......", "......"]
+
+
+def hall(radius: str, walls: str = "strict", home: str = "N13", target: str = "N16") -> Scenario:
+    robot = {"name": "R1", "home": home, "target": target, "radius": radius}
+    return scenario_of(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": HALL},
+            "robots": [robot],
+            "rules": {"walls": walls},
+        }
+    )
+
+
+def test_a_robot_reaches_where_its_disc_leaves_the_free_cells() -> None:
+    """A pillar in the middle of 6 x 5 cells: 0.7 cells reach straight, not over the corner."""
+    roadmap = roadmap_of_grid(HALL)
+    wide = reaches_walls(roadmap, Fraction(7, 10))
+    free = {roadmap.name(vertex) for vertex in range(roadmap.n_vertices) if not wide[vertex]}
+    corners, right = {"N7", "N9", "N19", "N21"}, {"N10", "N16", "N22"}
+    assert free == corners | right
+    assert not reaches_walls(roadmap, Fraction(1, 2)).any(), "discs may touch walls"
+    assert reaches_walls(roadmap, Fraction(71, 100)).sum() == 29 - len(right), "over the corner"
+
+
+def test_edges_are_barred_for_robots_that_are_too_wide() -> None:
+    roadmap = roadmap_of_grid(HALL)
+    clear = clear_of_walls(roadmap, [Fraction(2, 5), Fraction(7, 10)])
+    into = {
+        clear.name(int(clear.heads[edge]))
+        for edge in range(clear.n_edges)
+        if not clear.is_barred(int(clear.length_class[edge]), None, Fraction(7, 10))
+    }
+    assert into == {"N7", "N9", "N19", "N21", "N10", "N16", "N22"}
+    assert not any(clear.is_barred(k, None, Fraction(2, 5)) for k in range(len(clear.lengths)))
+    assert clear_of_walls(roadmap, [Fraction(1, 2)]) is roadmap
+
+
+def test_a_plan_keeps_out_of_walls_and_survives_a_file() -> None:
+    """From one end of the right side to the other there is one way that is clear of walls."""
+    scenario = hall("0.7", home="N9", target="N22")
+    plan = rightofway.solve(scenario)
+    visited = {scenario.roadmap.name(vertex) for vertex in plan.tracks[0].vertices.tolist()}
+    assert visited == {"N9", "N10", "N16", "N22"}
+    assert rightofway.check(plan).ok
+    again = scenario_of(dump_scenario(scenario))
+    assert again.roadmap == scenario.roadmap
+    assert again.rules.walls == "strict"
+
+
+def test_a_drive_into_walls_is_a_fault() -> None:
+    free = rightofway.solve(hall("0.7", "free", home="N9", target="N21"))
+    assert rightofway.check(free).ok
+    strict = hall("0.7", home="N9", target="N21")
+    report = rightofway.check(replace(free, scenario=strict))
+    assert {fault.kind for fault in report.faults} == {"barred"}
+
+
+def test_places_beside_walls_are_refused_and_no_way_is_proven() -> None:
+    with pytest.raises(InputError, match=r"robots\[0\].home: N13 is too near to a wall"):
+        hall("0.7")
+    with pytest.raises(NoPlanExists):
+        rightofway.solve(hall("0.7", home="N7", target="N9"))
+
+
+def test_strict_walls_need_a_grid() -> None:
+    roadmap = {"vertices": {"A": [0, 0], "B": [3, 0]}, "edges": [["A", "B"]]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": roadmap},
+        "robots": [{"name": "R1", "home": "A", "target": "B", "radius": 1}],
+        "rules": {"walls": "strict"},
+    }
+    with pytest.raises(InputError, match=r"rules\.walls: 'strict' needs a grid"):
+        scenario_of(document)
+
+
+def test_an_inspection_says_where_robots_reach_into_walls() -> None:
+    scenario = hall("0.7", walls="free")
+    site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
+    found = [each for each in inspect(site).findings if "into walls" in each.fact]
+    assert [(each.severity, each.robots) for each in found] == [("warning", ("R1",))]
+    assert "in 22 cells, for example in N0" in found[0].fact
+    assert "walls: strict" in found[0].remedy

@@ -1,0 +1,146 @@
+"""The studio as somebody new uses it, with a stop-watch: a floor, a ROS map, a LIF file.
+
+With ``RIGHTOFWAY_PICTURES=docs/images`` the pictures of docs/studio.md are written anew.
+"""
+
+from __future__ import annotations
+
+import base64
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.builders.drawing import StudioPage
+from tests.builders.studios import running
+from tests.viewer.conftest import ARGUMENTS, CHROMIUM
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no browser")
+
+LAYOUTS = Path(__file__).parents[1] / "data" / "layouts"
+TWO_MINUTES = 120
+
+DROP = """([files]) => {
+  const transfer = new DataTransfer();
+  for (const [name, content] of files) {
+    const bytes = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
+    transfer.items.add(new File([bytes], name));
+  }
+  document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    playwright_api = pytest.importorskip("playwright.sync_api")
+    with playwright_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS])
+        yield browser
+        browser.close()
+
+
+Opener = Callable[..., StudioPage]
+
+
+@pytest.fixture
+def studio(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+    """Return the page of a studio in an empty folder."""
+    with running(tmp_path, keeps=False) as client:
+        context = browser.new_context(
+            locale="en-GB", reduced_motion="reduce", viewport={"width": 1280, "height": 760}
+        )
+        yield StudioPage(context.new_page(), str(client.base_url).removesuffix("api/v1/"))
+        context.close()
+
+
+def drop(studio: StudioPage, *files: Path) -> None:
+    """Drop files onto the page."""
+    given = [[file.name, base64.b64encode(file.read_bytes()).decode()] for file in files]
+    studio.page.evaluate(DROP, [given])
+    studio.opened()
+
+
+def exported(studio: StudioPage) -> bytes:
+    """Return the page that the studio exports."""
+    with studio.page.expect_download() as download:
+        studio.page.get_by_role("link", name="Page as file").click()
+    return Path(download.value.path()).read_bytes()
+
+
+def test_a_floor_is_drawn_planned_watched_understood_and_exported(studio: StudioPage) -> None:
+    """12 x 8 m, two walls, a door, three robots."""
+    began = time.monotonic()
+    studio.button("Create the floor").click()
+    studio.opened()
+    studio.drag((7.25, 0.25), (7.25, 7.75))
+    studio.drag((2.25, 5.25), (5.25, 5.25))
+    studio.button("Door").click()
+    studio.press((7.25, 3.75))
+    studio.tab("Robots")
+    for home, stop in (
+        ((1.25, 3.75), (10.25, 3.75)),
+        ((3.25, 1.75), (10.25, 1.75)),  # as far from the door as the first one
+        ((1.25, 6.75), (10.75, 6.25)),
+    ):
+        studio.press(home)
+        studio.press(stop)
+    assert len(studio.document["robots"]) == 3
+    assert studio.ask("studio.store.faults") == []
+    studio.keep("studio-draw")
+    studio.button("Plan").click()
+    studio.planned()
+    studio.button("Play").click()
+    studio.wait_for("studio.stage.clock.tick > 0")
+    studio.button("Pause").click()
+    why = studio.page.locator(".waits .watch").first
+    assert " waits " in why.inner_text()
+    why.click()
+    assert studio.page.locator("#card").is_visible()
+    studio.keep("studio-plan")
+    assert b"<!doctype html>" in exported(studio)[:200].lower()
+    assert time.monotonic() - began < TWO_MINUTES
+    assert studio.complaints == []
+
+
+def test_a_ros_map_is_dropped_drawn_on_and_planned(studio: StudioPage) -> None:
+    drop(studio, LAYOUTS / "room.yaml", LAYOUTS / "room.pgm")
+    assert studio.document["map"]["layout"] == "room.yaml"
+    studio.button("Draw on a copy of it").click()
+    studio.wait_for("Boolean(studio.store.document.map.grid)")
+    studio.settle()
+    rows = studio.document["map"]["grid"]
+    studio.button("Brush").click()
+    studio.press(tuple(studio.ask("studio.stage.plan.roadmap.toSite(4, 1)")))
+    assert studio.document["map"]["grid"] != rows
+    studio.page.keyboard.press("Control+z")
+    studio.settle()
+    assert studio.document["map"]["grid"] == rows
+    studio.button("Plan").click()
+    studio.planned()
+    assert studio.ask("studio.stage.plan.end") > 0
+    assert b"<!doctype html>" in exported(studio)[:200].lower()
+
+
+def test_a_lif_file_is_dropped_drawn_on_and_planned(studio: StudioPage, tmp_path: Path) -> None:
+    drop(studio, LAYOUTS / "hall.lif.json")
+    before = (tmp_path / "hall.lif.json").read_bytes()
+    studio.button("Draw on a copy of it").click()
+    studio.wait_for("Boolean(studio.store.document.map.roadmap)")
+    studio.settle()
+    studio.button("Lane").click()
+    studio.press((3.5, 5.25))  # from B ...
+    studio.press((3.5, -2.75))  # ... to C
+    studio.page.keyboard.press("Escape")
+    assert ["B", "C"] in studio.document["map"]["roadmap"]["edges"]
+    assert studio.ask("studio.store.faults") == []
+    studio.button("Plan").click()
+    studio.planned()
+    studio.button("Save").click()
+    studio.wait_for("studio.store.isSaved")
+    assert "roadmap:" in (tmp_path / "hall.scenario.yaml").read_text()
+    assert (tmp_path / "hall.lif.json").read_bytes() == before
