@@ -84,9 +84,8 @@ def simulate(
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
     if switch or replan:
         what = "replanning during execution" if replan else "switching rights of way"
-        refuse_closures(
-            plan.scenario.problem, what, f"simulate without {what.split(maxsplit=1)[0]}"
-        )
+        remedy = f"simulate without {'replanning' if replan else 'switching'}"
+        refuse_closures(plan.scenario.problem, what, remedy)
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = ActionDependencyGraph(plan.scenario, plan.tracks, delay_model_of(causes, plan.scenario))
